@@ -1,0 +1,85 @@
+"""Every error Risorius raises on purpose.
+
+Pure code raises these and never prints; the Blender operators turn them into reports and the command line
+into exit code 1. Each message names the thing that is wrong and the remedy.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class RisoriusError(Exception):
+    """Root of the tree: catch this to catch everything Risorius raises on purpose."""
+
+
+class FormatError(RisoriusError):
+    """A file that cannot be read: says where, what is wrong and how to mend it.
+
+    Parameters
+    ----------
+    path : the file, or a name for the stream.
+    problem : what is wrong, and the remedy.
+    line : 1-based line number, where the file is text.
+    offset : byte offset, where the file is binary.
+    key : dotted key, where the file is a table (TOML).
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        problem: str,
+        *,
+        line: int | None = None,
+        offset: int | None = None,
+        key: str | None = None,
+    ) -> None:
+        self.path, self.problem, self.line, self.offset, self.key = path, problem, line, offset, key
+        where = str(path)
+        if line is not None:
+            where += f", line {line}"
+        if offset is not None:
+            where += f", byte {offset}"
+        if key is not None:
+            where += f", key {key}"
+        super().__init__(f"{where}: {problem}")
+
+
+class ModelError(RisoriusError):
+    """A face that lacks something the request needs (a feature point, a part, a skin)."""
+
+
+class ParameterError(RisoriusError, ValueError):
+    """A value outside its rule: carries the name, the rule and the value."""
+
+    def __init__(self, name: str, rule: str, value: object) -> None:
+        self.name, self.rule, self.value = name, rule, value
+        super().__init__(f"{name} {rule}, but it is {value!r}")
+
+
+class SolverError(RisoriusError):
+    """A numerical solution that was not reached; carries frame, step and residual where known."""
+
+    def __init__(
+        self,
+        problem: str,
+        *,
+        frame: int | None = None,
+        step: int | None = None,
+        residual: float | None = None,
+    ) -> None:
+        self.frame, self.step, self.residual = frame, step, residual
+        known = [
+            f"{name} {value:.3g}" if isinstance(value, float) else f"{name} {value}"
+            for name, value in (("frame", frame), ("step", step), ("residual", residual))
+            if value is not None
+        ]
+        super().__init__(problem + (f" ({', '.join(known)})" if known else ""))
+
+
+class SceneError(RisoriusError):
+    """Something in the Blender scene that Risorius refuses to touch: names the object and what to do."""
+
+    def __init__(self, thing: str, problem: str) -> None:
+        self.thing, self.problem = thing, problem
+        super().__init__(f"{thing}: {problem}")
