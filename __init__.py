@@ -1,0 +1,29 @@
+"""Risorius: an emotion word and an activation become a moving face, for Blender and for Python.
+
+The layers, each knowing only those above it:
+
+- ``mpeg4`` the standard's face animation parameters and the emotion model; ``physics`` skin, muscles, solvers;
+- ``face`` one particular face: its parts, feature points, muscles, and the way from parameters to contractions;
+- ``api`` the public interface, arrays in and out, without Blender;
+- ``scene`` Blender's meshes, shape keys, actions and renders to arrays and back; registers nothing;
+- ``cli`` the command line over ``api`` and ``scene``;
+- ``operators`` everything Blender registers: operators, panels, properties.
+
+Importing this package loads neither Blender nor SciPy, so that it serves plain Python as well as Blender.
+"""
+
+from __future__ import annotations
+
+
+def register() -> None:
+    """Register everything with Blender. May follow `unregister` any number of times."""
+    from . import operators
+
+    operators.register()
+
+
+def unregister() -> None:
+    """Take everything back out of Blender, leaving it as `register` found it."""
+    from . import operators
+
+    operators.unregister()

@@ -1,0 +1,116 @@
+"""What Risorius refuses to touch, and what to do about it: every refusal names the object and the remedy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..errors import SceneError
+from .mesh import rest_vertices
+
+#: Modes in which Blender holds a copy of the mesh that would overwrite ours.
+BUSY_MODES = {"EDIT": "Edit Mode", "SCULPT": "Sculpt Mode"}
+
+
+def refuse_unreadable(obj: Any | None) -> None:
+    """Refuse what cannot be read as a face. Cheap enough for a button's poll.
+
+    Raises
+    ------
+    SceneError : no object, not a mesh, no polygons, or the object is being edited.
+    """
+    if obj is None:
+        raise SceneError("No active object", "select the mesh of a face, or add the default head")
+    if obj.type != "MESH":
+        raise SceneError(obj.name, f"is a {obj.type.lower()}, not a mesh: select the mesh of a face")
+    if obj.mode in BUSY_MODES or obj.data.is_editmode:
+        raise SceneError(obj.name, f"is in {BUSY_MODES.get(obj.mode, 'Edit Mode')}: go to Object Mode (Tab) first")
+    if len(obj.data.polygons) == 0:
+        raise SceneError(obj.name, "has no polygons: choose an object whose mesh is a face")
+
+
+def refuse_unwritable(obj: Any | None, *, make_single_user: bool = False) -> None:
+    """Refuse what cannot be baked onto without harming something else. Cheap enough for a button's poll.
+
+    Parameters
+    ----------
+    make_single_user : the caller will give the object its own copy of a shared mesh (`own_mesh`).
+
+    Raises
+    ------
+    SceneError : as `refuse_unreadable`; linked or overridden data; a mesh that several objects share; absolute
+        shape keys; the non-linear animation editor's tweak mode.
+    """
+    refuse_unreadable(obj)
+    assert obj is not None
+    if obj.library is not None or obj.data.library is not None:
+        raise SceneError(
+            obj.name, "is linked from another file: make it local (Object > Relations > Make Local > All) first"
+        )
+    if obj.override_library is not None or obj.data.override_library is not None:
+        raise SceneError(obj.name, "is a library override: make it local (Object > Relations > Make Local > All) first")
+    sharers = [other.name for other in bpy.data.objects if other.data == obj.data and other != obj]
+    if sharers and not make_single_user:
+        raise SceneError(
+            obj.name,
+            f"shares its mesh with {', '.join(sorted(sharers)[:3])}, which would get the shape keys too: make it single "
+            "user (Object > Relations > Make Single User > Object & Data), or switch on Make Single User",
+        )
+    keys = obj.data.shape_keys
+    if keys is None:
+        return
+    if not keys.use_relative:
+        raise SceneError(obj.name, "has absolute shape keys: switch on Relative in its shape key panel")
+    if keys.animation_data is not None and keys.animation_data.use_tweak_mode:
+        raise SceneError(obj.name, "is in the tweak mode of the NLA editor: leave it (Tab in the NLA editor) first")
+
+
+def refuse_broken_vertices(obj: Any) -> None:
+    """Refuse resting vertices that are not finite. Reads the whole mesh.
+
+    Raises
+    ------
+    SceneError : with the first bad vertex.
+    """
+    bad = np.flatnonzero(~np.isfinite(rest_vertices(obj.data)).all(axis=1))
+    if len(bad):
+        raise SceneError(
+            obj.name,
+            f"vertex {bad[0]} has a coordinate that is not a number ({len(bad)} such vertices): "
+            "move or delete it in Edit Mode, then bake again",
+        )
+
+
+def own_mesh(obj: Any) -> None:
+    """Give `obj` its own copy of a mesh that other objects share."""
+    if any(other.data == obj.data and other != obj for other in bpy.data.objects):
+        obj.data = obj.data.copy()
+
+
+def reason(obj: Any | None, *, writing: bool = True) -> str | None:
+    """Why the object cannot be used, as a sentence for a greyed button; None where it can."""
+    try:
+        if writing:
+            refuse_unwritable(obj, make_single_user=True)
+        else:
+            refuse_unreadable(obj)
+    except SceneError as refusal:
+        return str(refusal)
+    return None
+
+
+def remarks(obj: Any) -> tuple[str, ...]:
+    """What an animator should know about a bake on this object that is nevertheless fine."""
+    found = []
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    if evaluated.type == "MESH" and len(evaluated.data.vertices) != len(obj.data.vertices):
+        found.append(f"{obj.name}: its modifiers change the number of vertices; the bake shapes the mesh below them")
+    keys = obj.data.shape_keys
+    active = [] if keys is None else [k.name for k in keys.key_blocks[1:] if k.value != 0.0 and not k.mute]
+    if active:
+        found.append(f"{obj.name}: the resting face is the Basis; {len(active)} active shape keys add to the bake")
+    if obj.show_only_shape_key:
+        found.append(f"{obj.name}: Shape Key Lock shows one key only; switch it off to see the animation")
+    return tuple(found)
