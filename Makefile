@@ -1,0 +1,26 @@
+# Two commands matter: `make demo` and `make test`. Both set up what is missing first.
+.DEFAULT_GOAL := help
+.PHONY: help demo test lint build bench clean
+
+SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):.*## /  make \1	/p' Makefile | expand -t 16
+
+demo: ## six emotions on the default head: film, .blend and picture in out/
+	@sh tools/demo.sh $(ARGS)
+
+test: ## every test, on every Blender; STEPS="lint types layers pure bpy-4.5 ..." picks some
+	@$(SETUP) dev && .venv/bin/python tools/test.py $(STEPS)
+
+lint: ## style, types and layers
+	@$(SETUP) dev && .venv/bin/python tools/test.py lint types layers
+
+build: ## the installable zips in dist/; ARGS="--platform linux-x64 --blender 5.1" builds one
+	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/build.py $(ARGS)
+
+bench: ## speed and accuracy figures
+	@$(SETUP) dev && for script in tools/bench/*.py; do echo "== $$script"; .venv/bin/python "$$script" || exit 1; done
+
+clean: ## remove what the commands above made, downloads included
+	rm -rf .venv .venv-bpy-* .cache .typecheck .mypy_cache .ruff_cache .pytest_cache build dist out *.egg-info
