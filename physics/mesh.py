@@ -1,0 +1,234 @@
+"""Topology and measure of a polygon mesh: triangles, areas, normals, edges, diagonals, neighbours, boundaries.
+
+A mesh is `vertices` (V, 3) in metres and `polygons`: an (F, 3) or (F, 4) integer array, or any sequence of index
+sequences with three or more corners each. Nothing here depends on which corner a polygon starts at, so a face and
+its mirror image get mirrored results.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from typing import TypeAlias
+
+import numpy as np
+from scipy import sparse
+
+from ..arrays import Bools, Floats, Ints
+from ..errors import ParameterError
+
+Polygons: TypeAlias = Sequence[Sequence[int]] | Sequence[Ints] | Ints
+Sparse: TypeAlias = "sparse.csr_array[np.float64]"
+
+_ALL_PAIRS_UP_TO = 8
+"""Polygons with more corners get a fixed set of chords instead of every pair, whose number grows as n^2."""
+
+
+def corners(polygons: Polygons, vertex_count: int | None = None) -> tuple[Ints, Ints]:
+    """All polygon corners one after another, and the number of corners of each polygon.
+
+    Parameters
+    ----------
+    polygons : see the module.
+    vertex_count : when given, every index must lie below it.
+
+    Returns
+    -------
+    loops : (C,) int64, vertex index of each corner.
+    sizes : (F,) int64, corners per polygon; `loops` is cut by them.
+
+    Raises
+    ------
+    ParameterError : a polygon with fewer than three corners, or an index out of range.
+    """
+    if isinstance(polygons, np.ndarray) and polygons.ndim == 2:
+        sizes: Ints = np.full(len(polygons), polygons.shape[1], dtype=np.int64)
+        loops: Ints = polygons.astype(np.int64).ravel()
+    else:
+        sizes = np.fromiter((len(polygon) for polygon in polygons), dtype=np.int64, count=len(polygons))
+        loops = np.fromiter((i for polygon in polygons for i in polygon), dtype=np.int64, count=int(sizes.sum()))
+    if len(sizes) and sizes.min() < 3:
+        raise ParameterError("polygons", "must have three corners or more", int(np.argmin(sizes)))
+    if len(loops) and loops.min() < 0:
+        raise ParameterError("polygons", "must hold vertex indices from 0", int(loops.min()))
+    if vertex_count is not None and len(loops) and loops.max() >= vertex_count:
+        raise ParameterError("polygons", f"must hold vertex indices below {vertex_count}", int(loops.max()))
+    return loops, sizes
+
+
+def by_size(polygons: Polygons, vertex_count: int | None = None) -> Iterator[tuple[Ints, Ints]]:
+    """Polygons gathered by their number of corners: (face numbers (F_n,), corner indices (F_n, n)) for each n."""
+    loops, sizes = corners(polygons, vertex_count)
+    starts = np.cumsum(sizes) - sizes
+    for size in np.unique(sizes):
+        faces = np.flatnonzero(sizes == size)
+        yield faces, loops[starts[faces][:, None] + np.arange(size)]
+
+
+def within(polygons: Polygons, mask: Bools) -> Polygons:
+    """The polygons whose corners all lie in `mask` (V,) bool, as a sequence in the same order."""
+    loops, sizes = corners(polygons, len(mask))
+    if len(sizes) == 0:
+        return polygons
+    starts = np.cumsum(sizes) - sizes
+    kept = np.logical_and.reduceat(mask[loops], starts)
+    if isinstance(polygons, np.ndarray):
+        return np.asarray(polygons[kept], dtype=np.int64)
+    return [loops[start : start + size] for start, size in zip(starts[kept], sizes[kept], strict=True)]
+
+
+def triangulate(polygons: Polygons) -> Ints:
+    """Fan triangles from each polygon's first corner, (T, 3) int64, polygon by polygon, winding kept."""
+    loops, sizes = corners(polygons)
+    starts = np.cumsum(sizes) - sizes
+    fan = sizes - 2
+    first = np.repeat(starts, fan)
+    step = np.arange(int(fan.sum())) - np.repeat(np.cumsum(fan) - fan, fan)
+    return np.stack([loops[first], loops[first + step + 1], loops[first + step + 2]], axis=1)
+
+
+def polygon_areas(vertices: Floats, polygons: Polygons) -> Floats:
+    """Area of each polygon, (F,) m^2: the triangles between its sides and the mean of its corners."""
+    areas = np.zeros(len(polygons))
+    for faces, index in by_size(polygons, len(vertices)):
+        areas[faces] = _side_areas(vertices[index]).sum(axis=1)
+    return areas
+
+
+def vertex_areas(vertices: Floats, polygons: Polygons) -> Floats:
+    """Barycentric lumped areas, (V,) m^2: they add up to the polygons' areas.
+
+    Each triangle between a side and the polygon's middle gives a third to each of the side's ends and the middle's
+    third to all corners alike; for a triangle that is a third of its area per corner. Vertices in no polygon get 0.
+    """
+    areas = np.zeros(len(vertices))
+    for _, index in by_size(polygons, len(vertices)):
+        sides = _side_areas(vertices[index])
+        share = (sides + np.roll(sides, 1, axis=1)) / 3 + sides.sum(axis=1, keepdims=True) / (3 * index.shape[1])
+        areas += np.bincount(index.ravel(), share.ravel(), minlength=len(vertices))
+    return areas
+
+
+def vertex_normals(vertices: Floats, polygons: Polygons) -> Floats:
+    """Unit normals weighted by polygon area, (V, 3); zero where a vertex lies in no polygon of any area."""
+    normals = np.zeros((len(vertices), 3))
+    for _, index in by_size(polygons, len(vertices)):
+        points = vertices[index]
+        vector = np.cross(points, np.roll(points, -1, axis=1)).sum(axis=1)
+        for axis in range(3):
+            spread = np.repeat(vector[:, axis], index.shape[1])
+            normals[:, axis] += np.bincount(index.ravel(), spread, minlength=len(vertices))
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.asarray(normals / np.where(length > 0, length, 1.0))
+
+
+def unique_edges(polygons: Polygons) -> Ints:
+    """Sides of all polygons, each once, (E, 2) int64 with the smaller index first, sorted."""
+    pairs = [np.stack([index, np.roll(index, -1, axis=1)], axis=2).reshape(-1, 2) for _, index in by_size(polygons)]
+    return _unique_pairs(pairs)
+
+
+def face_diagonals(polygons: Polygons) -> Ints:
+    """Pairs of corners of one polygon that no side of any polygon joins, each once, (D, 2) int64, sorted."""
+    pairs, _, _ = face_pairs(polygons)
+    chords = _unique_pairs([pairs])
+    edges = unique_edges(polygons)
+    return chords[~np.isin(pair_keys(chords), pair_keys(edges))]
+
+
+def face_pairs(polygons: Polygons) -> tuple[Ints, Ints, Ints]:
+    """Every side and diagonal of every polygon, polygon by polygon.
+
+    Returns
+    -------
+    pairs : (N, 2) int64 vertex indices; a side shared by two polygons appears twice.
+    faces : (N,) int64, the polygon each pair belongs to.
+    counts : (N,) int64, how many pairs that polygon has: 3 for a triangle, 6 for a quad, n(n - 1)/2 up to eight
+        corners; beyond, the sides and three rings of chords, so that a cap with many corners stays sparse.
+    """
+    pairs, owners, counts = [], [], []
+    for faces, index in by_size(polygons):
+        chords = _chords(index.shape[1])
+        pairs.append(index[:, chords].reshape(-1, 2))
+        owners.append(np.repeat(faces, len(chords)))
+        counts.append(np.full(len(faces) * len(chords), len(chords), dtype=np.int64))
+    if not pairs:
+        return np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+    return np.concatenate(pairs), np.concatenate(owners), np.concatenate(counts)
+
+
+def adjacency(vertices: Floats, polygons: Polygons, *, diagonals: bool = True) -> Sparse:
+    """Symmetric (V, V) matrix of the lengths in metres of the edges, with face diagonals unless told otherwise.
+
+    A graph for shortest paths along the surface (`scipy.sparse.csgraph`).
+    """
+    corners(polygons, len(vertices))
+    pairs = unique_edges(polygons)
+    if diagonals:
+        pairs = np.concatenate([pairs, face_diagonals(polygons)])
+    length = np.linalg.norm(vertices[pairs[:, 0]] - vertices[pairs[:, 1]], axis=1)
+    rows, columns = np.concatenate([pairs, pairs[:, ::-1]]).T
+    return sparse.csr_array((np.tile(length, 2), (rows, columns)), shape=(len(vertices), len(vertices)))
+
+
+def boundary_loops(polygons: Polygons) -> list[Ints]:
+    """Open borders: vertex indices in order along the polygons' winding, the longest loop first.
+
+    A border edge is a side that only one polygon has. Where two borders touch in a vertex, the walk leaves it by any
+    unused edge.
+    """
+    sides = [np.stack([index, np.roll(index, -1, axis=1)], axis=2).reshape(-1, 2) for _, index in by_size(polygons)]
+    if not sides:
+        return []
+    directed = np.concatenate(sides)
+    _, first, count = np.unique(pair_keys(np.sort(directed, axis=1)), return_index=True, return_counts=True)
+    border = directed[np.sort(first[count == 1])]
+    around: dict[int, list[int]] = {}
+    for number, (a, b) in enumerate(border.tolist()):
+        around.setdefault(a, []).append(number)
+        around.setdefault(b, []).append(number)
+    used = np.zeros(len(border), dtype=bool)
+    loops = []
+    for number, (start, here) in enumerate(border.tolist()):
+        if used[number]:
+            continue
+        used[number], loop = True, [start]
+        while here != start:
+            loop.append(here)
+            free = [edge for edge in around[here] if not used[edge]]
+            if not free:
+                break
+            forward = [edge for edge in free if border[edge, 0] == here]
+            edge = (forward or free)[0]
+            used[edge] = True
+            here = int(border[edge].sum()) - here
+        loops.append(np.array(loop, dtype=np.int64))
+    return sorted(loops, key=len, reverse=True)
+
+
+def _side_areas(points: Floats) -> Floats:
+    """Areas (F, n) of the triangles between each side of polygons (F, n, 3) and the mean of their corners."""
+    spokes = points - points.mean(axis=1, keepdims=True)
+    return np.asarray(np.linalg.norm(np.cross(spokes, np.roll(spokes, -1, axis=1)), axis=2) / 2)
+
+
+def _chords(size: int) -> Ints:
+    """Corner pairs that become springs in a polygon of `size` corners."""
+    if size <= _ALL_PAIRS_UP_TO:
+        return np.array(list(combinations(range(size), 2)), dtype=np.int64)
+    corner = np.arange(size)
+    rings = [np.stack([corner, (corner + step) % size], axis=1) for step in sorted({1, 2, size // 3, size // 2})]
+    return np.asarray(np.unique(np.sort(np.concatenate(rings), axis=1), axis=0), dtype=np.int64)
+
+
+def pair_keys(pairs: Ints) -> Ints:
+    """One integer per pair (smaller index first), unique for up to 2^31 vertices."""
+    return np.asarray((pairs[:, 0] << 32) | pairs[:, 1], dtype=np.int64)
+
+
+def _unique_pairs(pairs: Sequence[Ints]) -> Ints:
+    """Pairs with the smaller index first, each once, sorted."""
+    if not pairs:
+        return np.empty((0, 2), dtype=np.int64)
+    keys = np.unique(pair_keys(np.sort(np.concatenate(pairs), axis=1)))
+    return np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
