@@ -9,9 +9,11 @@ Needs only Python 3.11's own library.
 from __future__ import annotations
 
 import hashlib
+import json
 import shutil
 import subprocess
 import sys
+import tomllib
 import venv
 from dataclasses import dataclass
 from pathlib import Path
@@ -40,9 +42,10 @@ class Environment:
         return self.path / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
 
     def fingerprint(self) -> str:
-        """What the environment was made from: when this changes, it is made anew."""
-        parts = (*self.requirements, str(ROOT), sys.version, (ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-        return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+        """What the environment's packages were chosen by: when this changes, pip runs again."""
+        project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+        chosen = [self.requirements, str(ROOT), sys.version, project["project"], project["tool"]["setuptools"]]
+        return hashlib.sha256(json.dumps(chosen, sort_keys=True).encode()).hexdigest()
 
 
 # NumPy is what the official Blender of that version brings; SciPy is the newest that runs on it.
@@ -84,7 +87,8 @@ def ensure(name: str) -> Environment:
     if sys.version_info[:2] != (3, 11):
         raise SetUpError(f"{sys.executable} is Python {sys.version.split()[0]}; Risorius is set up with Python 3.11")
     print(f"Setting up {environment.folder} ({name}) ...", flush=True)
-    _create(environment)
+    if not _fits(environment):
+        _create(environment)
     _install(environment)
     stamp.write_text(environment.fingerprint(), encoding="utf-8")
     return environment
@@ -99,6 +103,16 @@ def ensure_link() -> Path:
         link.unlink(missing_ok=True)
         link.symlink_to("..", target_is_directory=True)
     return folder
+
+
+def _fits(environment: Environment) -> bool:
+    """Whether the environment's folder holds a Python of this very version, made at this very place."""
+    settings = environment.path / "pyvenv.cfg"
+    if not settings.exists() or not environment.python.exists():
+        return False
+    version = ".".join(map(str, sys.version_info[:3]))
+    lines = settings.read_text(encoding="utf-8").splitlines()
+    return f"version = {version}" in lines and any(line.endswith(f" {environment.path}") for line in lines)
 
 
 def _create(environment: Environment) -> None:

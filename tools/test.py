@@ -114,7 +114,9 @@ def read_report(report: Path) -> Count:
     """Sum a JUnit report; an error in a fixture is a failure."""
     count = Count()
     for suite in ElementTree.parse(report).getroot().iter("testsuite"):
-        total, failed, errors, skipped = (int(suite.get(key, "0")) for key in ("tests", "failures", "errors", "skipped"))
+        total, failed, errors, skipped = (
+            int(suite.get(key, "0")) for key in ("tests", "failures", "errors", "skipped")
+        )
         count += Count(max(total - failed - errors - skipped, 0), failed + errors, skipped)
     return count
 

@@ -1,0 +1,81 @@
+"""The SciPy wheels that go into the extension: which one each Blender on each system needs, and their download."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Platform:
+    """One system: Blender's name for it, and the wheel tags that run on it, the preferred one first."""
+
+    name: str
+    tags: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class BlenderRange:
+    """Blender versions that share their Pythons.
+
+    `first` is the first version of the range, `end` the first one past it (None: open), `pythons` the Python
+    versions found in them and `scipy` the requirement that fits their NumPy.
+    """
+
+    name: str
+    first: str
+    end: str | None
+    pythons: tuple[str, ...]
+    scipy: str
+
+
+# Blender itself needs glibc 2.28; wheels tagged for older systems run there too.
+PLATFORMS = (
+    Platform("linux-x64", ("manylinux2014_x86_64", "manylinux_2_17_x86_64", "manylinux_2_27_x86_64",
+                           "manylinux_2_28_x86_64")),
+    Platform("windows-x64", ("win_amd64",)),
+    Platform("macos-arm64", ("macosx_11_0_arm64", "macosx_12_0_arm64")),
+)  # fmt: skip
+
+# Blender 4.2 brings NumPy 1.24.3: SciPy 1.15 is the last that runs on it. From 5.1 the official builds have
+# Python 3.13, and those of some distributions 3.14.
+RANGES = (
+    BlenderRange("4.2", "4.2.0", "5.1.0", ("3.11",), "scipy>=1.15,<1.16"),
+    BlenderRange("5.1", "5.1.0", None, ("3.13", "3.14"), "scipy>=1.16.1,<1.18"),
+)
+
+
+class DownloadError(Exception):
+    """A wheel that could not be had; the message names it."""
+
+
+def fetch(platform: Platform, blender: BlenderRange, folder: Path) -> list[Path]:
+    """The SciPy wheels of one zip, downloaded into `folder` unless they lie there already.
+
+    Raises
+    ------
+    DownloadError
+        when pip finds no such wheel or no network.
+    """
+    return [_fetch_one(platform, python, blender.scipy, folder) for python in blender.pythons]
+
+
+def _fetch_one(platform: Platform, python: str, requirement: str, folder: Path) -> Path:
+    """One wheel, in a folder of its own so that it is found again without asking the network."""
+    place = folder / f"{platform.name}-cp{python.replace('.', '')}"
+    present = sorted(place.glob("scipy-*.whl"))
+    if present:
+        return present[-1]
+    place.mkdir(parents=True, exist_ok=True)
+    print(f"Downloading {requirement} for Python {python} on {platform.name} ...", flush=True)
+    command = [sys.executable, "-m", "pip", "download", "--disable-pip-version-check", "--no-deps"]
+    command += ["--only-binary=:all:", "--python-version", python, "--dest", str(place)]
+    command += [] if sys.stdout.isatty() else ["--progress-bar=off"]
+    for tag in platform.tags:
+        command += ["--platform", tag]
+    if subprocess.run([*command, requirement], check=False).returncode:
+        wanted = f"{requirement} for Python {python} on {platform.name}"
+        raise DownloadError(f"no wheel of {wanted} (pip's message is above)")
+    return sorted(place.glob("scipy-*.whl"))[-1]
