@@ -19,6 +19,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError
+from .shape_keys import own_names_of
 
 FACE_TAG, CLIP_TAG = "risorius_face", "risorius_clip"
 TRACK_NAME = "Risorius"
@@ -100,39 +101,49 @@ def _used_elsewhere(action: Any, keys: Iterable[Any]) -> bool:
     return bool(users - set(keys))
 
 
-def write_clip(face: str, clip: str, name: str, curves: Mapping[str, Curve], *, keys: Iterable[Any]) -> Any:
+def write_clip(
+    face: str,
+    clip: str,
+    name: str,
+    curves: Mapping[str, Curve],
+    *,
+    keys: Iterable[Any],
+    retired: Iterable[str] = (),
+    silent: Iterable[str] = (),
+) -> Any:
     """Write one clip as an action, in place of the one it had, and silence its keys in the face's other clips.
+
+    Keyframes that a user has added to an own action for anything else stay.
 
     Parameters
     ----------
     face : the face's name (`shape_keys.OwnKeys.face`).
     clip : the clip's name within the face.
     name : what a new action is called.
-    curves : shape key name -> its keyframes; a constant zero is added for the keys of other clips.
+    curves : shape key name -> its keyframes.
     keys : the shape key datablocks of the face's meshes.
+    retired : names of the keys that the clip had before.
+    silent : names of the keys of the face's other clips, which get a constant zero.
 
     Returns
     -------
     The action. Its frame range is the clip's.
     """
-    keys = list(keys)
+    keys, gone = list(keys), set(retired) - set(curves)
     others = [a for a in own_actions(face) if a.get(CLIP_TAG) != clip]
     mine = [a for a in own_actions(face) if a.get(CLIP_TAG) == clip and not _used_elsewhere(a, keys)]
     action = mine[0] if mine else bpy.data.actions.new(name)
-    fcurves = fcurves_of(action)
-    for fcurve in list(fcurves):
-        fcurves.remove(fcurve)
     start = min(float(curve.frames[0]) for curve in curves.values())
     end = max(float(curve.frames[-1]) for curve in curves.values())
-    silent = {_key_of(fcurve.data_path) for other in others for fcurve in fcurves_of(other)} - set(curves)
+    remove_curves(action, gone)
     for key_name, curve in curves.items():
         write_curve(action, key_name, curve)
-    for key_name in sorted(silent - {None}):
-        write_curve(action, str(key_name), _silence(start))
+    for key_name in set(silent) - set(curves):
+        write_curve(action, key_name, _silence(start))
     for other in others:
+        remove_curves(other, gone)
         for key_name in curves:
-            if fcurves_of(other).find(data_path(key_name)) is None:
-                write_curve(other, key_name, _silence(other.frame_start))
+            write_curve(other, key_name, _silence(other.frame_start))
     action[FACE_TAG], action[CLIP_TAG] = face, clip
     action.use_fake_user = True
     action.use_frame_range = True
@@ -145,15 +156,7 @@ def _silence(frame: float) -> Curve:
     return Curve(np.array([frame]), np.zeros(1), linear=True)
 
 
-def _key_of(path: str) -> str | None:
-    """Name of the shape key that an RNA path drives; None where it drives something else."""
-    prefix, suffix = 'key_blocks["', '"].value'
-    if not (path.startswith(prefix) and path.endswith(suffix)):
-        return None
-    return str(bpy.utils.unescape_identifier(path[len(prefix) : -len(suffix)]))
-
-
-def play(keys: Any, action: Any, face: str) -> str | None:
+def play(keys: Any, action: Any) -> str | None:
     """Let a shape key datablock play the clip; a user's own action stays, and the clip goes on an NLA track then.
 
     Returns
@@ -162,7 +165,7 @@ def play(keys: Any, action: Any, face: str) -> str | None:
     """
     animation = keys.animation_data or keys.animation_data_create()
     current = animation.action
-    if current is None or current.get(FACE_TAG) == face:
+    if current is None or FACE_TAG in current:
         animation.action = action
         if hasattr(animation, "action_slot"):
             animation.action_slot = slot_of(action)
@@ -181,7 +184,10 @@ def play(keys: Any, action: Any, face: str) -> str | None:
 
 
 def remove_clip(face: str, clip: str, *, keys: Iterable[Any], key_names: Iterable[str]) -> None:
-    """Remove a clip's action, its strips on our own track, and its keys' silence in the face's other clips."""
+    """Remove a clip's action, its strips, and its keys' silence in the face's other clips.
+
+    An action that something else plays, or to which a user has added keyframes, loses only what is ours.
+    """
     keys, key_names = list(keys), list(key_names)
     for action in own_actions(face):
         if action.get(CLIP_TAG) != clip:
@@ -189,8 +195,27 @@ def remove_clip(face: str, clip: str, *, keys: Iterable[Any], key_names: Iterabl
             continue
         for datablock in keys:
             _detach(datablock, action)
-        if not _used_elsewhere(action, keys):
+        if _used_elsewhere(action, keys):
+            continue
+        remove_curves(action, [*key_names, *_own_names(keys)])
+        if len(fcurves_of(action)) == 0:
             bpy.data.actions.remove(action)
+        else:
+            del action[FACE_TAG], action[CLIP_TAG]
+
+
+def _own_names(keys: Iterable[Any]) -> set[str]:
+    """Names of all own shape keys in the datablocks."""
+    return {name for datablock in keys for name in own_names_of(datablock)}
+
+
+def rename_face(old: str, new: str, keys: Iterable[Any]) -> None:
+    """Give the clips that only these shape key datablocks play to the face `new`."""
+    keys = list(keys)
+    playing = bpy.data.user_map(subset=own_actions(old)) if own_actions(old) else {}
+    for action, users in playing.items():
+        if users and not users - set(keys):
+            action[FACE_TAG] = new
 
 
 def _detach(keys: Any, action: Any) -> None:

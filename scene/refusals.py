@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import SceneError
 from .mesh import rest_vertices
+from .shape_keys import own_names_of
 
 #: Modes in which Blender holds a copy of the mesh that would overwrite ours.
 BUSY_MODES = {"EDIT": "Edit Mode", "SCULPT": "Sculpt Mode"}
@@ -101,6 +102,14 @@ def reason(obj: Any | None, *, writing: bool = True) -> str | None:
     return None
 
 
+def _active_user_keys(keys: Any | None) -> list[str]:
+    """Names of shape keys that are not ours and move the face now."""
+    if keys is None:
+        return []
+    own = own_names_of(keys)
+    return [k.name for k in keys.key_blocks[1:] if k.value != 0.0 and not k.mute and k.name not in own]
+
+
 def remarks(obj: Any) -> tuple[str, ...]:
     """What an animator should know about a bake on this object that is nevertheless fine."""
     found = []
@@ -108,7 +117,7 @@ def remarks(obj: Any) -> tuple[str, ...]:
     if evaluated.type == "MESH" and len(evaluated.data.vertices) != len(obj.data.vertices):
         found.append(f"{obj.name}: its modifiers change the number of vertices; the bake shapes the mesh below them")
     keys = obj.data.shape_keys
-    active = [] if keys is None else [k.name for k in keys.key_blocks[1:] if k.value != 0.0 and not k.mute]
+    active = _active_user_keys(keys)
     if active:
         found.append(f"{obj.name}: the resting face is the Basis; {len(active)} active shape keys add to the bake")
     if obj.show_only_shape_key:

@@ -43,7 +43,16 @@ class OwnKeys:
 
 def read_own(mesh: Any) -> OwnKeys:
     """The record of `mesh`, without keys that no longer exist. Empty where there is none."""
-    keys = mesh.shape_keys
+    return _record_of(mesh.shape_keys)
+
+
+def own_names_of(keys: Any | None) -> tuple[str, ...]:
+    """Names of the own keys of a shape key datablock."""
+    return _record_of(keys).names
+
+
+def _record_of(keys: Any | None) -> OwnKeys:
+    """The record of a shape key datablock."""
     if keys is None or RECORD not in keys:
         return OwnKeys()
     try:
@@ -173,6 +182,12 @@ def has_own(obj: Any) -> bool:
     return obj is not None and obj.type == "MESH" and bool(read_own(obj.data).clips)
 
 
-def meshes_of_face(face: str) -> list[Any]:
-    """All meshes in the file that carry the face's name."""
-    return [mesh for mesh in bpy.data.meshes if face and mesh.shape_keys is not None and own_face(mesh) == face]
+def settle_face(members: Sequence[Any]) -> tuple[str, str]:
+    """The name of the face that these meshes are, and the name it had before.
+
+    They differ where another mesh carries the old name too, which happens when a user duplicates a baked face: the
+    copy becomes a face of its own. Both are "" where nothing has been baked yet.
+    """
+    old = next((own_face(mesh) for mesh in members if own_face(mesh)), "")
+    strangers = [mesh for mesh in bpy.data.meshes if old and mesh not in members and own_face(mesh) == old]
+    return (uuid.uuid4().hex if strangers else old), old

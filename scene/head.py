@@ -1,0 +1,69 @@
+"""The default head as a Blender object: one mesh with materials, parts and feature points."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..face.default_head import HeadMesh, Material
+from . import mesh as meshes
+from .faces import store_points
+
+NAME = "Risorius Head"
+
+
+def add_default_head(context: Any | None = None) -> Any:
+    """Add the default head to the scene, select it and make it active.
+
+    Returns
+    -------
+    The new object.
+    """
+    from .. import api
+
+    obj = head_object(api.build_default_head(), NAME)
+    (context or bpy.context).collection.objects.link(obj)
+    select_only(obj, context)
+    return obj
+
+
+def head_object(head: HeadMesh, name: str) -> Any:
+    """An object for a built head, not yet linked to a scene."""
+    corners, sizes = meshes.flatten_polygons(head.polygons)
+    mesh = meshes.new_mesh(name, head.vertices, corners, sizes)
+    for material in head.materials:
+        mesh.materials.append(_material(material))
+    mesh.polygons.foreach_set("material_index", np.ascontiguousarray(head.material_index, dtype=np.int32))
+    meshes.write_parts(mesh, np.asarray(head.parts))
+    obj = bpy.data.objects.new(name, mesh)
+    points = {n: int(p) if np.ndim(p) == 0 else tuple(map(float, p)) for n, p in head.points.items()}
+    store_points(obj, points)
+    return obj
+
+
+def select_only(obj: Any, context: Any | None = None) -> None:
+    """Select `obj` alone and make it active."""
+    layer = (context or bpy.context).view_layer
+    for other in layer.objects:
+        other.select_set(False)
+    obj.select_set(True)
+    layer.objects.active = obj
+
+
+def _material(material: Material) -> Any:
+    """The Blender material for one of the head's; one that is there already is used again."""
+    name = f"Risorius {material.name}"
+    found = bpy.data.materials.get(name)
+    if found is not None and found.library is None:
+        return found
+    made = bpy.data.materials.new(name)
+    made.use_nodes = True
+    made.diffuse_color = (*material.colour, 1.0)
+    made.roughness = material.roughness
+    principled = next((node for node in made.node_tree.nodes if node.type == "BSDF_PRINCIPLED"), None)
+    if principled is not None:
+        principled.inputs["Base Color"].default_value = (*material.colour, 1.0)
+        principled.inputs["Roughness"].default_value = material.roughness
+    return made

@@ -1,0 +1,207 @@
+"""A scene of its own to picture a face in: camera, light and render settings that are not the user's.
+
+The user's scene is never changed: the face's objects are linked into a new scene beside a camera and lights, and
+the whole is removed afterwards, whatever happens.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from ..arrays import Floats
+from ..errors import ParameterError, SceneError
+from .framing import Framing
+from .gpu_probe import REMEDY, can_draw
+
+
+class Engine(str, Enum):
+    """Who draws the picture."""
+
+    WORKBENCH = "WORKBENCH"
+    EEVEE = "EEVEE"
+    CYCLES = "CYCLES"
+
+
+@dataclass(frozen=True)
+class Look:
+    """How a face is pictured.
+
+    Attributes
+    ----------
+    engine : who draws it.
+    width, height : pixels.
+    yaw : how far the camera stands to the subject's left, radians.
+    background : linear RGB.
+    samples : Cycles samples per pixel.
+    """
+
+    engine: Engine = Engine.WORKBENCH
+    width: int = 720
+    height: int = 720
+    yaw: float = 0.22
+    background: tuple[float, float, float] = (0.42, 0.45, 0.48)
+    samples: int = 32
+
+    def __post_init__(self) -> None:
+        for name in ("width", "height"):
+            size = getattr(self, name)
+            if not (16 <= size <= 8192 and size % 2 == 0):
+                raise ParameterError(name, "must be an even number of pixels from 16 to 8192", size)
+
+
+def usable_engine(wanted: Engine) -> tuple[Engine, str | None]:
+    """The engine that can draw here, and a remark where it is another than `wanted`."""
+    if wanted is not Engine.CYCLES and not can_draw():
+        return Engine.CYCLES, REMEDY
+    return wanted, None
+
+
+@contextmanager
+def studio(objects: Sequence[Any], framing: Framing, look: Look) -> Iterator[Any]:
+    """A temporary scene that shows `objects`, ready to render; removed on leaving.
+
+    Raises
+    ------
+    SceneError : the engine is not available.
+    """
+    made: list[Any] = []
+    scene = bpy.data.scenes.new("Risorius Studio")
+    try:
+        source = bpy.context.scene
+        scene.unit_settings.scale_length = source.unit_settings.scale_length
+        scene.frame_set(source.frame_current)
+        scene.render.fps, scene.render.fps_base = source.render.fps, source.render.fps_base
+        for obj in objects:
+            scene.collection.objects.link(obj)
+        made += [_camera(scene, framing, look), *_lights(scene, framing)]
+        made.append(_world(scene, look))
+        _settings(scene, look)
+        yield scene
+    finally:
+        bpy.data.scenes.remove(scene)
+        for datablock in made:
+            _discard(datablock)
+
+
+def _discard(datablock: Any) -> None:
+    """Remove a temporary object with its data, or a world."""
+    if isinstance(datablock, bpy.types.World):
+        bpy.data.worlds.remove(datablock)
+        return
+    data = datablock.data
+    bpy.data.objects.remove(datablock)
+    owner = bpy.data.cameras if isinstance(data, bpy.types.Camera) else bpy.data.lights
+    owner.remove(data)
+
+
+def aim(position: Floats, target: Floats, up: Floats) -> Any:
+    """(4, 4) matrix of a camera or light at `position` that looks at `target`."""
+    back = Vector(position - target).normalized()
+    right = Vector(up).cross(back).normalized()
+    return Matrix.Translation(Vector(position)) @ Matrix([right, back.cross(right), back]).transposed().to_4x4()
+
+
+def _camera(scene: Any, framing: Framing, look: Look) -> Any:
+    """The camera: an 85 mm portrait lens, a little to the side."""
+    data = bpy.data.cameras.new("Risorius Camera")
+    data.lens, data.sensor_fit, data.sensor_height = 85.0, "VERTICAL", 24.0
+    camera = bpy.data.objects.new("Risorius Camera", data)
+    shown = max(1.0, 0.8 * look.height / look.width)
+    distance = shown * 85.0 / 24.0
+    position = framing.point(distance * np.sin(look.yaw), 0.02, distance * np.cos(look.yaw))
+    camera.matrix_world = aim(position, framing.centre, framing.up)
+    data.clip_start, data.clip_end = 0.01 * framing.height, 100.0 * framing.height
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    return camera
+
+
+def _lights(scene: Any, framing: Framing) -> list[Any]:
+    """Key, fill and rim light for EEVEE and Cycles; Workbench has its own."""
+    made = []
+    for name, place, size, power in (
+        ("Key", (1.1, 0.9, 1.6), 0.9, 26.0),
+        ("Fill", (-1.5, 0.1, 1.3), 1.5, 8.0),
+        ("Rim", (-0.9, 1.1, -1.3), 0.7, 22.0),
+    ):
+        data = bpy.data.lights.new(f"Risorius {name}", "AREA")
+        data.size = size * framing.height
+        data.energy = power * framing.height**2
+        light = bpy.data.objects.new(f"Risorius {name}", data)
+        light.matrix_world = aim(framing.point(*place), framing.centre, framing.up)
+        scene.collection.objects.link(light)
+        made.append(light)
+    return made
+
+
+def _world(scene: Any, look: Look) -> Any:
+    """An even background that also lifts the shadows."""
+    world = bpy.data.worlds.new("Risorius World")
+    world.color = look.background
+    world.use_nodes = True
+    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = (*look.background, 1.0)
+    background.inputs["Strength"].default_value = 1.0
+    scene.world = world
+    return world
+
+
+def _settings(scene: Any, look: Look) -> None:
+    """Render settings of the temporary scene."""
+    render = scene.render
+    render.resolution_x, render.resolution_y, render.resolution_percentage = look.width, look.height, 100
+    render.use_file_extension = render.use_overwrite = True
+    render.use_compositing = render.use_sequencer = False
+    _set_engine(scene, look)
+    scene.view_settings.view_transform = "Standard"
+    scene.view_settings.look = "None"
+    render.image_settings.file_format = "PNG"
+    render.image_settings.color_mode = "RGB"
+    scene.display.render_aa = "16"
+    shading = scene.display.shading
+    shading.light, shading.color_type = "STUDIO", "MATERIAL"
+    shading.show_cavity, shading.cavity_type = True, "BOTH"
+    shading.cavity_ridge_factor, shading.cavity_valley_factor = 0.4, 1.0
+    shading.curvature_ridge_factor, shading.curvature_valley_factor = 0.2, 0.7
+    shading.show_shadows, shading.show_specular_highlight = False, True
+
+
+def _set_engine(scene: Any, look: Look) -> None:
+    """Choose the render engine by what this Blender calls it."""
+    engine, _ = usable_engine(look.engine)
+    names = {
+        Engine.WORKBENCH: ("BLENDER_WORKBENCH",),
+        Engine.EEVEE: ("BLENDER_EEVEE", "BLENDER_EEVEE_NEXT"),
+        Engine.CYCLES: ("CYCLES",),
+    }[engine]
+    for name in names:
+        try:
+            scene.render.engine = name
+        except TypeError:
+            continue
+        break
+    else:
+        raise SceneError(engine.value.title(), "is not available in this Blender: choose another engine")
+    if engine is Engine.CYCLES:
+        scene.cycles.samples = look.samples
+        scene.cycles.use_denoising = True
+
+
+def render_still(scene: Any, frame: float, path: Path) -> Path:
+    """Render one frame of a studio scene to a PNG."""
+    whole = int(np.floor(frame))
+    scene.frame_set(whole, subframe=float(frame - whole))
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+    if not path.is_file():
+        raise SceneError(str(path), "was not written: choose a folder that can be written to")
+    return path
