@@ -1,0 +1,102 @@
+"""The eyebrows: strips that rise out of the skin, their borders sunk just below it."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ...arrays import Floats, Ints
+from ...errors import ModelError
+from ..parts import Part
+from .figures import BrowFigures
+from .piece import Piece
+from .skin import HeadSkin
+
+SECTIONS, ACROSS = 33, 9
+SINK = 0.35e-3  # depth of the borders under the skin, metres
+ROUNDING = 0.10  # share of the length over which each end is rounded
+
+
+def build_brow(figures: BrowFigures, skin: HeadSkin) -> Piece:
+    """Left brow on the finished skin.
+
+    Raises
+    ------
+    ModelError : where the centre line leaves the front of the head.
+    """
+    along = np.linspace(0.0, 1.0, SECTIONS)
+    across = np.linspace(-1.0, 1.0, ACROSS)
+    line, half_width = _centre_line(figures, along)
+    tangent = np.gradient(line, axis=0)
+    tangent /= np.linalg.norm(tangent, axis=1)[:, None]
+    up = np.stack([-tangent[:, 1], tangent[:, 0]], axis=-1)
+    end = np.clip(np.minimum(along, 1.0 - along) / ROUNDING, 0.0, 1.0)
+    rounded = np.sqrt(1.0 - (1.0 - end) ** 2)
+    width = half_width * np.maximum(rounded, 0.12)
+    plan = line[:, None, :] + up[:, None, :] * (width[:, None] * across)[..., None]
+    foot, normal = front_surface(skin, plan.reshape(-1, 2))
+    thick = np.minimum(1.0, width / np.max(width) * 1.3) * rounded
+    lift = (figures.lift + SINK) * thick[:, None] * (1.0 - across**2) - SINK
+    vertices = foot + normal * lift.reshape(-1, 1)
+    k = np.arange(SECTIONS * ACROSS).reshape(SECTIONS, ACROSS)
+    quads = np.stack([k[:-1, :-1], k[1:, :-1], k[1:, 1:], k[:-1, 1:]], axis=-1).reshape(-1, 4)
+    return Piece(vertices, quads.astype(np.int64), Part.OTHER, ("brow",) * len(quads))
+
+
+def front_surface(skin: HeadSkin, places: Floats) -> tuple[Floats, Floats]:
+    """Where lines along +Y first meet the skin.
+
+    Parameters
+    ----------
+    places : (N, 2) float64, x and z in metres.
+
+    Returns
+    -------
+    points (N, 3) and smooth unit normals (N, 3).
+
+    Raises
+    ------
+    ModelError : a place where there is no skin.
+    """
+    triangles = np.concatenate([skin.quads[:, [0, 1, 2]], skin.quads[:, [0, 2, 3]]])
+    flat = skin.vertices[:, [0, 2]][triangles]
+    near = (flat.min(axis=1) <= places.max(axis=0)).all(axis=1) & (flat.max(axis=1) >= places.min(axis=0)).all(axis=1)
+    triangles, flat = triangles[near], flat[near]
+    a, b, c = flat[:, 0], flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
+    sound = np.abs(area) > 1e-14
+    triangles, a, b, c, area = triangles[sound], a[sound], b[sound], c[sound], area[sound]
+    offset = places[:, None, :] - a
+    v = (offset[..., 0] * c[:, 1] - offset[..., 1] * c[:, 0]) / area
+    w = (b[:, 0] * offset[..., 1] - b[:, 1] * offset[..., 0]) / area
+    weights = np.stack([1.0 - v - w, v, w], axis=-1)
+    depth = np.sum(weights * skin.vertices[triangles, 1], axis=-1)
+    depth[(weights < -1e-9).any(axis=-1)] = np.inf
+    hit = np.argmin(depth, axis=1)
+    rows = np.arange(len(places))
+    if not np.isfinite(depth[rows, hit]).all():
+        raise ModelError("the default head's brow leaves its face: check brow.line in the head's figures")
+    weight, corners = weights[rows, hit], triangles[hit]
+    normals = vertex_normals(skin.vertices, skin.quads)
+    points = np.einsum("nk,nkd->nd", weight, skin.vertices[corners])
+    directions = np.einsum("nk,nkd->nd", weight, normals[corners])
+    return points, directions / np.linalg.norm(directions, axis=1)[:, None]
+
+
+def vertex_normals(vertices: Floats, quads: Ints) -> Floats:
+    """Area-weighted unit normals (V, 3) of a quad mesh."""
+    corners = vertices[quads]
+    face = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    normals = np.zeros_like(vertices)
+    for k in range(4):
+        np.add.at(normals, quads[:, k], face)
+    length = np.linalg.norm(normals, axis=1)[:, None]
+    return np.asarray(normals / np.where(length > 0.0, length, 1.0), dtype=np.float64)
+
+
+def _centre_line(figures: BrowFigures, along: Floats) -> tuple[Floats, Floats]:
+    """Points (N, 2) and half widths (N,) at shares of the brow's length."""
+    steps = np.linalg.norm(np.diff(figures.line, axis=0), axis=1)
+    share = np.concatenate([[0.0], np.cumsum(steps)]) / np.sum(steps)
+    line = np.asarray(CubicSpline(share, figures.line)(along), dtype=np.float64)
+    return line, np.asarray(np.interp(along, share, figures.half_widths), dtype=np.float64)
