@@ -1,0 +1,30 @@
+"""What may be imported without Blender, proved in a fresh interpreter."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+BLENDER = ("bpy", "bmesh", "mathutils", "gpu")
+
+
+def loaded_by(statement: str) -> set[str]:
+    """The names of all modules loaded after one statement in a fresh interpreter."""
+    code = f"{statement}; import sys; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return set(done.stdout.split())
+
+
+@pytest.mark.parametrize("module", ["risorius", "risorius.api", "risorius.cli"])
+def test_import_loads_no_blender(module: str) -> None:
+    assert not loaded_by(f"import {module}") & set(BLENDER)
+
+
+def test_package_root_loads_neither_numpy_nor_scipy() -> None:
+    loaded = loaded_by("import risorius")
+    assert "risorius" in loaded
+    assert not loaded & {"numpy", "scipy"}
+
