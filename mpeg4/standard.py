@@ -1,0 +1,273 @@
+"""The standard's facial animation parameters (FAPs), feature points and FAP units, as data.
+
+Source of every figure: the tables in ``data/`` (ISO/IEC 14496-2, cross-checked in public decoders).
+"""
+
+from __future__ import annotations
+
+import difflib
+import operator
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from types import MappingProxyType
+from typing import SupportsIndex
+
+from ..errors import ParameterError
+from .tables import read_table
+
+FAP_COUNT = 68
+
+
+class Unit(StrEnum):
+    """FAP units: a 1024th of a distance of the neutral face, or (AU) an angle of 1e-5 rad."""
+
+    IRISD = "IRISD"
+    ES = "ES"
+    ENS = "ENS"
+    MNS = "MNS"
+    MW = "MW"
+    AU = "AU"
+
+
+class Motion(StrEnum):
+    """Where a positive FAP value moves its feature point; left and right are the subject's."""
+
+    UP = "up"
+    DOWN = "down"
+    LEFT = "left"
+    RIGHT = "right"
+    FORWARD = "forward"
+    GROWING = "growing"
+    CONCAVE_UPWARD = "concave_upward"
+
+    @property
+    def direction(self) -> tuple[float, float, float] | None:
+        """Unit vector in the head's frame (+X subject's left, -Y out of the face, +Z up); None where it is no shift."""
+        return _DIRECTIONS.get(self)
+
+
+_DIRECTIONS = {
+    Motion.UP: (0.0, 0.0, 1.0),
+    Motion.DOWN: (0.0, 0.0, -1.0),
+    Motion.LEFT: (1.0, 0.0, 0.0),
+    Motion.RIGHT: (-1.0, 0.0, 0.0),
+    Motion.FORWARD: (0.0, -1.0, 0.0),
+}
+
+
+class Side(StrEnum):
+    """The subject's side."""
+
+    LEFT = "left"
+    RIGHT = "right"
+    MIDDLE = "middle"
+
+
+@dataclass(frozen=True)
+class Fap:
+    """One facial animation parameter.
+
+    Attributes
+    ----------
+    number, name : 1..68 and the standard's name.
+    unit : FAP unit; None for the high-level FAPs 1 (viseme) and 2 (expression).
+    bidirectional : False where only non-negative values are meant.
+    motion : where a positive value moves the point; None for FAPs 1 and 2.
+    group, subgroup : the standard's group 1..10 and the place in it (None for FAPs 1 and 2).
+    feature_point : the point that moves, as "8.4"; None for FAPs 1 and 2.
+    mirror : FAP number of the other side, None in the middle. Equal values are a symmetric face.
+    lip_twin : FAP number of the same motion on the other lip contour (inner or outer), None elsewhere.
+    quant_step : FAP units per quantiser step of the binary stream.
+    intra_limits, inter_limits : coding limits of I and P frames, in quantiser steps.
+    confidence, note : how well the row is corroborated, and what a reader should know.
+    """
+
+    number: int
+    name: str
+    unit: Unit | None
+    bidirectional: bool
+    motion: Motion | None
+    group: int
+    subgroup: int | None
+    feature_point: str | None
+    mirror: int | None
+    lip_twin: int | None
+    quant_step: int | None
+    intra_limits: tuple[int, int] | None
+    inter_limits: tuple[int, int] | None
+    confidence: str
+    note: str
+
+    def __post_init__(self) -> None:
+        """Refuse a number outside 1..68."""
+        if not 1 <= self.number <= FAP_COUNT:
+            raise ParameterError("FAP number", f"must lie in 1..{FAP_COUNT}", self.number)
+
+    @property
+    def high_level(self) -> bool:
+        """True for viseme and expression, whose values are sub-fields and no displacement."""
+        return self.unit is None
+
+    @property
+    def angular(self) -> bool:
+        """True where the value is an angle (eyeballs, head, tongue roll)."""
+        return self.unit is Unit.AU
+
+
+@dataclass(frozen=True)
+class FeaturePoint:
+    """One of the 84 feature points: name "8.4", group and number in it, side, mirror point, place in words."""
+
+    name: str
+    group: int
+    number: int
+    side: Side
+    mirror: str | None
+    location: str
+    faps: tuple[int, ...]
+    confidence: str
+
+
+@dataclass(frozen=True)
+class FapuDefinition:
+    """How a FAP unit is measured on the neutral face.
+
+    Attributes
+    ----------
+    unit, symbol, name : as IRISD, "IRISD0", words.
+    axis : "vertical" (up) or "lateral" (towards the subject's left); None for the angle unit.
+    point_a, point_b : the distance is the coordinate of a minus that of b; None for the angle unit.
+    divisor : one unit is the distance divided by this; None for the angle unit.
+    radians : one unit of the angle unit in rad; None for the distances.
+    """
+
+    unit: Unit
+    symbol: str
+    name: str
+    axis: str | None
+    point_a: str | None
+    point_b: str | None
+    divisor: int | None
+    radians: float | None
+
+
+def _number(cell: str) -> int | None:
+    return int(cell) if cell else None
+
+
+def _limits(low: str, high: str) -> tuple[int, int] | None:
+    return (int(low), int(high)) if low else None
+
+
+def _read_faps() -> dict[int, Fap]:
+    """All rows of faps.csv by number."""
+    return {
+        int(row["number"]): Fap(
+            number=int(row["number"]),
+            name=row["name"],
+            unit=Unit(row["unit"]) if row["unit"] else None,
+            bidirectional=row["bidirectional"] == "yes",
+            motion=Motion(row["motion"]) if row["motion"] else None,
+            group=int(row["group"]),
+            subgroup=_number(row["subgroup"]),
+            feature_point=row["feature_point"] or None,
+            mirror=_number(row["mirror"]),
+            lip_twin=_number(row["lip_twin"]),
+            quant_step=_number(row["quant_step"]),
+            intra_limits=_limits(row["intra_min"], row["intra_max"]),
+            inter_limits=_limits(row["inter_min"], row["inter_max"]),
+            confidence=row["confidence"],
+            note=row["note"],
+        )
+        for row in read_table("faps")
+    }
+
+
+FAPS: Mapping[int, Fap] = MappingProxyType(_read_faps())
+"""The 68 FAPs by number."""
+
+_NUMBERS = {entry.name: number for number, entry in FAPS.items()}
+
+
+def fap(which: str | SupportsIndex) -> Fap:
+    """One FAP by its number or name.
+
+    Parameters
+    ----------
+    which : 1..68, or the standard's name such as "open_jaw".
+
+    Raises
+    ------
+    ParameterError
+        When no FAP has this number or name; the message names the nearest names.
+    """
+    if isinstance(which, str):
+        if which in _NUMBERS:
+            return FAPS[_NUMBERS[which]]
+        near = difflib.get_close_matches(which, _NUMBERS, n=3)
+        hint = f"; did you mean {' or '.join(near)}?" if near else ""
+        raise ParameterError("FAP name", f"must be a name of the standard such as 'open_jaw'{hint}", which)
+    try:
+        return FAPS[operator.index(which)]
+    except (KeyError, TypeError):
+        raise ParameterError("FAP number", f"must be a whole number in 1..{FAP_COUNT}", which) from None
+
+
+def _groups() -> dict[int, tuple[int, ...]]:
+    members: dict[int, list[int]] = {}
+    for number, entry in FAPS.items():
+        members.setdefault(entry.group, []).append(number)
+    return {group: tuple(numbers) for group, numbers in members.items()}
+
+
+GROUPS: Mapping[int, tuple[int, ...]] = MappingProxyType(_groups())
+"""FAP numbers of the groups 1..10."""
+
+PAIRS: tuple[tuple[int, int], ...] = tuple(
+    (number, entry.mirror) for number, entry in FAPS.items() if entry.mirror is not None and number < entry.mirror
+)
+"""FAP numbers of the pairs (left, right)."""
+
+LIP_TWINS: tuple[tuple[int, int], ...] = tuple(
+    (number, entry.lip_twin) for number, entry in FAPS.items() if entry.lip_twin is not None and number < entry.lip_twin
+)
+"""FAP numbers of the same motion on the (inner, outer) lip contour."""
+
+
+def _read_feature_points() -> dict[str, FeaturePoint]:
+    """All rows of feature_points.csv by name."""
+    return {
+        row["point"]: FeaturePoint(
+            name=row["point"],
+            group=int(row["group"]),
+            number=int(row["number"]),
+            side=Side(row["side"]),
+            mirror=row["mirror"] or None,
+            location=row["location"],
+            faps=tuple(number for number, entry in FAPS.items() if entry.feature_point == row["point"]),
+            confidence=row["confidence"],
+        )
+        for row in read_table("feature_points")
+    }
+
+
+FEATURE_POINTS: Mapping[str, FeaturePoint] = MappingProxyType(_read_feature_points())
+"""The 84 feature points by name."""
+
+FAPU: Mapping[Unit, FapuDefinition] = MappingProxyType(
+    {
+        Unit(row["unit"]): FapuDefinition(
+            unit=Unit(row["unit"]),
+            symbol=row["symbol"],
+            name=row["name"],
+            axis=row["axis"] or None,
+            point_a=row["point_a"] or None,
+            point_b=row["point_b"] or None,
+            divisor=_number(row["divisor"]),
+            radians=float(row["radians"]) if row["radians"] else None,
+        )
+        for row in read_table("fapu")
+    }
+)
+"""How each FAP unit is measured."""

@@ -1,0 +1,227 @@
+"""Expressions in time: onset, apex, offset, and several expressions blended where they overlap."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import FormatError, ParameterError
+from .profile import ARCHETYPES, Profile
+
+TIMINGS = Path(__file__).resolve().parent.parent / "presets" / "timing.toml"
+"""The timing presets that come with Risorius."""
+
+# A film's rate where the caller names none: the rate of most .fap files met.
+DEFAULT_FPS = 25.0
+
+
+def _check_seconds(name: str, value: float) -> None:
+    """A duration: finite, not negative."""
+    if not (isinstance(value, int | float | np.number) and math.isfinite(value) and value >= 0.0):
+        raise ParameterError(name, "must be a number of seconds, 0 or more", value)
+
+
+def _check_fps(fps: float) -> None:
+    """A frame rate: finite, positive."""
+    if not (isinstance(fps, int | float | np.number) and math.isfinite(fps) and fps > 0.0):
+        raise ParameterError("fps", "must be a positive number of frames per second", fps)
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Seconds an expression takes to appear (onset), stays (apex) and fades (offset), and why."""
+
+    name: str
+    onset: float
+    apex: float
+    offset: float
+    reason: str
+
+    def __post_init__(self) -> None:
+        """Refuse negative durations."""
+        for key in ("onset", "apex", "offset"):
+            _check_seconds(key, getattr(self, key))
+
+
+@dataclass(frozen=True)
+class Cue:
+    """One expression at one time.
+
+    Attributes
+    ----------
+    profile : what is shown.
+    start : seconds at which the onset begins.
+    onset, apex, offset : seconds it takes to appear, stays, and takes to fade.
+    peak : strength at the apex, 0..1.
+    seed : None for the midpoints of the ranges, else a draw inside them.
+
+    Raises
+    ------
+    ParameterError
+        When a time is negative, nothing lasts, or the peak is outside 0..1.
+    """
+
+    profile: Profile
+    _: KW_ONLY
+    start: float = 0.0
+    onset: float
+    apex: float
+    offset: float
+    peak: float = 1.0
+    seed: int | None = None
+
+    def __post_init__(self) -> None:
+        """Check times and peak."""
+        for key in ("start", "onset", "apex", "offset"):
+            _check_seconds(key, getattr(self, key))
+        if not self.duration > 0.0:
+            raise ParameterError("onset + apex + offset", "must be more than 0 seconds", self.duration)
+        if not 0.0 <= self.peak <= 1.0:
+            raise ParameterError("peak", "must lie in 0..1", self.peak)
+
+    @property
+    def duration(self) -> float:
+        """Seconds from the first sign to the last."""
+        return self.onset + self.apex + self.offset
+
+    def strength(self, times: Floats) -> Floats:
+        """Strength 0..peak at times (T,) in seconds: smooth ramps (zero speed and acceleration at their ends)."""
+        since = times - self.start
+        rise = _ramp(since, self.onset)
+        fall = _ramp(since - self.onset - self.apex, self.offset)
+        inside = (since >= 0.0) & (since <= self.duration)
+        return np.asarray(np.where(inside, self.peak * np.minimum(rise, 1.0 - fall), 0.0), dtype=np.float64)
+
+
+def _ramp(since: Floats, duration: float) -> Floats:
+    """From 0 to 1 within the duration along the minimum-jerk curve 10 s^3 - 15 s^4 + 6 s^5; a step if it is 0."""
+    if duration == 0.0:
+        return np.where(since >= 0.0, 1.0, 0.0)
+    s = np.clip(since / duration, 0.0, 1.0)
+    return np.asarray(s**3 * (10.0 - 15.0 * s + 6.0 * s**2), dtype=np.float64)
+
+
+def envelope(
+    profile: Profile,
+    *,
+    onset: float,
+    apex: float,
+    offset: float,
+    fps: float = DEFAULT_FPS,
+    peak: float = 1.0,
+    seed: int | None = None,
+) -> Floats:
+    """FAP frames of one expression that appears, stays and fades.
+
+    Parameters
+    ----------
+    profile, onset, apex, offset, peak, seed : as in `Cue`.
+    fps : frames per second.
+
+    Returns
+    -------
+    (T, 68) float64, FAP units, frame k at k / fps seconds, the first and the last at rest; NaN columns where the
+    profile is silent.
+
+    Raises
+    ------
+    ParameterError
+        When a time, the rate or the peak breaks its rule.
+    """
+    return sequence([Cue(profile, onset=onset, apex=apex, offset=offset, peak=peak, seed=seed)], fps=fps)
+
+
+def sequence(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
+    """FAP frames of several expressions.
+
+    Each FAP is the mean of what the cues that ask for it want, weighted by their strength, times their summed
+    strength where that is below 1: one cue alone is as strong as it says, a cross-fade keeps a FAP that both hold,
+    and two at full strength share it instead of doubling it.
+
+    Parameters
+    ----------
+    cues : at least one, in any order.
+    fps : frames per second.
+
+    Returns
+    -------
+    (T, 68) float64, FAP units, frame k at k / fps seconds, from 0 to the end of the last cue; NaN columns for FAPs
+    that no cue asks for, 0 where a FAP is asked for at other times only.
+
+    Raises
+    ------
+    ParameterError
+        When there is no cue or the rate is not positive.
+    """
+    strengths = _strengths(cues, fps)
+    wanted = np.array([cue.profile.frame(cue.seed) for cue in cues])  # (C, 68)
+    asks = ~np.isnan(wanted)
+    summed = strengths @ asks.astype(np.float64)
+    frames = strengths @ np.where(asks, wanted, 0.0) / np.maximum(summed, 1.0)
+    return np.asarray(np.where(asks.any(axis=0), frames, np.nan), dtype=np.float64)
+
+
+def emotion_weights(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
+    """How strongly each archetype is shown at each frame of `sequence`.
+
+    Returns
+    -------
+    (T, 6) float64 in 0..1, columns in the order of `ARCHETYPES`. A word's category counts whole; a word between two
+    archetypes is split by nearness in angle; overlapping cues share as their FAPs do, so a row never exceeds 1.
+
+    Raises
+    ------
+    ParameterError
+        As `sequence`.
+    """
+    strengths = _strengths(cues, fps)
+    shares = np.array([[cue.profile.weights.get(name, 0.0) for name in ARCHETYPES] for cue in cues])
+    return np.asarray(strengths @ shares / np.maximum(strengths.sum(axis=1, keepdims=True), 1.0), dtype=np.float64)
+
+
+def _strengths(cues: Sequence[Cue], fps: float) -> Floats:
+    """(T, C) strength of every cue at every frame, up to the first frame at or after the last cue's end."""
+    _check_fps(fps)
+    if not cues:
+        raise ParameterError("cues", "must hold at least one cue", 0)
+    end = max(cue.start + cue.duration for cue in cues)
+    times = np.arange(math.ceil(end * fps - 1e-6) + 1) / fps  # a millionth of a frame is rounding, not time
+    return np.stack([cue.strength(times) for cue in cues], axis=1)
+
+
+def load_timings(path: str | Path = TIMINGS) -> Mapping[str, Timing]:
+    """Timing presets by name out of a TOML file: tables with onset, apex, offset (seconds) and reason.
+
+    Raises
+    ------
+    FormatError
+        Names the file, the key and the rule it breaks.
+    """
+    file = Path(path)
+    try:
+        document = tomllib.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise FormatError(file, f"cannot be read ({error.strerror})") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise FormatError(file, f"is not valid TOML: {error}") from error
+    return MappingProxyType({name: _timing(file, name, table) for name, table in document.items()})
+
+
+def _timing(file: Path, name: str, table: object) -> Timing:
+    """One preset, checked."""
+    if not isinstance(table, dict) or set(table) != {"onset", "apex", "offset", "reason"}:
+        raise FormatError(file, "must be a table with exactly onset, apex, offset and reason", key=name)
+    for key in ("onset", "apex", "offset"):
+        value = table[key]
+        if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 <= value < math.inf:
+            raise FormatError(file, f"must be seconds, 0 or more, but it is {value!r}", key=f"{name}.{key}")
+    if not isinstance(table["reason"], str) or not table["reason"].strip():
+        raise FormatError(file, "must be a text that gives the reason", key=f"{name}.reason")
+    return Timing(name, float(table["onset"]), float(table["apex"]), float(table["offset"]), table["reason"])
