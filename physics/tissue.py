@@ -1,0 +1,161 @@
+"""Tissue: the figures of skin in SI units, read from presets/tissue.toml."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from ..errors import FormatError, ParameterError
+
+PRESET = Path(__file__).resolve().parent.parent / "presets" / "tissue.toml"
+"""The tissues that come with Risorius."""
+
+STIFFNESS_OF_MODULUS = 1.5
+"""w / (E h): a sheet of the springs of `springs.py` has the plane Young's modulus times thickness 2 w / 3."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tissue:
+    """The figures of one kind of skin; sources and meaning of each stand in presets/tissue.toml.
+
+    Parameters
+    ----------
+    youngs_modulus : Pa, of the sheet at low strain.
+    thickness : m, of the sheet.
+    depth : m, of the soft tissue that moves with it.
+    density : kg/m^3, of that tissue.
+    stiffening : k_h / k_l, >= 1.
+    threshold : strain at which springs stiffen, > 0.
+    bending_length : m, >= 0; 0 leaves a bare membrane, the paper's skin.
+    anchor_length : m, > 0.
+    damping_ratio : relative to critical damping on the bed, >= 0.
+    description : one line for a menu.
+
+    Raises
+    ------
+    ParameterError : a figure outside its rule.
+    """
+
+    youngs_modulus: float
+    thickness: float
+    depth: float
+    density: float
+    stiffening: float
+    threshold: float
+    bending_length: float
+    anchor_length: float
+    damping_ratio: float
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        for name in _figures():
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+                raise ParameterError(name, "must be a finite number", value)
+            if value < 0 or (value == 0 and name not in ("bending_length", "damping_ratio")):
+                raise ParameterError(name, "must be above 0", value)
+        if self.stiffening < 1:
+            raise ParameterError("stiffening", "must be 1 or more (k_h at least k_l)", self.stiffening)
+
+    @property
+    def membrane(self) -> float:
+        """Membrane stiffness w of the springs at low strain, N/m."""
+        return STIFFNESS_OF_MODULUS * self.youngs_modulus * self.thickness
+
+    @property
+    def mass_per_area(self) -> float:
+        """kg/m^2."""
+        return self.density * self.depth
+
+    @property
+    def anchor_per_area(self) -> float:
+        """Stiffness of the bed, N/m per m^2."""
+        return self.membrane / self.anchor_length**2
+
+    @property
+    def damping_rate(self) -> float:
+        """c / m of equation (23), 1/s: alike at every node, whatever the mesh."""
+        return float(2 * self.damping_ratio * np.sqrt(self.anchor_per_area / self.mass_per_area))
+
+
+def load_tissues(path: str | Path = PRESET) -> Mapping[str, Tissue]:
+    """Read tissues by name from a TOML file: [figures.NAME] with unit and source, [tissues.NAME] with every figure.
+
+    Parameters
+    ----------
+    path : the file; its [figures] may be left out in a user's own.
+
+    Returns
+    -------
+    Read-only mapping of name to tissue, in the file's order.
+
+    Raises
+    ------
+    FormatError : unreadable file, unknown, missing or wrong key; names file, key and rule.
+    """
+    try:
+        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise FormatError(path, f"cannot be read: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise FormatError(path, f"is not TOML: {error}") from error
+    for name, figure in _tables(path, table, "figures", required=False).items():
+        if name not in _figures():
+            raise FormatError(path, f"no such figure; known are {', '.join(_figures())}", key=f"figures.{name}")
+        for key in ("unit", "source"):
+            if not figure.get(key):
+                raise FormatError(path, "must not be empty", key=f"figures.{name}.{key}")
+    tissues = {name: _tissue(path, name, row) for name, row in _tables(path, table, "tissues", required=True).items()}
+    return MappingProxyType(tissues)
+
+
+@cache
+def tissues() -> Mapping[str, Tissue]:
+    """The tissues that come with Risorius, by name; read once."""
+    return load_tissues()
+
+
+def tissue(name: str = "default") -> Tissue:
+    """The bundled tissue of that name; ParameterError lists the names."""
+    if name not in tissues():
+        raise ParameterError("tissue", f"must be one of {', '.join(tissues())}", name)
+    return tissues()[name]
+
+
+@cache
+def _figures() -> tuple[str, ...]:
+    """Names of the numeric fields."""
+    return tuple(field.name for field in fields(Tissue) if field.name != "description")
+
+
+def _tables(path: str | Path, table: dict[str, Any], key: str, *, required: bool) -> dict[str, dict[str, Any]]:
+    """The sub-tables under a key, checked to be tables."""
+    found = table.get(key, {})
+    if not isinstance(found, dict) or (required and not found):
+        raise FormatError(path, f"needs at least one table [{key}.NAME]", key=key)
+    for name, row in found.items():
+        if not isinstance(row, dict):
+            raise FormatError(path, "must be a table of figures", key=f"{key}.{name}")
+    return found
+
+
+def _tissue(path: str | Path, name: str, row: dict[str, Any]) -> Tissue:
+    """One tissue, its errors turned to the file's."""
+    for key in row:
+        if key not in (*_figures(), "description"):
+            raise FormatError(path, f"no such figure; known are {', '.join(_figures())}", key=f"tissues.{name}.{key}")
+    for key in _figures():
+        if key not in row:
+            raise FormatError(path, "is missing", key=f"tissues.{name}.{key}")
+    try:
+        return Tissue(**row)
+    except ParameterError as error:
+        problem = f"{error.rule}, but it is {error.value!r}"
+        raise FormatError(path, problem, key=f"tissues.{name}.{error.name}") from error
