@@ -1,1 +1,128 @@
+"""The MPEG-4 facial animation standard and the emotion model of Raouzaiou et al. 2002. NumPy only; knows no face.
 
+standard, high_level, action_units   FAPs, feature points, units, visemes, expressions, AUs: data
+archetypes, words, emotion_presets   Tables 2, 4, 5 and 6, and the user's own words
+profile, wheel, intermediate         ranges of FAPs; activation and angle; mixing two emotions
+expressions                          a word, or a point of the wheel, becomes a profile
+timing                               profiles become frames
+features, recognition                frames become beliefs
+fap_stream, fap_file                 frames on disk
+"""
+
+from .action_units import ACTION_UNITS, AuTerm
+from .archetypes import (
+    BASE_WORDS,
+    FEATURE_SIGNED,
+    PRINTED_PROFILES,
+    STATISTICS,
+    VARIANTS,
+    VOCABULARIES,
+    VOCABULARY_EXCEPTIONS,
+    archetype,
+    initial_profile,
+)
+from .emotion_presets import WORDS, load_emotions
+from .expressions import default_variant, expression, find_word, neighbours
+from .fap_file import read_fap, write_fap
+from .fap_stream import FapStream
+from .features import FEATURES, Feature, faps_from_features
+from .high_level import (
+    EXPRESSIONS,
+    VISEMES,
+    Expression,
+    ExpressionField,
+    Viseme,
+    VisemeField,
+    expand,
+    expression_frame,
+    viseme_frame,
+)
+from .intermediate import between
+from .profile import ARCHETYPES, Archetype, Profile, Signs
+from .recognition import Beliefs, recognise, recognise_features
+from .standard import (
+    FAP_COUNT,
+    FAPS,
+    FAPU,
+    FEATURE_POINTS,
+    GROUPS,
+    LIP_TWINS,
+    PAIRS,
+    Fap,
+    FapuDefinition,
+    FeaturePoint,
+    Motion,
+    Side,
+    Unit,
+    fap,
+)
+from .timing import Cue, Timing, emotion_weights, envelope, load_timings, sequence
+from .wheel import ACTIVATION_MAX, ACTIVATION_MIN
+from .words import TABLE_WORDS, Word
+
+__all__ = [
+    "ACTION_UNITS",
+    "ACTIVATION_MAX",
+    "ACTIVATION_MIN",
+    "ARCHETYPES",
+    "BASE_WORDS",
+    "EXPRESSIONS",
+    "FAPS",
+    "FAPU",
+    "FAP_COUNT",
+    "FEATURES",
+    "FEATURE_POINTS",
+    "FEATURE_SIGNED",
+    "GROUPS",
+    "LIP_TWINS",
+    "PAIRS",
+    "PRINTED_PROFILES",
+    "STATISTICS",
+    "TABLE_WORDS",
+    "VARIANTS",
+    "VISEMES",
+    "VOCABULARIES",
+    "VOCABULARY_EXCEPTIONS",
+    "WORDS",
+    "Archetype",
+    "AuTerm",
+    "Beliefs",
+    "Cue",
+    "Expression",
+    "ExpressionField",
+    "Fap",
+    "FapStream",
+    "FapuDefinition",
+    "Feature",
+    "FeaturePoint",
+    "Motion",
+    "Profile",
+    "Side",
+    "Signs",
+    "Timing",
+    "Unit",
+    "Viseme",
+    "VisemeField",
+    "Word",
+    "archetype",
+    "between",
+    "default_variant",
+    "emotion_weights",
+    "envelope",
+    "expand",
+    "expression",
+    "expression_frame",
+    "fap",
+    "faps_from_features",
+    "find_word",
+    "initial_profile",
+    "load_emotions",
+    "load_timings",
+    "neighbours",
+    "read_fap",
+    "recognise",
+    "recognise_features",
+    "sequence",
+    "viseme_frame",
+    "write_fap",
+]

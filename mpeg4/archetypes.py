@@ -132,9 +132,7 @@ VOCABULARY_EXCEPTIONS: Mapping[tuple[Archetype, int], frozenset[int]] = MappingP
 """(archetype, FAP number) -> variants of Table 5 that use the FAP although Table 2 does not list it."""
 
 
-def archetype(
-    name: str, variant: int = 0, *, signs: str = Signs.MPEG4, activation: float | None = None
-) -> Profile:
+def archetype(name: str, variant: int = 0, *, signs: str = Signs.MPEG4, activation: float | None = None) -> Profile:
     """One of the 25 profiles of Table 5.
 
     Parameters
@@ -152,7 +150,8 @@ def archetype(
     """
     emotion, convention = check_archetype(name), check_signs(signs)
     if variant not in VARIANTS[emotion]:
-        raise ParameterError(f"variant of {emotion}", f"must be one of {', '.join(map(str, VARIANTS[emotion]))}", variant)
+        allowed = ", ".join(map(str, VARIANTS[emotion]))
+        raise ParameterError(f"variant of {emotion}", f"must be one of {allowed}", variant)
     turned = FEATURE_SIGNED if variant == 0 and convention is Signs.MPEG4 else frozenset[int]()
     ranges: dict[int, Range] = {}
     for entry in PRINTED_PROFILES[emotion, variant]:

@@ -119,7 +119,9 @@ def recognise_features(features: ArrayLike) -> Beliefs:
 @cache
 def _classes() -> tuple[_Class, ...]:
     """The fuzzy classes of all profiles of Table 5, in MPEG-4 signs."""
-    return tuple((name, variant, *_class(archetype(name, variant))) for name in ARCHETYPES for variant in VARIANTS[name])
+    return tuple(
+        (name, variant, *_class(archetype(name, variant))) for name in ARCHETYPES for variant in VARIANTS[name]
+    )
 
 
 def _class(profile: Profile) -> tuple[tuple[int, ...], Floats, Floats]:
