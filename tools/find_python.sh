@@ -12,25 +12,27 @@ if [ -n "$PYTHON" ]; then
     exit 1
 fi
 
+notes=""
 for name in python3.11 python3 python; do
     if command -v "$name" >/dev/null 2>&1 && is_311 "$name"; then command -v "$name"; exit 0; fi
 done
 
 if command -v uv >/dev/null 2>&1; then
-    uv python find --no-project 3.11 2>/dev/null && exit 0
+    uv python find --no-project --system 3.11 2>/dev/null && exit 0
     echo "Fetching Python 3.11 with uv ..." >&2
-    uv python install 3.11 >&2 && uv python find --no-project 3.11 && exit 0
+    uv python install 3.11 >&2 && uv python find --no-project --system 3.11 && exit 0
+    notes=" uv could not fetch one (its message is above)."
 fi
 
 if command -v blender >/dev/null 2>&1; then
     inner=$(blender --background --factory-startup --python-expr \
         'import sys; print("risorius-python", sys.executable)' 2>/dev/null | sed -n 's/^risorius-python //p')
     if [ -n "$inner" ] && is_311 "$inner"; then echo "$inner"; exit 0; fi
-    found_blender=" The Blender found on the PATH brings another Python."
+    notes="$notes The Blender on the PATH brings another Python."
 fi
 
 cat >&2 <<MESSAGE
-Found no Python 3.11.$found_blender One of these will do:
+Found no Python 3.11.$notes One of these will do:
   - Python 3.11 on the PATH as python3.11 (or PYTHON=/path/to/python3.11 make ...);
   - uv on the PATH, which fetches Python 3.11 by itself;
   - for 'make demo' alone: Blender 4.2 or later on the PATH as blender.
