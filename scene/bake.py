@@ -27,13 +27,13 @@ STILL = 1e-7
 
 
 @dataclass(frozen=True)
-class Timing:
-    """When an expression happens: first frame, and seconds of onset, apex and offset."""
+class ClipTiming:
+    """When an expression happens: seconds of onset, apex and offset from the frame `start` on, at `fps`."""
 
+    onset: float
+    apex: float
+    offset: float
     start: float = 1.0
-    onset: float = 0.4
-    apex: float = 1.2
-    offset: float = 0.8
     fps: float = 25.0
 
     def __post_init__(self) -> None:
@@ -99,7 +99,7 @@ def bake_expression(
     frame: Floats,
     *,
     clip: str,
-    timing: Timing | None = None,
+    timing: ClipTiming,
     peak: float = 1.0,
     drive: str = "natural",
     emotion: Mapping[str, float] | None = None,
@@ -118,7 +118,6 @@ def bake_expression(
     ------
     SceneError, ModelError, SolverError : nothing has been changed then.
     """
-    timing = timing or Timing(fps=scene_fps())
     yield Progress(0.0, "Reading the face")
     source = target.source()
     yield Progress(0.1, "Placing the muscles")

@@ -90,11 +90,11 @@ def own_mesh(obj: Any) -> None:
         obj.data = obj.data.copy()
 
 
-def reason(obj: Any | None, *, writing: bool = True) -> str | None:
+def reason(obj: Any | None, *, writing: bool = True, make_single_user: bool = False) -> str | None:
     """Why the object cannot be used, as a sentence for a greyed button; None where it can."""
     try:
         if writing:
-            refuse_unwritable(obj, make_single_user=True)
+            refuse_unwritable(obj, make_single_user=make_single_user)
         else:
             refuse_unreadable(obj)
     except SceneError as refusal:

@@ -23,6 +23,10 @@ from .framing import Framing
 from .gpu_probe import REMEDY, can_draw
 
 
+#: How much of the background's light falls on the face.
+AMBIENT = 0.35
+
+
 class Engine(str, Enum):
     """Who draws the picture."""
 
@@ -47,7 +51,7 @@ class Look:
     engine: Engine = Engine.WORKBENCH
     width: int = 720
     height: int = 720
-    yaw: float = 0.22
+    yaw: float = 0.17
     background: tuple[float, float, float] = (0.42, 0.45, 0.48)
     samples: int = 32
 
@@ -67,7 +71,7 @@ def usable_engine(wanted: Engine) -> tuple[Engine, str | None]:
 
 @contextmanager
 def studio(objects: Sequence[Any], framing: Framing, look: Look) -> Iterator[Any]:
-    """A temporary scene that shows `objects`, ready to render; removed on leaving.
+    """A temporary scene that shows `objects`, ready to render; removed on leaving with all that was made for it.
 
     Raises
     ------
@@ -82,14 +86,23 @@ def studio(objects: Sequence[Any], framing: Framing, look: Look) -> Iterator[Any
         scene.render.fps, scene.render.fps_base = source.render.fps, source.render.fps_base
         for obj in objects:
             scene.collection.objects.link(obj)
-        made += [_camera(scene, framing, look), *_lights(scene, framing)]
-        made.append(_world(scene, look))
-        _settings(scene, look)
+        made = furnish(scene, framing, look)
         yield scene
     finally:
         bpy.data.scenes.remove(scene)
         for datablock in made:
             _discard(datablock)
+
+
+def furnish(scene: Any, framing: Framing, look: Look) -> list[Any]:
+    """Give a scene a camera, lights, a world and render settings for the face; returns the new datablocks.
+
+    Raises
+    ------
+    SceneError : the engine is not available.
+    """
+    _settings(scene, look)
+    return [_camera(scene, framing, look), *_lights(scene, framing), _world(scene, look)]
 
 
 def _discard(datablock: Any) -> None:
@@ -131,7 +144,7 @@ def _lights(scene: Any, framing: Framing) -> list[Any]:
     for name, place, size, power in (
         ("Key", (1.1, 0.9, 1.6), 0.9, 26.0),
         ("Fill", (-1.5, 0.1, 1.3), 1.5, 8.0),
-        ("Rim", (-0.9, 1.1, -1.3), 0.7, 22.0),
+        ("Rim", (-0.9, 1.1, -1.3), 0.7, 12.0),
     ):
         data = bpy.data.lights.new(f"Risorius {name}", "AREA")
         data.size = size * framing.height
@@ -144,13 +157,18 @@ def _lights(scene: Any, framing: Framing) -> list[Any]:
 
 
 def _world(scene: Any, look: Look) -> Any:
-    """An even background that also lifts the shadows."""
+    """An even background to look at, that lights the face only a little."""
     world = bpy.data.worlds.new("Risorius World")
     world.color = look.background
     world.use_nodes = True
-    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
+    nodes, links = world.node_tree.nodes, world.node_tree.links
+    background = next(node for node in nodes if node.type == "BACKGROUND")
     background.inputs["Color"].default_value = (*look.background, 1.0)
-    background.inputs["Strength"].default_value = 1.0
+    seen = nodes.new("ShaderNodeLightPath")
+    strength = nodes.new("ShaderNodeMapRange")
+    strength.inputs["To Min"].default_value, strength.inputs["To Max"].default_value = AMBIENT, 1.0
+    links.new(seen.outputs["Is Camera Ray"], strength.inputs["Value"])
+    links.new(strength.outputs["Result"], background.inputs["Strength"])
     scene.world = world
     return world
 

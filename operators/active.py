@@ -1,0 +1,35 @@
+"""The face that the panel and the operators are about: the active object, with its parts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..face.parts import Part
+from ..scene import faces, refusals
+from ..scene.bake import Target
+
+
+def companions_of(obj: Any) -> dict[Part, Any]:
+    """Objects that the user has named as eyes, teeth and tongue of `obj`."""
+    named = obj.risorius.face
+    found = {
+        Part.EYEBALL_L: named.eyeball_l,
+        Part.EYEBALL_R: named.eyeball_r,
+        Part.TEETH_UPPER: named.teeth_upper,
+        Part.TEETH_LOWER: named.teeth_lower,
+        Part.TONGUE: named.tongue,
+    }
+    return {part: other for part, other in found.items() if other is not None}
+
+
+def target_of(obj: Any) -> Target:
+    """Where the operators bake."""
+    return Target(obj, companions_of(obj), make_single_user=obj.risorius.face.make_single_user)
+
+
+def face_reason(obj: Any | None) -> str | None:
+    """Why the active object cannot be baked on, or None."""
+    reason = refusals.reason(obj, make_single_user=obj is not None and obj.risorius.face.make_single_user)
+    if reason is None and obj is not None and not faces.has_points(obj):
+        return f"{obj.name}: has no feature points yet: import them from a JSON file"
+    return reason

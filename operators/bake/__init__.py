@@ -1,0 +1,1 @@
+"""Baking an expression or a motion, and clearing it."""

@@ -1,0 +1,59 @@
+"""The panel that bakes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...scene import shape_keys
+from ..active import face_reason
+from ..sidebar import Sidebar
+from .ops import RISORIUS_OT_bake_expression, RISORIUS_OT_bake_motion, RISORIUS_OT_clear
+
+
+class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
+    """Timing, the two bakes, and what has been baked."""
+
+    bl_label = "Bake"
+    bl_parent_id = "RISORIUS_PT_main"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Only for meshes."""
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context: Any) -> None:
+        """When, then the buttons, then what is there."""
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        obj, chosen = context.object, context.object.risorius.bake
+        row = layout.row()
+        row.prop(chosen, "clip", placeholder=obj.risorius.emotion.word)
+        column = layout.column(align=True)
+        for name in ("start", "onset", "apex", "offset"):
+            column.prop(chosen, name)
+        reason = face_reason(obj)
+        if reason is not None:
+            layout.label(text=reason.partition(": ")[2].partition(":")[0].capitalize(), icon="INFO")
+        column = layout.column(align=True)
+        column.scale_y = 1.3
+        column.operator(RISORIUS_OT_bake_expression.bl_idname, icon="SHAPEKEY_DATA")
+        column.operator(RISORIUS_OT_bake_motion.bl_idname, icon="PHYSICS")
+        self._draw_baked(layout, obj)
+
+    def _draw_baked(self, layout: Any, obj: Any) -> None:
+        """The clips of this face, each with a button that removes it."""
+        clips = shape_keys.read_own(obj.data).clips
+        if not clips:
+            return
+        box = layout.box().column(align=True)
+        for clip, keys in clips.items():
+            row = box.row(align=True)
+            row.label(text=clip, icon="ACTION")
+            row.label(text=f"{len(keys)} key{'s' * (len(keys) != 1)}")
+            row.operator(RISORIUS_OT_clear.bl_idname, text="", icon="X").clip = clip
+        layout.operator(RISORIUS_OT_clear.bl_idname, text="Clear All", icon="TRASH").clip = ""
+
+
+CLASSES = (RISORIUS_PT_bake,)

@@ -1,0 +1,153 @@
+"""The one base of all operators: runs, reports what Risorius refuses, and shows long work with a way out."""
+
+from __future__ import annotations
+
+import time
+from typing import Any, ClassVar, final
+
+import bpy
+
+from ..errors import RisoriusError
+from ..scene.progress import Progress, Work, run
+from .requirements import MISSING, has_scipy, need_scipy
+
+#: Seconds between two looks at the mouse and keyboard while work goes on.
+INTERVAL = 0.01
+#: Seconds of work per look.
+SHARE = 0.05
+
+
+class RisoriusOperator:
+    """Mix into `bpy.types.Operator`. A child says what it does in `run`, and in `refusal` when it cannot."""
+
+    needs_scipy: ClassVar[bool] = True
+    report: Any
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Why the button is grey, or None."""
+        return None
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Grey, with the reason, where it cannot work."""
+        reason = f"{MISSING}: see the panel" if cls.needs_scipy and not has_scipy() else cls.refusal(context)
+        if reason is not None:
+            cls.poll_message_set(reason)  # type: ignore[attr-defined]
+        return reason is None
+
+    def run(self, context: Any) -> str:
+        """Do it, and return what to tell the user. May raise RisoriusError; nothing has been changed then."""
+        raise NotImplementedError
+
+    @final
+    def execute(self, context: Any) -> set[str]:
+        """Run, and report what Risorius refuses. Anything else is a fault and propagates."""
+        try:
+            if self.needs_scipy:
+                need_scipy()
+            message = self.run(context)
+        except RisoriusError as refusal:
+            self.report({"ERROR"}, str(refusal))
+            return {"CANCELLED"}
+        self.report({"INFO"}, message)
+        return {"FINISHED"}
+
+
+class WorkOperator(RisoriusOperator):
+    """Long work: with a window it runs between events and Esc cancels it; without one it runs straight through."""
+
+    title: ClassVar[str] = "Working"
+    _work: Work[Any] | None = None
+    _timer: Any = None
+
+    def work(self, context: Any) -> Work[Any]:
+        """The work. It changes the scene only after its last step, so closing it early leaves all as it was."""
+        raise NotImplementedError
+
+    def finish(self, context: Any, result: Any) -> str:
+        """What to tell the user of the result."""
+        raise NotImplementedError
+
+    def run(self, context: Any) -> str:
+        """Run straight through."""
+        return self.finish(context, run(self.work(context)))
+
+    def invoke(self, context: Any, event: Any) -> set[str]:
+        """Run between events where there is a window to show it."""
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        try:
+            if self.needs_scipy:
+                need_scipy()
+        except RisoriusError as refusal:
+            self.report({"ERROR"}, str(refusal))
+            return {"CANCELLED"}
+        self.start(context)
+        return {"RUNNING_MODAL"}
+
+    def start(self, context: Any) -> None:
+        """Begin the work and listen for the timer and for Esc."""
+        self._work = self.work(context)
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(INTERVAL, window=context.window)
+        manager.progress_begin(0.0, 1.0)
+        manager.modal_handler_add(self)
+        _show(context, f"{self.title} ...")
+
+    def modal(self, context: Any, event: Any) -> set[str]:
+        """A share of the work at each tick of the timer; Esc cancels."""
+        if event.type == "ESC" and event.value == "PRESS":
+            self.stop(context)
+            self.report({"WARNING"}, f"{self.title} was cancelled; nothing has been changed")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        try:
+            return self._advance(context)
+        except RisoriusError as refusal:
+            self.stop(context)
+            self.report({"ERROR"}, str(refusal))
+            return {"CANCELLED"}
+        except BaseException:
+            self.stop(context)
+            raise
+
+    def _advance(self, context: Any) -> set[str]:
+        """Work for a share of a second."""
+        assert self._work is not None
+        until = time.monotonic() + SHARE
+        while True:
+            try:
+                step: Progress = next(self._work)
+            except StopIteration as end:
+                message = self.finish(context, end.value)
+                self.stop(context)
+                self.report({"INFO"}, message)
+                return {"FINISHED"}
+            if time.monotonic() >= until:
+                context.window_manager.progress_update(step.fraction)
+                _show(context, f"{step.text} ({step.fraction:.0%})   Esc: Cancel")
+                return {"RUNNING_MODAL"}
+
+    def stop(self, context: Any) -> None:
+        """Let go of the work, the timer and the status text."""
+        if self._work is not None:
+            self._work.close()
+            self._work = None
+        manager = context.window_manager
+        if self._timer is not None:
+            manager.event_timer_remove(self._timer)
+            self._timer = None
+        manager.progress_end()
+        _show(context, None)
+
+    def cancel(self, context: Any) -> None:
+        """Blender ends the operator itself, as when a file is loaded."""
+        self.stop(context)
+
+
+def _show(context: Any, text: str | None) -> None:
+    """Text in the status bar, or Blender's own again."""
+    if context.workspace is not None:
+        context.workspace.status_text_set(text)

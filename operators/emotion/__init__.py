@@ -1,0 +1,1 @@
+"""The emotion: word, variant, activation."""

@@ -1,0 +1,42 @@
+"""The panel where the emotion is chosen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..sidebar import Sidebar
+from .ops import RISORIUS_OT_reset_activation
+from .props import own_activation
+
+
+class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
+    """Word, activation, variant, seed."""
+
+    bl_label = "Emotion"
+    bl_parent_id = "RISORIUS_PT_main"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Only for meshes."""
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context: Any) -> None:
+        """The choice, most important first."""
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        emotion = context.object.risorius.emotion
+        layout.prop(emotion, "word")
+        column = layout.column(align=True)
+        column.prop(emotion, "activation", slider=True)
+        row = column.row(align=True)
+        row.alignment = "RIGHT"
+        row.label(text=f"{emotion.word.capitalize()}'s own: {own_activation(emotion.word):.1f}")
+        row.operator(RISORIUS_OT_reset_activation.bl_idname, text="", icon="LOOP_BACK")
+        layout.prop(emotion, "variant")
+        layout.prop(emotion, "seed")
+        layout.prop(emotion, "drive")
+
+
+CLASSES = (RISORIUS_PT_emotion,)

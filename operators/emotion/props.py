@@ -1,0 +1,109 @@
+"""The emotion chosen for a face. Saved by number, so every word and variant keeps its number for ever."""
+
+import zlib
+from typing import Any
+
+import bpy
+
+from ...mpeg4.archetypes import VARIANTS
+from ...mpeg4.emotion_presets import WORDS
+from ...mpeg4.profile import ARCHETYPES
+
+#: Blender wants a dynamic enum's strings to be held somewhere.
+_word_items: list[tuple[str, str, str, str, int]] = []
+_variant_items: dict[str, list[tuple[str, str, str, int]]] = {}
+
+FIRST_WORD = "joy"
+DEFAULT_VARIANT = "DEFAULT"
+FALLBACK_ACTIVATION = 4.0
+
+
+def own_activation(word: str) -> float:
+    """The word's own activation; the middle of the scale for a neutral word."""
+    entry = WORDS.get(word)
+    return float(entry.activation) if entry is not None and entry.activation is not None else FALLBACK_ACTIVATION
+
+
+def _number(word: str) -> int:
+    """A number that a word keeps whatever other words come and go; the first one's is 0, Blender's default."""
+    return 0 if word == FIRST_WORD else (zlib.crc32(word.encode()) & 0x3FFFFFFF) | 1
+
+
+def _described(word: str) -> str:
+    """The word's tooltip."""
+    entry = WORDS[word]
+    if entry.neutral:
+        return "No expression: the resting face"
+    where = f"a degree of {entry.category}" if entry.category is not None else f"at {entry.angle:g}° on the emotion wheel"
+    if entry.category == word:
+        where = "one of the six archetypes"
+    return f"{where[0].upper()}{where[1:]}; its own activation is {entry.activation:g} of 7"
+
+
+def word_items(owner: Any, context: Any) -> list[tuple[str, str, str, str, int]]:
+    """The words: the six archetypes first, then the others by alphabet."""
+    if not _word_items:
+        archetypes = [str(a) for a in ARCHETYPES if str(a) in WORDS]
+        first = sorted(archetypes, key=lambda word: word != FIRST_WORD)
+        others = sorted(word for word in WORDS if word not in archetypes)
+        _word_items.extend((w, w.capitalize(), _described(w), "NONE", _number(w)) for w in [*first, *others])
+    return _word_items
+
+
+def variant_items(owner: Any, context: Any) -> list[tuple[str, str, str, int]]:
+    """The variants of the word's category in the paper's table of profiles; only the default between categories."""
+    entry = WORDS.get(owner.word)
+    category = entry.category if entry is not None else None
+    key = str(category or "")
+    if key not in _variant_items:
+        items = [(DEFAULT_VARIANT, "Default", "The variant that suits this word best", 0)]
+        for number in VARIANTS[category] if category is not None else ():
+            items.append((str(number), f"{key.capitalize()} {number}", f"Variant {number} of {key}", int(number) + 1))
+        _variant_items[key] = items
+    return _variant_items[key]
+
+
+def _word_chosen(owner: Any, context: Any) -> None:
+    """A new word starts with its own activation and its default variant."""
+    owner.activation = own_activation(owner.word)
+    owner.variant = DEFAULT_VARIANT
+
+
+class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
+    """Word, variant, activation and seed."""
+
+    word: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Emotion", description="What the face expresses", items=word_items, update=_word_chosen
+    )
+    variant: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Variant", description="People show an emotion in several ways: which one", items=variant_items
+    )
+    activation: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Activation",
+        description="How strongly it is felt, from 1 (hardly) to 7 (utterly). Below the slider is the word's own value",
+        default=own_activation(FIRST_WORD),
+        min=1.0,
+        max=7.0,
+        step=10,
+        precision=1,
+    )
+    seed: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Seed",
+        description="0 is the typical face; every other number draws another one within the emotion's ranges",
+        default=0,
+        min=0,
+    )
+    drive: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Drive",
+        description="What the face does with what is asked of it",
+        items=(
+            ("natural", "Natural", "What a face can do: anatomy and habit fill what the emotion leaves open"),
+            ("exact", "Exact", "Meet the requested animation parameters exactly"),
+            ("muscles", "Muscles Only", "Muscle contractions alone"),
+            ("points", "Points Only", "Feature points are moved and the skin follows; no muscles"),
+        ),
+        default="natural",
+    )
+
+
+CLASSES = (RISORIUS_PG_emotion,)

@@ -1,0 +1,76 @@
+"""Operators for the face: add the default head, import and forget feature points."""
+
+from typing import Any
+
+import bpy
+from bpy_extras.io_utils import ImportHelper
+
+from ...scene import faces, refusals
+from ...scene.points_file import read_points
+from ..base import RisoriusOperator
+
+
+class RISORIUS_OT_add_head(RisoriusOperator, bpy.types.Operator):
+    """Add a human head that is ready for expressions: skin, eyes, teeth, tongue and brows in one mesh"""
+
+    bl_idname = "risorius.add_head"
+    bl_label = "Add Default Head"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only in Object Mode."""
+        return None if context.mode == "OBJECT" else "Go to Object Mode (Tab) first"
+
+    def run(self, context: Any) -> str:
+        """Add it."""
+        from ...scene.head import add_default_head
+
+        obj = add_default_head(context)
+        return f"Added {obj.name}: choose an emotion and bake it"
+
+
+class RISORIUS_OT_import_points(RisoriusOperator, bpy.types.Operator, ImportHelper):
+    """Read the feature points of this mesh from a JSON file such as {"8.4": 6207, ...}: MPEG-4 name and vertex index"""
+
+    bl_idname = "risorius.import_points"
+    bl_label = "Import Feature Points"
+    bl_options = {"REGISTER", "UNDO"}
+    needs_scipy = False
+
+    filename_ext = ".json"
+    filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})  # type: ignore[valid-type]
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only for meshes that can be read."""
+        return refusals.reason(context.object, writing=False)
+
+    def run(self, context: Any) -> str:
+        """Read, check against the standard and the mesh, store."""
+        points = read_points(self.filepath)
+        faces.store_points(context.object, points)
+        return f"{context.object.name} has {len(points)} feature points"
+
+
+class RISORIUS_OT_forget_points(RisoriusOperator, bpy.types.Operator):
+    """Forget the feature points of this mesh. What has been baked stays"""
+
+    bl_idname = "risorius.forget_points"
+    bl_label = "Forget Feature Points"
+    bl_options = {"REGISTER", "UNDO"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where there are points."""
+        obj = context.object
+        return None if obj is not None and faces.has_points(obj) else "There are no feature points to forget"
+
+    def run(self, context: Any) -> str:
+        """Forget them."""
+        faces.forget_points(context.object)
+        return f"{context.object.name} has no feature points any more"
+
+
+CLASSES = (RISORIUS_OT_add_head, RISORIUS_OT_import_points, RISORIUS_OT_forget_points)

@@ -1,0 +1,72 @@
+"""The panel's top: which face, its feature points, its parts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...scene import faces, refusals
+from ..requirements import MISSING, REMEDY, has_scipy
+from ..sidebar import Sidebar
+from .ops import RISORIUS_OT_add_head, RISORIUS_OT_forget_points, RISORIUS_OT_import_points
+
+
+class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
+    """The tab: which face the panels below are about."""
+
+    bl_label = "Risorius"
+
+    def draw(self, context: Any) -> None:
+        """The active object, and what is missing."""
+        layout = self.layout
+        if not has_scipy():
+            box = layout.box().column(align=True)
+            box.alert = True
+            box.label(text=MISSING, icon="ERROR")
+            for line in REMEDY:
+                box.label(text=line)
+        obj = context.object
+        if obj is None or obj.type != "MESH":
+            column = layout.column(align=True)
+            column.label(text="Select the mesh of a face,", icon="INFO")
+            column.label(text="or start with the default head:", icon="BLANK1")
+        elif faces.has_points(obj):
+            layout.label(text=obj.name, icon="CHECKMARK")
+        else:
+            column = layout.column(align=True)
+            column.label(text=obj.name, icon="MESH_DATA")
+            column.label(text="Needs its feature points:", icon="INFO")
+            column.operator(RISORIUS_OT_import_points.bl_idname, icon="IMPORT")
+        layout.operator(RISORIUS_OT_add_head.bl_idname, icon="USER")
+
+
+class RISORIUS_PT_face(Sidebar, bpy.types.Panel):
+    """Feature points and separate parts of the active face."""
+
+    bl_label = "Face"
+    bl_parent_id = "RISORIUS_PT_main"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Only for meshes."""
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context: Any) -> None:
+        """Points, then parts."""
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        obj, face = context.object, context.object.risorius.face
+        row = layout.row(align=True)
+        row.operator(RISORIUS_OT_import_points.bl_idname, icon="IMPORT")
+        row.operator(RISORIUS_OT_forget_points.bl_idname, text="", icon="X")
+        column = layout.column(align=True)
+        column.label(text="Parts in other objects")
+        for name in ("eyeball_l", "eyeball_r", "teeth_upper", "teeth_lower", "tongue"):
+            column.prop(face, name)
+        if obj.data.users > 1 or refusals.reason(obj) is not None:
+            layout.prop(face, "make_single_user")
+
+
+CLASSES = (RISORIUS_PT_main, RISORIUS_PT_face)

@@ -1,0 +1,1 @@
+"""Rendering a film of the face."""

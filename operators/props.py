@@ -1,0 +1,37 @@
+"""The one property that Risorius adds to objects, and the one it adds to scenes."""
+
+import bpy
+
+from .bake.props import RISORIUS_PG_bake
+from .emotion.props import RISORIUS_PG_emotion
+from .face.props import RISORIUS_PG_face
+from .film.props import RISORIUS_PG_film
+
+
+class RISORIUS_PG_object(bpy.types.PropertyGroup):
+    """All that is chosen for one face; saved with its object."""
+
+    face: bpy.props.PointerProperty(type=RISORIUS_PG_face)  # type: ignore[valid-type]
+    emotion: bpy.props.PointerProperty(type=RISORIUS_PG_emotion)  # type: ignore[valid-type]
+    bake: bpy.props.PointerProperty(type=RISORIUS_PG_bake)  # type: ignore[valid-type]
+
+
+class RISORIUS_PG_scene(bpy.types.PropertyGroup):
+    """All that is chosen for a scene."""
+
+    film: bpy.props.PointerProperty(type=RISORIUS_PG_film)  # type: ignore[valid-type]
+
+
+CLASSES = (RISORIUS_PG_object, RISORIUS_PG_scene)
+
+
+def attach() -> None:
+    """Give objects and scenes their property."""
+    bpy.types.Object.risorius = bpy.props.PointerProperty(type=RISORIUS_PG_object)
+    bpy.types.Scene.risorius = bpy.props.PointerProperty(type=RISORIUS_PG_scene)
+
+
+def detach() -> None:
+    """Take it away again. What is saved in files stays there."""
+    del bpy.types.Scene.risorius
+    del bpy.types.Object.risorius

@@ -1,0 +1,14 @@
+"""Where all panels are: the 3D viewport's sidebar, tab Risorius."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+class Sidebar:
+    """Mix into `bpy.types.Panel`."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Risorius"
+    layout: Any
