@@ -1,0 +1,131 @@
+"""The built extension in a real Blender window: installed, seen, used, unregistered.
+
+Needs root and the shared tool that keeps a Blender with a virtual screen; skipped with the reason otherwise.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import time
+import zlib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PICTURE = ROOT / "out" / "test-reports" / "window.png"
+PATIENCE = 200.0  # s for the script in the window to get done
+
+
+def call(tool: Path, *arguments: str, settings: Path, timeout: float = 300.0) -> subprocess.CompletedProcess[str]:
+    """One call of the tool, with a settings folder of our own."""
+    environment = {**os.environ, "BLENDER_USER_RESOURCES": str(settings)}
+    command = [sys.executable, str(tool), *arguments]
+    return subprocess.run(
+        command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=timeout, check=False
+    )
+
+
+@pytest.fixture(scope="session")
+def blender(shared: Path) -> Path:
+    """The tool, with its Blender set up."""
+    tool = shared / "tools" / "blender-gui"
+    if not tool.is_file():
+        pytest.skip(f"{tool} is not there")
+    if not hasattr(os, "geteuid") or os.geteuid() != 0:
+        pytest.skip("a Blender with a virtual screen needs root")
+    try:
+        done = call(tool, "setup", settings=Path("/tmp"), timeout=900)
+    except subprocess.TimeoutExpired:
+        pytest.skip("setting up the Blender with a virtual screen took more than 15 minutes")
+    if done.returncode:
+        said = (done.stderr or done.stdout).strip()[-300:]
+        pytest.skip(f"the Blender with a virtual screen cannot be set up: {said}")
+    return tool
+
+
+@pytest.fixture(scope="session")
+def seen(blender: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Any]]:
+    """What the script in the window found, after a picture was taken; the window is closed at the end."""
+    folder = tmp_path_factory.mktemp("window")
+    settings, report = folder / "settings", folder / "report.json"
+    settings.mkdir()
+    build = [sys.executable, str(ROOT / "tools" / "build.py"), "--platform", "linux-x64", "--blender", "5.1"]
+    built = subprocess.run([*build, "--output", str(folder)], capture_output=True, text=True, check=False)
+    assert built.returncode == 0, built.stdout + built.stderr
+    (path,) = folder.glob("*.zip")
+    install = ["--command", "extension", "install-file", "-r", "user_default", "--enable", str(path)]
+    installed = call(blender, "background", *install, settings=settings)
+    assert installed.returncode == 0, installed.stdout + installed.stderr
+    script = str(ROOT / "tests" / "gui" / "in_window.py")
+    started = call(blender, "start", "--python", script, "--", str(report), settings=settings)
+    try:
+        assert started.returncode == 0, started.stdout + started.stderr
+        found = wait_for(report, lambda said: "shown" in said or "error" in said, blender, settings)
+        shot = call(blender, "shot", str(folder / "shot.png"), settings=settings)
+        assert shot.returncode == 0, shot.stderr
+        PICTURE.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(folder / "shot.png", PICTURE)
+        if "error" not in found:
+            shutil.copyfile(folder / "shot.png", report.with_suffix(".png"))
+            found = wait_for(report, lambda said: "after" in said or "error" in said, blender, settings)
+        yield {**found, "picture": folder / "shot.png"}
+    finally:
+        call(blender, "stop", settings=settings)
+
+
+def wait_for(
+    report: Path, done: Callable[[dict[str, Any]], bool], blender: Path, settings: Path
+) -> dict[str, Any]:  # fmt: skip
+    """The report of the script in the window, as soon as it says what is asked."""
+    until = time.monotonic() + PATIENCE
+    while time.monotonic() < until:
+        if report.exists():
+            said: dict[str, Any] = json.loads(report.read_text())
+            if done(said):
+                return said
+        time.sleep(0.5)
+    log = call(blender, "log", settings=settings).stdout
+    pytest.fail(f"the script in the window did not get there within {PATIENCE:g} s; Blender said:\n{log[-3000:]}")
+
+
+def colours(picture: Path) -> set[bytes]:
+    """The distinct pixel values of an 8-bit RGB PNG without filters (as the tool writes it)."""
+    data = picture.read_bytes()
+    width, height = struct.unpack(">II", data[16:24])
+    body, at = b"", 8
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        body += data[at + 8 : at + 8 + length] if kind == b"IDAT" else b""
+        at += length + 12
+    raw = zlib.decompress(body)
+    rows = (raw[y * (3 * width + 1) + 1 : (y + 1) * (3 * width + 1)] for y in range(height))
+    return {row[x : x + 3] for row in rows for x in range(0, 3 * width, 3)}
+
+
+def test_nothing_went_wrong_in_the_window(seen: dict[str, Any]) -> None:
+    assert "error" not in seen, seen.get("error")
+    assert seen["registered"]
+
+
+def test_head_is_added_and_baked_while_the_window_lives(seen: dict[str, Any]) -> None:
+    assert seen["add_head"] == ["FINISHED"]
+    assert seen["bake_begun"] == ["RUNNING_MODAL"]
+    assert seen["baked"]
+    assert max(seen["values"][1:]) > 0.9, "the apex is not shown"
+
+
+def test_tab_is_open_and_the_picture_is_not_blank(seen: dict[str, Any]) -> None:
+    assert seen["shown"] == "Risorius"
+    assert len(colours(seen["picture"])) > 1000
+
+
+def test_unregister_leaves_nothing_registered(seen: dict[str, Any]) -> None:
+    assert seen["after"] == []
