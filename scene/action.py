@@ -176,11 +176,18 @@ def play(keys: Any, action: Any) -> str | None:
         track.name = TRACK_NAME
     for strip in list(track.strips):
         track.strips.remove(strip)
+    add_strip(track, action)
+    return f"the action {current.name} stays; the clip plays on the NLA track {TRACK_NAME}"
+
+
+def add_strip(track: Any, action: Any) -> Any:
+    """Put a clip on an NLA track, at its own frames; outside them it says nothing."""
     strip = track.strips.new(action.name, int(action.frame_start), action)
     if hasattr(strip, "action_slot"):
         strip.action_slot = slot_of(action)
+    strip.frame_start = action.frame_start
     strip.extrapolation = "NOTHING"
-    return f"the action {current.name} stays; the clip plays on the NLA track {TRACK_NAME}"
+    return strip
 
 
 def remove_clip(face: str, clip: str, *, keys: Iterable[Any], key_names: Iterable[str]) -> None:

@@ -140,6 +140,7 @@ def bake_motion(
     start: float = 1.0,
     fps: float | None = None,
     emotions: Floats | None = None,
+    drive: str = "natural",
     tolerance: float = TOLERANCE,
 ) -> Work[BakeResult]:
     """Simulate a motion and bake it, compressed to as few shape keys as keep every vertex within `tolerance`.
@@ -150,7 +151,7 @@ def bake_motion(
     clip : name of the clip, and of its shape keys with a number; a clip of this name is replaced.
     start : first frame in Blender's timeline.
     fps : frames per second of `frames`; by default the scene's.
-    emotions : (T, 6) shares of the archetypes, as for `Face.simulate`.
+    emotions, drive : as for `Face.simulate`.
     tolerance : metres.
 
     Raises
@@ -165,7 +166,7 @@ def bake_motion(
     yield Progress(0.02, "Placing the muscles")
     face = face_of(source)
     displacements = np.empty((len(frames), *source.vertices.shape))
-    for index, positions in enumerate(face.simulation(frames, rate, emotions=emotions)):
+    for index, positions in enumerate(face.simulation(frames, rate, drive=drive, emotions=emotions)):
         displacements[index] = positions - source.vertices
         yield Progress(0.1 + 0.75 * (index + 1) / len(frames), f"Simulating frame {index + 1} of {len(frames)}")
     yield Progress(0.87, "Compressing the motion to shape keys")

@@ -13,7 +13,7 @@ from ..arrays import Floats
 from .lettering import LINE, Text, read_picture, write_picture, write_text
 
 COLUMNS = 3
-MARGIN, TITLE, LETTER = 24, 30.0, 15.0
+MARGIN, TITLE, LETTER = 24, 32.0, 18.0
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def _texts(exhibit: Exhibit, left: float, top: float, wide: int, high: int) -> l
         asked = ("asked", *(_figure(exhibit.values[name][0]) for name in chosen))
         shown = ("shown", *(_figure(exhibit.values[name][1]) for name in chosen))
         texts.append(Text(("", *chosen), x, first, LETTER))
-        texts.append(Text(asked, right - 4.0 * LETTER, first, LETTER, right=True))
+        texts.append(Text(asked, right - 3.6 * LETTER, first, LETTER, right=True))
         texts.append(Text(shown, right, first, LETTER, right=True))
     return texts
 

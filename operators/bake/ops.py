@@ -101,6 +101,7 @@ class RISORIUS_OT_bake_motion(BakeOperator, bpy.types.Operator):
             start=timing.start,
             fps=timing.fps,
             emotions=api.emotion_weights([cue], fps=timing.fps),
+            drive=obj.risorius.emotion.drive,
         )
 
 

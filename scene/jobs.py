@@ -1,0 +1,328 @@
+"""Whole jobs for the command line: from words to a .blend, a film, a contact sheet.
+
+A job starts from an empty file, so it refuses to run in a Blender with a window, where it would throw away what is
+open.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import ParameterError, SceneError
+from . import action as actions
+from . import bake, film
+from .contact_sheet import Exhibit, exhibit_values, write_sheet
+from .faces import face_of, read_face
+from .framing import framing_of
+from .mesh import key_vertices
+from .progress import Progress, Work, part_of, run
+from .studio import Engine, Look, furnish
+from .subjects import subject
+
+if TYPE_CHECKING:
+    from ..api import Cue
+
+ARCHETYPES = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
+#: Seconds of rest before, between and after expressions.
+PAUSE = 0.3
+#: Frame at which a job's motion begins.
+FIRST_FRAME = 1
+
+Report = Callable[[Progress], None]
+
+
+@dataclass(frozen=True)
+class Made:
+    """What a job has written; ``dict(made)`` names it all."""
+
+    blend: Path | None = None
+    film: Path | None = None
+    sheet: Path | None = None
+    frames: int = 0
+    shape_keys: int = 0
+    error_mm: float = 0.0
+    remarks: tuple[str, ...] = ()
+
+    def __iter__(self) -> Iterator[tuple[str, Any]]:
+        """Name and value of everything there is."""
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if value not in (None, ()):
+                yield field.name, value
+
+
+DemoResult = Made
+
+
+def bake_file(
+    out: str | Path,
+    *,
+    mesh: str | Path | None = None,
+    points: str | Path | None = None,
+    words: Sequence[str] = ARCHETYPES,
+    fps: float = 25.0,
+    dynamic: bool = False,
+    progress: Report | None = None,
+) -> Made:
+    """Bake words onto a face and save the .blend.
+
+    Parameters
+    ----------
+    out : the .blend to write.
+    mesh, points : see `subjects.subject`.
+    words : shown one after another.
+    dynamic : simulate one motion through all words, instead of one shape key per word.
+    progress : called with each step.
+
+    Raises
+    ------
+    RisoriusError : nothing has been written then.
+    """
+    return run(_bake_file(Path(out), mesh, points, words, fps, dynamic), progress)
+
+
+def render_film(
+    out: str | Path,
+    *,
+    mesh: str | Path | None = None,
+    points: str | Path | None = None,
+    words: Sequence[str] = ARCHETYPES,
+    engine: str = "WORKBENCH",
+    fps: float = 25.0,
+    progress: Report | None = None,
+) -> Made:
+    """Simulate words on a face and write the film (.mp4). Parameters as in `bake_file` and `demo`."""
+    return run(_render_film(Path(out), mesh, points, words, Look(engine=_engine(engine)), fps), progress)
+
+
+def demo(
+    out_dir: str | Path,
+    *,
+    mesh: str | Path | None = None,
+    points: str | Path | None = None,
+    words: Sequence[str] = ARCHETYPES,
+    engine: str = "WORKBENCH",
+    fps: float = 25.0,
+    progress: Report | None = None,
+) -> Made:
+    """One film of all words with onset, apex and offset, the .blend it is from, and a contact sheet of the apexes.
+
+    Parameters
+    ----------
+    out_dir : folder for risorius.mp4, risorius.blend and risorius.png; made where missing.
+    mesh, points : see `subjects.subject`.
+    words : shown one after another.
+    engine : "WORKBENCH", "EEVEE" or "CYCLES".
+    fps : frames per second.
+    progress : called with each step.
+
+    Raises
+    ------
+    RisoriusError : names the file, the word, the point or the object, and the remedy.
+    """
+    return run(_demo(Path(out_dir), mesh, points, words, Look(engine=_engine(engine)), fps), progress)
+
+
+def cues_of(words: Sequence[str]) -> list[Cue]:
+    """One cue per word, one after another, each with the natural timing."""
+    from .. import api
+
+    if not words:
+        raise ParameterError("words", "must name at least one emotion", tuple(words))
+    timing = api.load_timings()["natural"]
+    cues: list[Cue] = []
+    start = PAUSE
+    for word in words:
+        profile = api.expression(word)
+        cues.append(api.Cue(profile, start=start, onset=timing.onset, apex=timing.apex, offset=timing.offset))
+        start = cues[-1].start + cues[-1].duration + PAUSE
+    return cues
+
+
+def _engine(name: str) -> Engine:
+    """The engine of that name."""
+    try:
+        return Engine(name.upper())
+    except ValueError:
+        raise ParameterError("engine", f"must be one of {', '.join(Engine)}", name) from None
+
+
+def _empty_file(fps: float) -> None:
+    """An empty file with this frame rate."""
+    if not bpy.app.background:
+        raise SceneError("This job", "starts from an empty file: run it from the command line (blender --command risorius)")
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    if not (np.isfinite(fps) and 1.0 <= fps <= 240.0):
+        raise ParameterError("fps", "must lie between 1 and 240", fps)
+    render = bpy.context.scene.render
+    render.fps = max(1, round(fps))
+    render.fps_base = render.fps / fps
+
+
+def _move(obj: Any, words: Sequence[str], fps: float) -> Work[tuple[list[Cue], bake.BakeResult]]:
+    """Simulate all words as one motion."""
+    from .. import api
+
+    cues = cues_of(words)
+    frames = api.sequence(cues, fps=fps)
+    rest = np.repeat(frames[-1:], max(1, round(PAUSE * fps)), axis=0)
+    emotions = api.emotion_weights(cues, fps=fps)
+    result = yield from bake.bake_motion(
+        bake.Target(obj),
+        np.concatenate([frames, rest]),
+        clip="performance",
+        start=FIRST_FRAME,
+        fps=fps,
+        emotions=np.concatenate([emotions, np.zeros((len(rest), emotions.shape[1]))]),
+    )
+    bpy.context.scene.frame_start, bpy.context.scene.frame_end = (int(frame) for frame in result.frame_range)
+    return cues, result
+
+
+def _bake_file(out: Path, mesh: Any, points: Any, words: Sequence[str], fps: float, dynamic: bool) -> Work[Made]:
+    """See `bake_file`."""
+    film.refuse_unwritable_output(out)
+    cues = cues_of(words)
+    _empty_file(fps)
+    yield Progress(0.0, "Loading the face")
+    obj = subject(mesh, points)
+    if dynamic:
+        _, moved = yield from part_of(_move(obj, words, fps), 0.05, 0.95)
+        results = [moved]
+    else:
+        results = yield from part_of(_pose_all(obj, cues, fps), 0.05, 0.95)
+        _line_up(obj, results)
+    furnish(bpy.context.scene, framing_of(obj), Look())
+    save(out)
+    keys = sum(len(result.keys) for result in results)
+    error = max(result.error for result in results)
+    return Made(blend=out, shape_keys=keys, error_mm=round(error * 1000.0, 4), remarks=results[-1].remarks)
+
+
+def _pose_all(obj: Any, cues: Sequence[Cue], fps: float) -> Work[list[bake.BakeResult]]:
+    """One shape key per cue, each clip at its cue's time."""
+    results = []
+    for index, cue in enumerate(cues):
+        timing = bake.ClipTiming(
+            start=FIRST_FRAME + cue.start * fps, onset=cue.onset, apex=cue.apex, offset=cue.offset, fps=fps
+        )
+        work = bake.bake_expression(
+            bake.Target(obj),
+            cue.profile.frame(),
+            clip=str(cue.profile.word),
+            timing=timing,
+            emotion=cue.profile.weights,
+        )
+        share = 1.0 / len(cues)
+        results.append((yield from part_of(work, index * share, (index + 1) * share)))
+    return results
+
+
+def _line_up(obj: Any, results: Sequence[bake.BakeResult]) -> None:
+    """Put the clips one after another on an NLA track, and the scene's end at the last one's."""
+    animation = obj.data.shape_keys.animation_data
+    animation.action = None
+    track = animation.nla_tracks.new()
+    track.name = actions.TRACK_NAME
+    for result in results:
+        actions.add_strip(track, bpy.data.actions[result.action])
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = FIRST_FRAME, int(np.ceil(max(result.frame_range[1] for result in results)))
+
+
+def _render_film(out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float) -> Work[Made]:
+    """See `render_film`."""
+    film.refuse_unwritable_output(out)
+    cues_of(words)
+    _empty_file(fps)
+    yield Progress(0.0, "Loading the face")
+    obj = subject(mesh, points)
+    _, moved = yield from part_of(_move(obj, words, fps), 0.02, 0.4)
+    scene = bpy.context.scene
+    work = film.render_film([obj], out, start=scene.frame_start, end=scene.frame_end, look=look)
+    rendered = yield from part_of(work, 0.4, 1.0)
+    return Made(film=rendered.path, frames=rendered.frame_count, remarks=moved.remarks + rendered.remarks)
+
+
+def _demo(out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float) -> Work[Made]:
+    """See `demo`."""
+    blend, movie, sheet = (out / f"risorius.{suffix}" for suffix in ("blend", "mp4", "png"))
+    for path in (blend, movie, sheet):
+        film.refuse_unwritable_output(path)
+    cues_of(words)
+    _empty_file(fps)
+    yield Progress(0.0, "Loading the face")
+    obj = subject(mesh, points)
+    cues, moved = yield from part_of(_move(obj, words, fps), 0.02, 0.35)
+    scene = bpy.context.scene
+    with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
+        work = film.render_film([obj], movie, start=scene.frame_start, end=scene.frame_end, look=look, frames=folder)
+        rendered = yield from part_of(work, 0.35, 0.95)
+        yield Progress(0.96, "Composing the contact sheet")
+        write_sheet(_exhibits(obj, cues, fps, Path(folder)), sheet)
+    yield Progress(0.99, "Saving the .blend")
+    furnish(scene, framing_of(obj), look)
+    save(blend)
+    return Made(
+        blend=blend,
+        film=movie,
+        sheet=sheet,
+        frames=rendered.frame_count,
+        shape_keys=len(moved.keys),
+        error_mm=round(moved.error * 1000.0, 4),
+        remarks=moved.remarks + rendered.remarks,
+    )
+
+
+def apex_frame(cue: Cue, fps: float) -> int:
+    """The frame at the end of a cue's apex, when the face has settled."""
+    return FIRST_FRAME + int(np.floor((cue.start + cue.onset + cue.apex) * fps))
+
+
+def _exhibits(obj: Any, cues: Sequence[Cue], fps: float, folder: Path) -> list[Exhibit]:
+    """Each cue's apex: its picture, and what was asked against what the baked face shows."""
+    from .. import api
+
+    source = read_face(obj)
+    face = face_of(source)
+    labels = [f"F{fap.number} {fap.name}" for fap in api.FAPS.values()]
+    exhibits = []
+    for cue in cues:
+        frame = apex_frame(cue, fps)
+        shown = face.measure(source.vertices + _played(obj, source.pieces[0].to_metres[:3, :3], frame))
+        values = exhibit_values(labels, cue.profile.frame(), shown)
+        caption = f"activation {cue.profile.activation:.1f}"
+        exhibits.append(Exhibit(str(cue.profile.word), caption, folder / f"{frame:04d}.png", values))
+    return exhibits
+
+
+def _played(obj: Any, to_metres: Floats, frame: int) -> Floats:
+    """(V, 3) displacement that the shape keys make at a frame, metres."""
+    bpy.context.scene.frame_set(frame)
+    blocks = obj.data.shape_keys.key_blocks
+    basis = key_vertices(blocks[0])
+    moved = sum((block.value * (key_vertices(block) - basis) for block in blocks[1:]), np.zeros_like(basis))
+    displacement: Floats = moved @ to_metres.T
+    return displacement
+
+
+def save(path: Path) -> None:
+    """Save the open file.
+
+    Raises
+    ------
+    SceneError : it could not be written.
+    """
+    bpy.context.scene.frame_set(bpy.context.scene.frame_start)
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=str(path.resolve()), compress=True, check_existing=False)
+    except RuntimeError as problem:
+        raise SceneError(str(path), f"could not be saved ({problem}): choose another folder") from problem

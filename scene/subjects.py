@@ -1,0 +1,165 @@
+"""Whose face a job is about: the default head, or a mesh from a file with its feature points."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..arrays import Floats, Ints
+from ..errors import FormatError, SceneError
+from ..face.parts import Part
+from . import mesh as meshes
+from .faces import face_of, has_points, read_face, store_points
+from .head import add_default_head, select_only
+from .points_file import read_points
+
+#: Colours (linear RGB) of meshes that bring no materials, by part; the iris is cut out of the eyeballs.
+PLAIN_COLOURS = {
+    "Skin": (0.55, 0.36, 0.28),
+    "Sclera": (0.8, 0.78, 0.75),
+    "Teeth": (0.75, 0.7, 0.6),
+    "Tongue": (0.45, 0.14, 0.13),
+    "Other": (0.16, 0.1, 0.08),
+    "Iris": (0.1, 0.2, 0.25),
+}
+_COLOUR_OF_PART = {
+    Part.SKIN: 0,
+    Part.EYEBALL_L: 1,
+    Part.EYEBALL_R: 1,
+    Part.TEETH_UPPER: 2,
+    Part.TEETH_LOWER: 2,
+    Part.TONGUE: 3,
+    Part.OTHER: 4,
+}
+_IRIS = 5
+IRIS_RADIUS = 0.09  # of the distance between the pupils: 5.7 mm on a face of 63 mm
+
+
+def subject(mesh: str | Path | None = None, points: str | Path | None = None) -> Any:
+    """Put the face of a job into the current scene.
+
+    Parameters
+    ----------
+    mesh : .npz, .obj, .blend, .glb or .gltf; by default the default head.
+    points : JSON file of its feature points; may be left out for a .blend whose object has them stored.
+
+    Returns
+    -------
+    The object.
+
+    Raises
+    ------
+    FormatError, SceneError : a file that cannot be read, no mesh in it, or no feature points.
+    """
+    if mesh is None:
+        return add_default_head()
+    path = Path(mesh)
+    suffix = path.suffix.lower()
+    if suffix in (".npz", ".obj"):
+        obj = _from_arrays(path)
+    elif suffix == ".blend":
+        obj = _from_blend(path)
+    elif suffix in (".glb", ".gltf"):
+        obj = _from_gltf(path)
+    else:
+        raise FormatError(path, "is none of .npz, .obj, .blend, .glb and .gltf: export the mesh as one of these")
+    if points is not None:
+        store_points(obj, read_points(points))
+    if not has_points(obj):
+        raise SceneError(obj.name, "has no feature points: give them with --points")
+    if not obj.data.materials:
+        paint_parts(obj)
+    select_only(obj)
+    return obj
+
+
+def _from_arrays(path: Path) -> Any:
+    """A mesh that is read without Blender, vertex for vertex."""
+    from ..face.mesh_file import read_mesh
+
+    stored = read_mesh(path)
+    obj = bpy.data.objects.new(
+        path.stem, meshes.new_mesh(path.stem, stored.vertices, *meshes.flatten_polygons(stored.polygons))
+    )
+    bpy.context.collection.objects.link(obj)
+    return obj
+
+
+def _from_blend(path: Path) -> Any:
+    """The mesh object of a .blend: the one with feature points, else the one with the most vertices."""
+    if not path.is_file():
+        raise FormatError(path, "there is no such file")
+    try:
+        with bpy.data.libraries.load(str(path)) as (there, here):
+            here.objects = list(there.objects)
+    except OSError as problem:
+        raise FormatError(path, f"is not a .blend that this Blender reads ({problem})") from problem
+    found = [obj for obj in here.objects if obj is not None]
+    chosen = _largest(found, path)
+    for obj in found:
+        if obj == chosen or obj.parent is not None or obj.type in {"MESH", "ARMATURE", "EMPTY"}:
+            bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.update()
+    return chosen
+
+
+def _from_gltf(path: Path) -> Any:
+    """The largest mesh of a glTF file."""
+    if not path.is_file():
+        raise FormatError(path, "there is no such file")
+    before = set(bpy.data.objects)
+    try:
+        bpy.ops.import_scene.gltf(filepath=str(path))
+    except (RuntimeError, AttributeError) as problem:
+        raise FormatError(path, f"cannot be imported: {problem}") from problem
+    return _largest([obj for obj in bpy.data.objects if obj not in before], path)
+
+
+def _largest(objects: list[Any], path: Path) -> Any:
+    """The mesh with feature points, else the one with the most vertices."""
+    candidates = [obj for obj in objects if obj.type == "MESH"]
+    if not candidates:
+        raise FormatError(path, "has no mesh in it")
+    return max(candidates, key=lambda obj: (has_points(obj), len(obj.data.vertices)))
+
+
+def paint_parts(obj: Any) -> None:
+    """Give a mesh without materials one per part of its face, so that eyes and teeth can be told from skin."""
+    source = read_face(obj)
+    parts = np.asarray(face_of(source).parts)
+    corners, sizes = meshes.polygon_arrays(obj.data)
+    first = corners[np.cumsum(sizes) - sizes]
+    lookup = np.zeros(max(_COLOUR_OF_PART) + 1, dtype=np.int64)
+    for part, index in _COLOUR_OF_PART.items():
+        lookup[part] = index
+    colours = lookup[parts[first]]
+    centres = np.add.reduceat(source.vertices[corners], np.cumsum(sizes) - sizes) / sizes[:, None]
+    colours[_iris_faces(obj, source.vertices, centres, colours)] = _IRIS
+    for name, colour in PLAIN_COLOURS.items():
+        material = bpy.data.materials.new(f"Risorius plain {name.lower()}")
+        material.diffuse_color = (*colour, 1.0)
+        material.use_nodes = True
+        for node in material.node_tree.nodes:
+            if node.type == "BSDF_PRINCIPLED":
+                node.inputs["Base Color"].default_value = (*colour, 1.0)
+        obj.data.materials.append(material)
+    obj.data.polygons.foreach_set("material_index", colours.astype(np.int32))
+    obj.data.update()
+
+
+def _iris_faces(obj: Any, vertices: Floats, centres: Floats, colours: Ints) -> Ints:
+    """Faces of the eyeballs that lie round the pupils, where the face has both pupils' points."""
+    points = read_face(obj).points
+    if "3.5" not in points or "3.6" not in points:
+        return np.zeros(0, dtype=np.int64)
+    pupils = []
+    for name in ("3.5", "3.6"):
+        point = points[name]
+        pupils.append(vertices[point] if isinstance(point, int) else np.asarray(point))
+    reach = IRIS_RADIUS * float(np.linalg.norm(pupils[0] - pupils[1]))
+    nearest = np.minimum(*(np.linalg.norm(centres - pupil, axis=1) for pupil in pupils))
+    found: Ints = np.flatnonzero((nearest < reach) & (colours == _COLOUR_OF_PART[Part.EYEBALL_L]))
+    return found
