@@ -1,0 +1,91 @@
+"""The public API: arrays and dataclasses in and out, no Blender.
+
+Everything here may be used by scripts; names and shapes are kept. The operators, the command line and your scripts
+all go through it.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from .face.default_head import HeadMesh, build_default_head
+from .face.face import Clip, Face
+from .face.frame import Fapu
+from .face.parts import Part
+from .face.points import REQUIRED as REQUIRED_POINTS
+from .face.pose import Pose
+from .face.wishes import Drive
+from .mpeg4 import (
+    ARCHETYPES,
+    FAPS,
+    FEATURE_POINTS,
+    FEATURES,
+    WORDS,
+    Archetype,
+    Beliefs,
+    Cue,
+    Fap,
+    FapStream,
+    Profile,
+    Timing,
+    archetype,
+    between,
+    emotion_weights,
+    envelope,
+    expression,
+    fap,
+    initial_profile,
+    load_emotions,
+    load_timings,
+    read_fap,
+    recognise,
+    recognise_features,
+    sequence,
+    write_fap,
+)
+
+__all__ = [
+    "ARCHETYPES",
+    "FAPS",
+    "FEATURES",
+    "FEATURE_POINTS",
+    "REQUIRED_POINTS",
+    "WORDS",
+    "Archetype",
+    "Beliefs",
+    "Clip",
+    "Cue",
+    "Drive",
+    "Face",
+    "Fap",
+    "FapStream",
+    "Fapu",
+    "HeadMesh",
+    "Part",
+    "Pose",
+    "Profile",
+    "Timing",
+    "archetype",
+    "between",
+    "build_default_head",
+    "default_face",
+    "emotion_weights",
+    "envelope",
+    "expression",
+    "fap",
+    "initial_profile",
+    "load_emotions",
+    "load_timings",
+    "read_fap",
+    "recognise",
+    "recognise_features",
+    "sequence",
+    "write_fap",
+]
+
+
+@lru_cache(maxsize=1)
+def default_face() -> Face:
+    """The default head as a face; built once."""
+    head = build_default_head()
+    return Face.from_arrays(head.vertices, head.polygons, head.points, head.parts)

@@ -1,0 +1,217 @@
+"""One face prepared for motion: skin, tissue, jaw, eyes, muscles, inverse; built from a checked mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..arrays import Bools, Floats, Ints
+from ..errors import ModelError
+from ..physics import mesh
+from ..physics.elastic import laplacian
+from .actuators import Actuators
+from .eyes import Eye, build_eye
+from .followers import InnerSkin, LooseParts
+from .frame import Fapu, HeadFrame
+from .inverse import Inverse
+from .jaw import Jaw, build_jaw
+from .muscle_fields import PlacedMuscle, place_muscles
+from .muscle_table import read_muscles
+from .openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, edge_graph, find_opening, outer_faces
+from .organs import PUPIL_SHARE, Eyeball, HeadTurn, Tongue, build_head_turn, build_tongue
+from .outer_skin import OuterSkin
+from .parts import Part
+from .points import FeaturePoints
+from .rows import FapRows, displacement_rows
+from .template import MM, TEMPLATE_POINTS, TemplateWarp
+from .tissue import Tissue
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """The neutral mesh of a face in head space.
+
+    Attributes
+    ----------
+    positions : (V, 3) metres. polygons : vertex index arrays. parts : (V,) numbers of `Part`.
+    points : bound feature points (their positions in the face's own coordinates).
+    landmarks : feature point -> (3,) in head space.
+    frame, units : where the head is, and its FAP units.
+    """
+
+    positions: Floats
+    polygons: Sequence[Ints]
+    parts: Ints
+    points: FeaturePoints
+    landmarks: Mapping[str, Floats]
+    frame: HeadFrame
+    units: Fapu
+
+
+def _vertex_of(points: FeaturePoints) -> dict[str, int]:
+    """Feature point -> the vertex nearest to it on its polygon."""
+    return {n: int(p.vertices[np.argmax(p.weights)]) for n, p in points.items() if p.is_bound}
+
+
+class Anatomy:
+    """The moving parts of one face; each is built when first asked for."""
+
+    def __init__(self, face_mesh: Mesh) -> None:
+        self.mesh = face_mesh
+
+    @cached_property
+    def warp(self) -> TemplateWarp:
+        """Template to this face."""
+        return TemplateWarp(self.mesh.landmarks)
+
+    @cached_property
+    def _skin_polygons(self) -> list[Ints]:
+        parts = self.mesh.parts
+        polygons = [p for p in self.mesh.polygons if (parts[p] == Part.SKIN).all()]
+        if not polygons:
+            raise ModelError("the face has no polygon of skin")
+        return polygons
+
+    @cached_property
+    def skin(self) -> OuterSkin:
+        """The outer skin."""
+        face_mesh = self.mesh
+        polygons = self._skin_polygons
+        edges = mesh.unique_edges(polygons)
+        graph = edge_graph(edges, face_mesh.positions)
+        nearest = _vertex_of(face_mesh.points)
+        openings = [find_opening(graph, nearest, LIP_UPPER, LIP_LOWER)]
+        openings += [find_opening(graph, nearest, *LIDS[side]) for side in "lr"]
+        outside = outer_faces(polygons, openings, nearest["9.3"])
+        kept = [polygon for polygon, keep in zip(polygons, outside, strict=True) if keep]
+        index = np.unique(np.concatenate(kept))
+        local = np.full(len(face_mesh.positions), -1, dtype=np.int64)
+        local[index] = np.arange(len(index))
+
+        def inside(opening: Opening) -> Opening:
+            return Opening(*(local[arc][local[arc] >= 0] for arc in (opening.upper, opening.lower)))
+
+        return OuterSkin(
+            index=index,
+            positions=face_mesh.positions[index],
+            polygons=[local[p] for p in kept],
+            points=dict(face_mesh.landmarks),
+            mouth=inside(openings[0]),
+            eyes={"l": inside(openings[1]), "r": inside(openings[2])},
+        )
+
+    @cached_property
+    def tissue(self) -> Tissue:
+        """Its elastic response."""
+        return Tissue(self.skin)
+
+    @cached_property
+    def jaw(self) -> Jaw:
+        """The mandible."""
+        return build_jaw(self.skin, self.warp)
+
+    def _part(self, part: Part) -> Ints:
+        return np.flatnonzero(self.mesh.parts == part)
+
+    @cached_property
+    def eyes(self) -> dict[str, Eye]:
+        """The lids' axes, by "l" and "r"."""
+        found = {}
+        for side, part in (("l", Part.EYEBALL_L), ("r", Part.EYEBALL_R)):
+            ball = self.mesh.positions[self._part(part)]
+            found[side] = build_eye(self.skin, side, ball if len(ball) else None)
+        return found
+
+    @cached_property
+    def muscles(self) -> list[PlacedMuscle]:
+        """Every muscle of the table, placed on this face."""
+        return place_muscles(read_muscles(), self.warp)
+
+    @cached_property
+    def actuators(self) -> Actuators:
+        """Muscles, lids and jaw with their fields."""
+        return Actuators(self.skin, self.tissue, self.jaw, self.eyes, self.muscles)
+
+    @cached_property
+    def rows(self) -> FapRows:
+        """Displacement FAPs whose points lie on the mesh."""
+        return displacement_rows(self.mesh.points, self.mesh.units, self.mesh.frame)
+
+    @cached_property
+    def skin_rows(self) -> FapRows:
+        """Those of `rows` whose points lie wholly on the outer skin."""
+        on_skin = np.zeros(len(self.mesh.positions), dtype=bool)
+        on_skin[self.skin.index] = True
+        keep = np.array([bool(on_skin[self.mesh.points[n].vertices].all()) for n in self.rows.names])
+        return FapRows(
+            numbers=self.rows.numbers[keep],
+            names=tuple(n for n, k in zip(self.rows.names, keep, strict=True) if k),
+            directions=self.rows.directions[keep],
+            units=self.rows.units[keep],
+        )
+
+    @cached_property
+    def inverse(self) -> Inverse:
+        """FAP rows to amounts."""
+        reader = self.mesh.points.matrix(self.skin_rows.names)[:, self.skin.index]
+        return Inverse(self.skin_rows, reader, self.actuators, self.tissue)
+
+    @cached_property
+    def inner_skin(self) -> InnerSkin:
+        """Mouth bag and sockets."""
+        inner: Bools = self.mesh.parts == Part.SKIN
+        inner[self.skin.index] = False
+        return InnerSkin(laplacian(self.mesh.positions, self._skin_polygons), inner)
+
+    @cached_property
+    def loose_parts(self) -> LooseParts:
+        """Brows, lashes and whatever has no part of its own: they go with outer skin and teeth."""
+        carriers = np.union1d(self.skin.index, np.union1d(self._part(Part.TEETH_UPPER), self._part(Part.TEETH_LOWER)))
+        return LooseParts(self.mesh.positions, self._part(Part.OTHER), carriers)
+
+    @cached_property
+    def lower_teeth(self) -> Ints:
+        """Vertices that go with the mandible: lower teeth and tongue."""
+        return np.union1d(self._part(Part.TEETH_LOWER), self._part(Part.TONGUE))
+
+    @cached_property
+    def eyeballs(self) -> list[Eyeball]:
+        """The eyeballs that the mesh has."""
+        units, scale = self.mesh.units, self.mesh.frame.scale
+        lengths = (units.es0 / 1024.0 / scale, units.irisd0 / 1024.0 / scale)
+        found = []
+        for side, part, pupil, faps in (
+            ("l", Part.EYEBALL_L, "3.5", (23, 25, 27, 29)),
+            ("r", Part.EYEBALL_R, "3.6", (24, 26, 28, 30)),
+        ):
+            index = self._part(part)
+            if len(index) == 0:
+                continue
+            eye = self.eyes[side]
+            gaze = self.mesh.landmarks[pupil] - eye.centre
+            gaze = gaze / np.linalg.norm(gaze)
+            iris = float(np.arcsin(min(0.5 * units.irisd0 / scale / eye.radius, 0.9)))
+            found.append(
+                Eyeball(index, self.mesh.positions[index], eye.centre, gaze, iris * PUPIL_SHARE, iris, faps, lengths)
+            )
+        return found
+
+    @cached_property
+    def tongue(self) -> Tongue | None:
+        """The tongue, where the mesh has one."""
+        index = self._part(Part.TONGUE)
+        if len(index) == 0:
+            return None
+        units, scale = self.mesh.units, self.mesh.frame.scale
+        return build_tongue(index, self.mesh.positions[index], (units.mw0 / 1024.0 / scale, units.mns0 / 1024.0 / scale))
+
+    @cached_property
+    def head_turn(self) -> HeadTurn:
+        """The head on its spine."""
+        landmarks = self.mesh.landmarks
+        pivot = landmarks["7.1"] if "7.1" in landmarks else self.warp(TEMPLATE_POINTS["7.1"]) if "7.1" in TEMPLATE_POINTS else np.array([0.0, 0.0, -128.0]) * MM
+        brow = float(landmarks["4.3"][1] + landmarks["4.4"][1]) / 2.0
+        return build_head_turn(self.mesh.positions, pivot, brow)

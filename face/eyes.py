@@ -1,0 +1,153 @@
+"""The eyes of one face: eyeballs that turn, lids that turn about them, pupils that widen.
+
+A lid is a sheet on a ball: it moves by turning about the horizontal axis through the eyeball's centre, the whole
+margin by nearly the same angle, and slides a little towards the nose as it closes. Source: scanned blinks
+(docs/muscles.md).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from ..arrays import Floats
+from .outer_skin import OuterSkin, smoothstep
+from .template import MM
+
+#: Centre of the eyeball behind the middle of the two eye corners, template head space: inwards, up, forward (metres).
+CENTRE_FROM_CORNERS = np.array([0.9, 1.5, -9.5]) * MM
+
+#: Distance of lid skin over the eyeball that a closing lid keeps at least.
+LID_CLEARANCE = 0.1 * MM
+
+NASAL_SLIDE_LOWER = 0.42
+NASAL_SLIDE_UPPER = 0.12
+
+
+class LidMove(StrEnum):
+    """The four movements of a pair of lids; each is a muscle of its own and only pulls one way."""
+
+    UPPER_CLOSE = "upper_close"
+    UPPER_OPEN = "upper_open"
+    LOWER_UP = "lower_up"
+    LOWER_DOWN = "lower_down"
+
+
+#: Point that measures a move, and the sign of its angle (positive turns downwards).
+_MOVES = {
+    LidMove.UPPER_CLOSE: ("upper", 1.0),
+    LidMove.UPPER_OPEN: ("upper", -1.0),
+    LidMove.LOWER_UP: ("lower", -1.0),
+    LidMove.LOWER_DOWN: ("lower", 1.0),
+}
+
+
+@dataclass(frozen=True)
+class Eye:
+    """One eye in head space.
+
+    Attributes
+    ----------
+    side : "l" or "r", the subject's.
+    centre, radius : the ball the lids turn about, metres.
+    weights : move -> (n,) share of the move's angle that each skin vertex turns by.
+    slides : move -> (n,) metres towards the nose per radian.
+    angle_per_metre : move -> radians that move the lid's middle by one metre.
+    """
+
+    side: str
+    centre: Floats
+    radius: float
+    weights: dict[LidMove, Floats]
+    slides: dict[LidMove, Floats]
+    angle_per_metre: dict[LidMove, float]
+
+    def angles(self, moves: dict[LidMove, float]) -> tuple[Floats, Floats]:
+        """Angles (n,) and nasal slides (n,) of the skin for lid movements in metres at the middle of the lid."""
+        angle = np.zeros_like(next(iter(self.weights.values())))
+        slide = np.zeros_like(angle)
+        for move, amount in moves.items():
+            turn = amount * self.angle_per_metre[move]
+            angle += _MOVES[move][1] * turn * self.weights[move]
+            slide += turn * self.slides[move]
+        return angle, slide
+
+    def skin(self, positions: Floats, moves: dict[LidMove, float]) -> Floats:
+        """Displacement (n, 3) of the outer skin by lid movements, as exact rotations about the eyeball's axis."""
+        angle, slide = self.angles(moves)
+        y, z = positions[:, 1] - self.centre[1], positions[:, 2] - self.centre[2]
+        cosine, sine = np.cos(angle), np.sin(angle)
+        moved = np.zeros_like(positions)
+        moved[:, 0] = slide * (-1.0 if self.side == "l" else 1.0)
+        moved[:, 1] = (cosine - 1.0) * y - sine * z
+        moved[:, 2] = sine * y + (cosine - 1.0) * z
+        return moved
+
+    def clear(self, positions: Floats, rest: Floats, near: Floats) -> Floats:
+        """Positions (n, 3) with lid skin (weight `near` (n,)) kept as far off the eyeball as it was at rest, or nearly."""
+        away = positions - self.centre
+        distance = np.linalg.norm(away, axis=1)
+        wanted = np.minimum(np.linalg.norm(rest - self.centre, axis=1), self.radius + LID_CLEARANCE)
+        short = np.maximum(wanted - distance, 0.0) * near
+        lifted: Floats = positions + away * (short / np.maximum(distance, 1e-6))[:, None]
+        return lifted
+
+
+def _fissure_position(skin: OuterSkin, side: str) -> Floats:
+    """(n,) where a vertex lies along the eye: 0 at the inner corner, 1 at the outer one."""
+    inner, outer = (skin.points["3.11"], skin.points["3.7"]) if side == "l" else (skin.points["3.8"], skin.points["3.12"])
+    axis = outer - inner
+    along: Floats = (skin.positions - inner) @ axis / (axis @ axis)
+    return along
+
+
+def _taper(along: Floats) -> Floats:
+    """(n,) full in the middle of the lid, 0 at its corners."""
+    return smoothstep((along + 0.04) / 0.26) * smoothstep((1.03 - along) / 0.14)
+
+
+def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
+    """One eye from its points, the skin, and the eyeball's vertices (k, 3) in head space where the mesh has them."""
+    names = ("3.11", "3.7", "3.1", "3.3") if side == "l" else ("3.8", "3.12", "3.2", "3.4")
+    inner, outer, top, bottom = (skin.points[n] for n in names)
+    if eyeball is not None and len(eyeball) >= 12:
+        centre, radius = fit_sphere(eyeball)
+    else:
+        inwards = np.array([-1.0 if side == "l" else 1.0, 1.0, 1.0])
+        centre = (inner + outer) / 2.0 + CENTRE_FROM_CORNERS * inwards
+        radius = float(min(np.linalg.norm(top - centre), np.linalg.norm(bottom - centre))) - 0.3 * MM
+    upper, lower = skin.lid_distances(side)
+    along = _fissure_position(skin, side)
+    taper = _taper(along)
+    on_upper = smoothstep(((lower - upper) / (2 * MM) + 1.0) / 2.0)
+    on_lower = 1.0 - on_upper
+    weights = {
+        LidMove.UPPER_CLOSE: taper * on_upper * (1.0 - smoothstep(upper / (8.0 * MM))),
+        LidMove.UPPER_OPEN: taper * on_upper * (1.0 - smoothstep((upper - 3 * MM) / (9 * MM))),
+        LidMove.LOWER_UP: taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
+        LidMove.LOWER_DOWN: taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
+    }
+    middle = np.exp(-(((along - 0.5) / 0.35) ** 2))
+    slides = {move: np.zeros(skin.vertex_count) for move in LidMove}
+    slides[LidMove.UPPER_CLOSE] = NASAL_SLIDE_UPPER * radius * weights[LidMove.UPPER_CLOSE] * middle
+    slides[LidMove.LOWER_UP] = NASAL_SLIDE_LOWER * radius * weights[LidMove.LOWER_UP] * middle
+    per_metre = {}
+    for move in LidMove:
+        point = top if _MOVES[move][0] == "upper" else bottom
+        per_metre[move] = 1.0 / max(float(point[2] - centre[2]), 0.3 * radius)
+    return Eye(side=side, centre=centre, radius=radius, weights=weights, slides=slides, angle_per_metre=per_metre)
+
+
+def fit_sphere(points: Floats) -> tuple[Floats, float]:
+    """Centre (3,) and radius of the sphere nearest to points (k, 3), by linear least squares, refitted on the outermost."""
+    chosen = points
+    for _ in range(3):
+        matrix = np.column_stack([2.0 * chosen, np.ones(len(chosen))])
+        solution, *_ = np.linalg.lstsq(matrix, (chosen**2).sum(axis=1), rcond=None)
+        centre = solution[:3]
+        radius = float(np.sqrt(max(solution[3] + centre @ centre, 1e-12)))
+        off = np.abs(np.linalg.norm(points - centre, axis=1) - radius)
+        chosen = points[off <= np.quantile(off, 0.8)]
+    return centre, radius

@@ -1,0 +1,68 @@
+"""Reading FAPs and the paper's features off a deformed face."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import ModelError, ParameterError
+from ..mpeg4 import FAP_COUNT, FEATURES
+from .anatomy import Anatomy
+from .rows import unit_length
+
+
+def _checked(anatomy: Anatomy, positions: Floats) -> Floats:
+    """Positions as float64 of the mesh's shape, finite."""
+    positions = np.asarray(positions, dtype=np.float64)
+    expected = anatomy.mesh.positions.shape
+    if positions.shape != expected:
+        raise ParameterError("positions", f"must have the neutral mesh's shape {expected}", positions.shape)
+    if not np.isfinite(positions).all():
+        raise ParameterError("positions", "must be finite", "NaN or infinite coordinates")
+    return positions
+
+
+def measure(anatomy: Anatomy, positions: Floats) -> Floats:
+    """(68,) FAPs of deformed vertices (V, 3) in FAP units; NaN where the face has no such point (and for FAPs 1 and 2).
+
+    The head's own turn (FAPs 48-50) is taken out first where the mesh shows a skull; FAPs are measured along the
+    head's axes as ISO/IEC 14496-2 gives them.
+    """
+    frame = np.full(FAP_COUNT, np.nan)
+    rest = anatomy.mesh.positions
+    head = anatomy.mesh.frame.to_head(_checked(anatomy, positions))
+    head, turn = anatomy.head_turn.undo(head, rest)
+    for number, value in turn.items():
+        frame[number - 1] = value
+    rows = anatomy.rows
+    reader = anatomy.mesh.points.matrix(rows.names)
+    shift = reader @ (head - rest)
+    frame[rows.numbers - 1] = (shift * rows.directions).sum(axis=1) / rows.units
+    for ball in anatomy.eyeballs:
+        for number, value in ball.measure(head[ball.index]).items():
+            frame[number - 1] = value
+    return frame
+
+
+def features(anatomy: Anatomy, positions: Floats) -> Floats:
+    """(15,) features of Table 3 (Raouzaiou et al. 2002) in FAP units of the features.
+
+    Raises
+    ------
+    ModelError : names a feature point that the face lacks.
+    """
+    now = _checked(anatomy, positions)
+    frame = anatomy.mesh.frame
+    rest = frame.to_face(anatomy.mesh.positions)
+    points = anatomy.mesh.points
+    values = np.empty(len(FEATURES))
+    for i, feature in enumerate(FEATURES):
+        pair = (feature.point_a, feature.point_b)
+        missing = [name for name in pair if name not in points or not points[name].is_bound]
+        if missing:
+            raise ModelError(f"feature f{i + 1} needs the feature point {' and '.join(missing)}")
+        reader = points.matrix(pair)
+        before, after = (float(np.linalg.norm(np.diff(reader @ p, axis=0))) for p in (rest, now))
+        values[i] = feature.value(after, before, unit_length(feature.unit, anatomy.mesh.units))
+    return values
+

@@ -1,0 +1,172 @@
+"""Feature points bound to a mesh, so that they follow its deformation at any mesh density."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from scipy import sparse
+from scipy.spatial import cKDTree
+
+from ..arrays import Floats, Ints
+from ..errors import ModelError
+from ..mpeg4 import FEATURE_POINTS
+
+#: What a caller may give for a feature point: a vertex index, or a position (3,) on the surface.
+PointSource: TypeAlias = int | np.integer | Sequence[float] | Floats
+
+#: Without these no face can be measured or moved.
+REQUIRED = (
+    "2.1", "2.2", "2.3", "2.4", "2.5", "2.10", "3.1", "3.2", "3.3", "3.4", "3.7", "3.8", "3.11", "3.12",
+    "4.1", "4.2", "4.3", "4.4", "4.5", "4.6", "8.1", "8.2", "8.3", "8.4", "9.3", "9.15",
+)  # fmt: skip
+
+#: A position farther from every polygon than this share of the face's diagonal is kept but follows nothing.
+FREE_DISTANCE = 0.02
+
+#: Polygons round this many nearest vertices are tried when a position is bound.
+NEAR_VERTICES = 24
+
+
+@dataclass(frozen=True)
+class BoundPoint:
+    """One feature point: weights (k,) over vertices (k,), or a free position that follows nothing."""
+
+    name: str
+    position: Floats
+    vertices: Ints
+    weights: Floats
+
+    @property
+    def is_bound(self) -> bool:
+        """Whether the point moves with the mesh."""
+        return len(self.vertices) > 0
+
+
+class FeaturePoints(Mapping[str, BoundPoint]):
+    """All feature points of one face: name -> BoundPoint."""
+
+    def __init__(self, bound: Mapping[str, BoundPoint], vertex_count: int) -> None:
+        self._bound = dict(bound)
+        self._vertex_count = vertex_count
+
+    def __getitem__(self, name: str) -> BoundPoint:
+        return self._bound[name]
+
+    def __iter__(self):  # type: ignore[no-untyped-def]
+        return iter(self._bound)
+
+    def __len__(self) -> int:
+        return len(self._bound)
+
+    def positions(self) -> dict[str, Floats]:
+        """Name -> (3,) position on the neutral face, in the face's coordinates."""
+        return {name: point.position for name, point in self._bound.items()}
+
+    def matrix(self, names: Sequence[str]) -> sparse.csr_array:
+        """(len(names), V) matrix that reads the named points off vertex positions or displacements."""
+        rows, columns, values = [], [], []
+        for row, name in enumerate(names):
+            point = self._bound[name]
+            rows += [row] * len(point.vertices)
+            columns += list(point.vertices)
+            values += list(point.weights)
+        return sparse.csr_array((values, (rows, columns)), shape=(len(names), self._vertex_count))
+
+
+def _closest_on_triangles(position: Floats, corners: Floats) -> tuple[Floats, Floats]:
+    """Barycentric weights (n, 3) and distances (n,) of the closest points of triangles (n, 3, 3)."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    ab, ac, ap = b - a, c - a, position - a
+    d00, d01, d11 = (ab * ab).sum(1), (ab * ac).sum(1), (ac * ac).sum(1)
+    d20, d21 = (ap * ab).sum(1), (ap * ac).sum(1)
+    denominator = np.maximum(d00 * d11 - d01 * d01, 1e-30)
+    v = (d11 * d20 - d01 * d21) / denominator
+    w = (d00 * d21 - d01 * d20) / denominator
+    inside = (v >= 0) & (w >= 0) & (v + w <= 1)
+    best = np.column_stack([1 - v - w, v, w])
+    distance = np.where(inside, np.linalg.norm((best[:, :, None] * corners).sum(1) - position, axis=1), np.inf)
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        edge = corners[:, j] - corners[:, i]
+        length = np.maximum((edge * edge).sum(1), 1e-30)
+        t = np.clip(((position - corners[:, i]) * edge).sum(1) / length, 0.0, 1.0)
+        there = np.linalg.norm(corners[:, i] + t[:, None] * edge - position, axis=1)
+        weights = np.zeros((len(corners), 3))
+        weights[:, i], weights[:, j] = 1 - t, t
+        closer = there < distance
+        best[closer], distance[closer] = weights[closer], there[closer]
+    return best, distance
+
+
+def _bind_position(name: str, position: Floats, vertices: Floats, triangles: Ints, near: cKDTree, reach: float) -> BoundPoint:
+    """Bind a position to the closest polygon, or leave it free where there is none within reach."""
+    _, candidates = near.query(position, k=min(NEAR_VERTICES, len(vertices)))
+    free = BoundPoint(name, position, np.zeros(0, dtype=np.int64), np.zeros(0))
+    chosen = np.isin(triangles, candidates).any(axis=1)
+    if not chosen.any():
+        return free
+    corners = triangles[chosen]
+    weights, distance = _closest_on_triangles(position, vertices[corners])
+    best = int(np.argmin(distance))
+    if distance[best] > reach:
+        return free
+    return BoundPoint(name, position, corners[best].astype(np.int64), weights[best])
+
+
+def bind_points(points: Mapping[str, PointSource], vertices: Floats, triangles: Ints) -> FeaturePoints:
+    """Bind feature points to a mesh.
+
+    Parameters
+    ----------
+    points : name ("8.4") -> vertex index, or position (3,) in the mesh's coordinates.
+    vertices : (V, 3) the neutral mesh, metres.
+    triangles : (T, 3) vertex indices of the triangulated mesh.
+
+    Raises
+    ------
+    ModelError : unknown names, indices outside the mesh, positions that are not finite, or required points missing.
+    """
+    unknown = sorted(set(points) - set(FEATURE_POINTS))
+    if unknown:
+        raise ModelError(f"no such feature point: {', '.join(unknown)}; the standard names them 2.1 to 11.6")
+    missing = [name for name in REQUIRED if name not in points]
+    if missing:
+        raise ModelError(f"the face lacks the feature points {', '.join(missing)}: add them to the points given")
+    near = cKDTree(vertices)
+    reach = FREE_DISTANCE * float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    bound: dict[str, BoundPoint] = {}
+    for name, source in points.items():
+        if isinstance(source, int | np.integer):
+            index = int(source)
+            if not 0 <= index < len(vertices):
+                raise ModelError(f"feature point {name} names vertex {index}, but the mesh has {len(vertices)} vertices")
+            bound[name] = BoundPoint(name, vertices[index].copy(), np.array([index]), np.ones(1))
+            continue
+        position = np.asarray(source, dtype=np.float64)
+        if position.shape != (3,) or not np.isfinite(position).all():
+            raise ModelError(f"feature point {name} must be a vertex index or three finite coordinates, not {source!r}")
+        bound[name] = _bind_position(name, position, vertices, triangles, near, reach)
+    return FeaturePoints(bound, len(vertices))
+
+
+def check_sides(points: Mapping[str, Floats]) -> None:
+    """Refuse feature points whose left and right, or upper and lower, are swapped.
+
+    Parameters
+    ----------
+    points : name -> (3,) position in head space.
+
+    Raises
+    ------
+    ModelError : names the first wrong pair and the remedy.
+    """
+    for left, right in (("8.3", "8.4"), ("3.7", "3.12"), ("3.11", "3.8"), ("2.4", "2.5"), ("4.1", "4.2"), ("4.5", "4.6")):
+        if points[left][0] <= points[right][0]:
+            raise ModelError(
+                f"feature points {left} and {right} are swapped: {left} must lie on the subject's left (the viewer's right)"
+            )
+    for upper, lower in (("3.1", "3.3"), ("3.2", "3.4"), ("8.1", "8.2"), ("9.3", "8.1"), ("8.2", "2.1"), ("4.3", "3.1")):
+        if points[upper][1] <= points[lower][1]:
+            raise ModelError(f"feature points {upper} and {lower} are swapped: {upper} must lie above {lower}")

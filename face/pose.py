@@ -1,0 +1,171 @@
+"""Posing one face: a frame of FAPs becomes vertex positions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import ParameterError
+from .actuators import LID_AMPLITUDES, LID_NAMES, Amounts
+from .anatomy import Anatomy
+from .eyes import LidMove
+from .jaw import JawMotion
+from .measure import measure
+from .natural import Natural, Plan
+from .wishes import ASKED_DOUBT, EXACT_NOISE, LIP_DOUBT, LIP_FAPS, SILENT_DOUBT, Drive, exact_wish, natural_wish
+
+#: Rounds of elastic correction: what contact with the eyeball disturbs is corrected again.
+CORRECTION_ROUNDS = 2
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A posed face.
+
+    Attributes
+    ----------
+    positions : (V, 3) in the face's coordinates.
+    contractions : muscle name -> contraction in [0, 1].
+    asked : (68,) the frame as given. goal : (68,) what the drive decided to do. achieved : (68,) measured on the
+        positions. All in FAP units, NaN where silent or not measurable.
+    reasons : FAP number -> why the goal differs from what was asked, natural mode only.
+    """
+
+    positions: Floats
+    contractions: Mapping[str, float]
+    asked: Floats
+    goal: Floats
+    achieved: Floats
+    reasons: Mapping[int, str]
+
+
+@dataclass(frozen=True)
+class SkinState:
+    """One state of the outer skin in head space: displacement (n, 3), its elastic part, and the mandible."""
+
+    displacement: Floats
+    elastic: Floats
+    jaw: JawMotion
+
+
+class Poser:
+    """Poses one face."""
+
+    def __init__(self, anatomy: Anatomy) -> None:
+        self.anatomy = anatomy
+        self.natural = Natural()
+
+    def pose(
+        self, frame: Floats, drive: Drive, emotion: Mapping[str, float] | None, contractions: Mapping[str, float] | None
+    ) -> Pose:
+        """The equilibrium for one frame (68,); see `Face.pose`."""
+        plan = self.natural.plan(frame, emotion) if drive is Drive.NATURAL else None
+        amounts = self.amounts(frame, drive, plan, contractions)
+        state = self.skin_state(frame, drive, plan, amounts)
+        positions = self.assemble(state, frame)
+        goal = plan.goal if plan is not None else frame
+        return Pose(
+            positions=positions,
+            contractions=self.anatomy.actuators.contractions(amounts),
+            asked=frame.copy(),
+            goal=goal.copy(),
+            achieved=measure(self.anatomy, positions),
+            reasons={} if plan is None else _reasons(plan),
+        )
+
+    def amounts(
+        self, frame: Floats, drive: Drive, plan: Plan | None, contractions: Mapping[str, float] | None
+    ) -> Amounts:
+        """Contractions that explain the frame, with those set by hand put in their place."""
+        actuators, rows = self.anatomy.actuators, self.anatomy.skin_rows
+        if drive is Drive.POINTS:
+            amounts = actuators.amounts(np.zeros(len(actuators.prior)))
+        else:
+            wish = natural_wish(rows, plan) if plan is not None else exact_wish(rows, frame)
+            amounts = self.anatomy.inverse.solve(wish)
+        return amounts if not contractions else self._by_hand(amounts, contractions)
+
+    def _by_hand(self, amounts: Amounts, contractions: Mapping[str, float]) -> Amounts:
+        """Amounts with some contractions set by hand."""
+        actuators = self.anatomy.actuators
+        muscles, lids, jaw = amounts.muscles.copy(), dict(amounts.lids), amounts.jaw
+        index = {muscle.name: i for i, muscle in enumerate(actuators.muscles)}
+        lid_index = {f"{LID_NAMES[move]}_{side}": (side, move) for side in "lr" for move in LidMove}
+        for name, value in contractions.items():
+            if not 0.0 <= value <= 1.0:
+                raise ParameterError(f"contraction of {name}", "must lie in 0..1", value)
+            if name in index:
+                muscles[index[name]] = value * actuators.muscles[index[name]].amplitude
+            elif name in lid_index:
+                lids[lid_index[name]] = value * LID_AMPLITUDES[lid_index[name][1]]
+            elif name == "jaw_open":
+                jaw = JawMotion(value * float(actuators.upper[-3]) / actuators.chin_lever, jaw.left, jaw.forward)
+            else:
+                known = ", ".join(sorted([*index, *lid_index, "jaw_open"]))
+                raise ParameterError("muscle", f"must be one of {known}", name)
+        return Amounts(muscles, lids, jaw)
+
+    def skin_state(self, frame: Floats, drive: Drive, plan: Plan | None, amounts: Amounts) -> SkinState:
+        """The outer skin under given amounts, corrected as the drive asks."""
+        anatomy = self.anatomy
+        actuators, inverse = anatomy.actuators, anatomy.inverse
+        kinematic = actuators.kinematic(amounts)
+        elastic = actuators.muscular(amounts)
+        if drive is Drive.MUSCLES:
+            return SkinState(self._contact(kinematic + elastic), elastic, amounts.jaw)
+        target, doubts = self._targets(frame, plan)
+        shown = kinematic + elastic
+        for _ in range(CORRECTION_ROUNDS):
+            shown = self._contact(kinematic + elastic)
+            residual = target - np.asarray(inverse.matrix @ shown.ravel())
+            change = inverse.correction(residual, doubts)
+            elastic = elastic + change
+            if plan is not None:
+                break
+        return SkinState(kinematic + elastic if plan is None else self._contact(kinematic + elastic), elastic, amounts.jaw)
+
+    def _targets(self, frame: Floats, plan: Plan | None) -> tuple[Floats, Floats]:
+        """Row targets and doubts (m,) of the elastic correction."""
+        rows = self.anatomy.skin_rows
+        if plan is None:
+            return rows.select(frame), np.zeros(len(rows))
+        wish = natural_wish(rows, plan)
+        asked = ~np.isnan(rows.select(plan.asked))
+        doubts = np.where(asked, ASKED_DOUBT, SILENT_DOUBT)
+        doubts = np.where(np.isin(rows.numbers, LIP_FAPS), LIP_DOUBT, doubts)
+        return wish.targets, np.where(wish.doubts == EXACT_NOISE, 0.0, doubts)
+
+    def _contact(self, displacement: Floats) -> Floats:
+        """Lids kept off the eyeballs."""
+        skin = self.anatomy.skin
+        positions = skin.positions + displacement
+        for side, eye in self.anatomy.eyes.items():
+            near = 1.0 - np.clip((np.min(skin.lid_distances(side), axis=0) - 4e-3) / 4e-3, 0.0, 1.0)
+            positions = eye.clear(positions, skin.positions, near)
+        return positions - skin.positions
+
+    def assemble(self, state: SkinState, frame: Floats) -> Floats:
+        """(V, 3) positions in the face's coordinates from the outer skin's displacement and the direct FAPs."""
+        anatomy, face_mesh = self.anatomy, self.anatomy.mesh
+        moved = np.zeros_like(face_mesh.positions)
+        moved[anatomy.skin.index] = state.displacement
+        anatomy.inner_skin.follow(moved)
+        carried = anatomy.lower_teeth
+        moved[carried] = anatomy.jaw.rigid(face_mesh.positions[carried], state.jaw)
+        if anatomy.tongue is not None:
+            moved[anatomy.tongue.index] += anatomy.tongue.displacement(frame)
+        anatomy.loose_parts.follow(moved)
+        for ball in anatomy.eyeballs:
+            moved[ball.index] = ball.displacement(frame)
+        turned = anatomy.head_turn.apply(face_mesh.positions + moved, frame)
+        return face_mesh.frame.to_face(turned)
+
+
+def _reasons(plan: Plan) -> dict[int, str]:
+    """Reasons for every planned FAP that is not simply as asked."""
+    numbers = np.flatnonzero(~np.isnan(plan.goal)) + 1
+    reasons = {int(n): plan.reason(int(n)) for n in numbers}
+    return {n: reason for n, reason in reasons.items() if reason != "as asked"}

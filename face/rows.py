@@ -1,0 +1,81 @@
+"""FAP rows: which point of the face each FAP reads, along which direction, in which unit."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+
+from ..arrays import Floats, Ints
+from ..mpeg4 import FAPS, Unit
+from .frame import Fapu, HeadFrame
+from .points import FeaturePoints
+
+
+def unit_length(unit: Unit | None, units: Fapu) -> float:
+    """One FAP unit of length (FAPU / 1024) in metres of the face."""
+    lengths = {
+        Unit.IRISD: units.irisd0, Unit.ES: units.es0, Unit.ENS: units.ens0, Unit.MNS: units.mns0, Unit.MW: units.mw0,
+    }  # fmt: skip
+    assert unit is not None
+    return lengths[unit] / 1024.0
+
+
+@dataclass(frozen=True)
+class FapRows:
+    """The displacement FAPs that a face's points can show.
+
+    Attributes
+    ----------
+    numbers : (m,) FAP numbers, ascending.
+    names : the feature point of each.
+    directions : (m, 3) unit vectors in head space, along which a positive value moves the point.
+    units : (m,) metres of head space per FAP unit.
+    """
+
+    numbers: Ints
+    names: Sequence[str]
+    directions: Floats
+    units: Floats
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    @cached_property
+    def position(self) -> dict[int, int]:
+        """FAP number -> row."""
+        return {int(number): row for row, number in enumerate(self.numbers)}
+
+    def select(self, frame: Floats) -> Floats:
+        """(m,) the rows' displacements in metres asked for by a frame (68,) in FAP units; NaN where silent."""
+        return frame[self.numbers - 1] * self.units
+
+    def matrix(self, reader: sparse.csr_array) -> sparse.csr_array:
+        """(m, 3n) matrix reading the rows off flattened displacements, from a (m, n) point reader."""
+        blocks = [sparse.kron(reader, sparse.csr_array(np.eye(3)[[axis]])) for axis in range(3)]
+        return sparse.csr_array(sum(sparse.diags_array(self.directions[:, axis]) @ blocks[axis] for axis in range(3)))
+
+
+def displacement_rows(points: FeaturePoints, units: Fapu, frame: HeadFrame) -> FapRows:
+    """The rows of every displacement FAP whose feature point is bound to the mesh; eyeballs and head are not among them."""
+    numbers, names, directions, lengths = [], [], [], []
+    for number, fap in FAPS.items():
+        direction = fap.motion.direction if fap.motion is not None else None
+        name = fap.feature_point
+        if direction is None or fap.angular or name is None or name in ("3.5", "3.6"):
+            continue
+        if name not in points or not points[name].is_bound:
+            continue
+        numbers.append(number)
+        names.append(name)
+        directions.append((direction[0], direction[2], -direction[1]))
+        lengths.append(unit_length(fap.unit, units) / frame.scale)
+    return FapRows(
+        numbers=np.array(numbers, dtype=np.int64),
+        names=tuple(names),
+        directions=np.array(directions, dtype=np.float64).reshape(-1, 3),
+        units=np.array(lengths, dtype=np.float64),
+    )

@@ -1,0 +1,119 @@
+"""The elastic response of one face's skin: forces in, displacements out, all linear and prefactored.
+
+A displacement field v of the sheet solves K v = f with one scalar sparse matrix K for all three components
+(`physics.elastic`). What the face shows is W v: skin slides over the skull rather than lifts off it, and bulges where
+it is squeezed. Every muscle field and every correction goes through W.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+
+from ..arrays import Floats
+from ..physics.elastic import Factor, elastic_matrix
+from . import regions
+from .outer_skin import OuterSkin
+
+#: Radius over which squeezing is averaged before it bulges, metres.
+BULGE_SMOOTHING = 8e-3
+
+
+def _surface_divergence(skin: OuterSkin) -> sparse.csr_array:
+    """(n, 3n) area-averaged surface divergence of a vector field given as n rows of x, y, z."""
+    corners = skin.positions[skin.triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    double_area = np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-18)
+    unit = normal / double_area
+    rows, columns, values = [], [], []
+    for corner in range(3):
+        opposite = corners[:, (corner + 2) % 3] - corners[:, (corner + 1) % 3]
+        gradient = np.cross(unit, opposite) / double_area
+        for target in range(3):
+            for axis in range(3):
+                rows.append(skin.triangles[:, target])
+                columns.append(3 * skin.triangles[:, corner] + axis)
+                values.append(gradient[:, axis] * double_area[:, 0] / 6.0)
+    n = skin.vertex_count
+    summed = sparse.coo_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(n, 3 * n))
+    return sparse.csr_array(sparse.diags_array(1.0 / np.maximum(skin.areas, 1e-18)) @ summed)
+
+
+class Tissue:
+    """K, W and the point corrections of one face; prefactored on first use."""
+
+    def __init__(self, skin: OuterSkin) -> None:
+        self.skin = skin
+
+    @cached_property
+    def stiffness(self) -> sparse.csc_array:
+        """(n, n) K of the muscles: membrane, bending and anchors."""
+        skin = self.skin
+        return elastic_matrix(skin.laplacian, skin.areas, regions.bending(skin), regions.anchor(skin))
+
+    @cached_property
+    def factor(self) -> Factor:
+        """Prefactored `stiffness`."""
+        return Factor(self.stiffness)
+
+    @cached_property
+    def _correction_factor(self) -> Factor:
+        skin = self.skin
+        return Factor(elastic_matrix(skin.laplacian, skin.areas, regions.correction_bending(skin), regions.anchor(skin)))
+
+    @cached_property
+    def _divergence(self) -> sparse.csr_array:
+        return _surface_divergence(self.skin)
+
+    @cached_property
+    def _bulge_filter(self) -> Factor:
+        return self.skin.smoothing(BULGE_SMOOTHING)
+
+    @cached_property
+    def _slide(self) -> Floats:
+        return regions.sliding(self.skin)[:, None]
+
+    @cached_property
+    def _bulge(self) -> Floats:
+        return regions.bulging(self.skin)
+
+    def show(self, fields: Floats) -> Floats:
+        """W v: sheet fields (n, 3) or (k, n, 3) as what the face shows, same shape, metres."""
+        flat = fields.reshape(-1, self.skin.vertex_count, 3)
+        normals = self.skin.normals
+        slid = flat - (self._slide * normals) * (flat * normals).sum(axis=2, keepdims=True)
+        squeeze = self._divergence @ slid.reshape(len(flat), -1).T
+        smooth = self._bulge_filter.solve(self.skin.areas[:, None] * squeeze)
+        shown = slid - (self._bulge[:, None] * smooth).T[:, :, None] * normals
+        return shown.reshape(fields.shape)
+
+    def show_transposed(self, loads: Floats) -> Floats:
+        """W' f for loads (k, n, 3): the sheet forces that stand for forces on what the face shows."""
+        normals = self.skin.normals
+        pressed = -(self._bulge * (loads * normals).sum(axis=2)).T
+        spread = self.skin.areas[:, None] * self._bulge_filter.solve(pressed)
+        back = loads + (self._divergence.T @ spread).T.reshape(loads.shape)
+        return back - (self._slide * normals) * (back * normals).sum(axis=2, keepdims=True)
+
+    def relax(self, forces: Floats) -> Floats:
+        """K^-1 f: sheet displacements (k, n, 3) under forces (k, n, 3)."""
+        return _solve_fields(self.factor, forces)
+
+    def point_responses(self, loads: Floats) -> Floats:
+        """R (k, n, 3): what the face shows when unit loads (k, n, 3) act on it, by the correction kernel W K^-1 W'."""
+        return self.show(_solve_fields(self._correction_factor, self.show_transposed(loads)))
+
+
+def _solve_fields(factor: Factor, forces: Floats) -> Floats:
+    """Solve for k vector fields (k, n, 3) at once."""
+    k, n, _ = forces.shape
+    columns = forces.transpose(1, 0, 2).reshape(n, 3 * k)
+    return factor.solve(np.ascontiguousarray(columns)).reshape(n, k, 3).transpose(1, 0, 2)
+
+
+def stack(fields: Sequence[Floats]) -> Floats:
+    """(k, n, 3) from k fields (n, 3)."""
+    return np.stack(list(fields)) if fields else np.zeros((0, 0, 3))
