@@ -54,7 +54,8 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
     environment = {**os.environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
     # A copy is built, so that no build/ folder is left in the checkout.
     sources = folder / "sources"
-    for name in [*product_files(), "pyproject.toml", "README.md", "blender_manifest.toml", "tools/version.py"]:
+    others = ("pyproject.toml", "README.md", "LICENSE", "blender_manifest.toml", "tools/version.py")
+    for name in [*product_files(), *others]:
         (sources / name).parent.mkdir(parents=True, exist_ok=True)
         (sources / name).write_bytes((ROOT / name).read_bytes())
     done = subprocess.run([*build, str(sources)], capture_output=True, text=True, env=environment, check=False)
