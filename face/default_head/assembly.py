@@ -25,6 +25,7 @@ REGION_MATERIALS = {
     Region.MOUTH_BAG: "mouth",
     Region.LID_RIM: "lid_rim",
     Region.UNDER_LID: "lid_rim",
+    Region.NOSTRIL_DEPTH: "nostril",
 }
 
 
@@ -99,9 +100,9 @@ def _all_quads(skin: HeadSkin, pieces: list[Piece], first: Ints) -> Ints:
 
 def _all_parts(skin: HeadSkin, pieces: list[Piece]) -> Ints:
     """Part of every vertex."""
-    parts = [np.full(len(skin.vertices), Part.SKIN)]
-    parts += [np.full(len(piece.vertices), piece.part) for piece in pieces]
-    return np.concatenate(parts).astype(np.int64)
+    parts = [Part.SKIN, *(piece.part for piece in pieces)]
+    counts = [len(skin.vertices), *(len(piece.vertices) for piece in pieces)]
+    return np.repeat(np.array(parts, dtype=np.int64), counts)
 
 
 def _all_mirror(skin: HeadSkin, pieces: list[Piece], first: Ints) -> Ints:

@@ -1,4 +1,4 @@
-"""The eyebrows: strips that rise out of the skin, their borders sunk just below it."""
+"""The eyebrows: low strips with a steep border that starts just below the skin, so no gap and no flicker shows."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from .figures import BrowFigures
 from .piece import Piece
 from .skin import HeadSkin
 
-SECTIONS, ACROSS = 33, 9
-SINK = 0.35e-3  # depth of the borders under the skin, metres
-ROUNDING = 0.10  # share of the length over which each end is rounded
+SECTIONS = 41
+PROFILE = np.array([-1.0, -0.98, -0.7, -0.35, 0.0, 0.35, 0.7, 0.98, 1.0])  # places across, shares of the half width
+SINK = 0.4e-3  # depth of the border under the skin, metres
+RIM = 0.3  # height of the border's upper edge, as a share of the lift
+ROUNDING = 0.12  # share of the length over which each end is rounded
 
 
 def build_brow(figures: BrowFigures, skin: HeadSkin) -> Piece:
@@ -24,21 +26,22 @@ def build_brow(figures: BrowFigures, skin: HeadSkin) -> Piece:
     ------
     ModelError : where the centre line leaves the front of the head.
     """
-    along = np.linspace(0.0, 1.0, SECTIONS)
-    across = np.linspace(-1.0, 1.0, ACROSS)
+    along = (0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, SECTIONS))).astype(np.float64)
     line, half_width = _centre_line(figures, along)
-    tangent = np.gradient(line, axis=0)
+    tangent = np.gradient(line, along, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1)[:, None]
     up = np.stack([-tangent[:, 1], tangent[:, 0]], axis=-1)
     end = np.clip(np.minimum(along, 1.0 - along) / ROUNDING, 0.0, 1.0)
     rounded = np.sqrt(1.0 - (1.0 - end) ** 2)
-    width = half_width * np.maximum(rounded, 0.12)
-    plan = line[:, None, :] + up[:, None, :] * (width[:, None] * across)[..., None]
+    width = half_width * np.maximum(rounded, 0.05)
+    plan = line[:, None, :] + up[:, None, :] * (width[:, None] * PROFILE)[..., None]
     foot, normal = front_surface(skin, plan.reshape(-1, 2))
-    thick = np.minimum(1.0, width / np.max(width) * 1.3) * rounded
-    lift = (figures.lift + SINK) * thick[:, None] * (1.0 - across**2) - SINK
+    thick = figures.lift * np.clip(1.3 * width / np.max(width), 0.4, 1.0)
+    lift = thick[:, None] * (RIM + (1.0 - RIM) * (1.0 - PROFILE**2))
+    lift[:, [0, -1]] = -SINK
+    lift[[0, -1]] = -SINK
     vertices = foot + normal * lift.reshape(-1, 1)
-    k = np.arange(SECTIONS * ACROSS).reshape(SECTIONS, ACROSS)
+    k = np.arange(SECTIONS * len(PROFILE)).reshape(SECTIONS, len(PROFILE))
     quads = np.stack([k[:-1, :-1], k[1:, :-1], k[1:, 1:], k[:-1, 1:]], axis=-1).reshape(-1, 4)
     return Piece(vertices, quads.astype(np.int64), Part.OTHER, ("brow",) * len(quads))
 

@@ -59,6 +59,7 @@ class Region(Enum):
     LIPS = "lips"
     MOUTH_BAG = "mouth_bag"
     NOSTRIL = "nostril"
+    NOSTRIL_DEPTH = "nostril_depth"
     EAR = "ear"
 
 
@@ -204,9 +205,10 @@ def _mouth_faces() -> list[_Face]:
 def _nostril_faces() -> list[_Face]:
     """A dent with a floor of two quads."""
     rings = _rings(NOSTRIL_RIM, "nos", NOSTRIL_RINGS)
-    faces = [f for a, b in pairwise(rings) for f in _ring_faces(a, b, Region.NOSTRIL, reverse=False)]
+    faces = _ring_faces(rings[0], rings[1], Region.NOSTRIL, reverse=False)
+    faces += _ring_faces(rings[1], rings[2], Region.NOSTRIL_DEPTH, reverse=False)
     p = rings[-1]
-    return [*faces, ((p[0], p[1], p[4], p[5]), Region.NOSTRIL), ((p[1], p[2], p[3], p[4]), Region.NOSTRIL)]
+    return [*faces, ((p[0], p[1], p[4], p[5]), Region.NOSTRIL_DEPTH), ((p[1], p[2], p[3], p[4]), Region.NOSTRIL_DEPTH)]
 
 
 def _ear_faces() -> list[_Face]:

@@ -149,6 +149,8 @@ class _TableReader:
 
     def head(self) -> HeadFigures:
         """The whole table."""
+        if self.value("unit") != "mm":
+            raise FormatError(self.path, 'must be "mm": give the figures in millimetres', key="unit")
         points, pairs = self.feature_points()
         eyeball = EyeballFigures(
             self.vector("eyeball.centre"),

@@ -34,7 +34,7 @@ def skin_groups(skin: HeadSkin) -> dict[str, Ints]:
         ("lid_cover", (Region.LID_RIM, Region.UNDER_LID)),
         ("eyelid", (Region.EYELID,)),
         ("ear", (Region.EAR,)),
-        ("nostril", (Region.NOSTRIL,)),
+        ("nostril", (Region.NOSTRIL, Region.NOSTRIL_DEPTH)),
     ):
         vertices = skin.region_vertices(*regions)
         groups |= _both(skin, name, vertices[skin.vertices[vertices, 0] > 0.0])

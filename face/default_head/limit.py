@@ -63,8 +63,8 @@ def subdivide(vertex_count: int, quads: Ints) -> Subdivision:
     faces = _matrix(np.repeat(np.arange(face_count), 4), quads.ravel(), 0.25, (face_count, vertex_count))
     midpoints = _matrix(np.repeat(np.arange(edge_count), 2), edges.ends.ravel(), 0.5, (edge_count, vertex_count))
     edge_faces = _matrix(edges.of_quad.ravel(), np.repeat(np.arange(face_count), 4), 1.0, (edge_count, face_count))
-    inner = sparse.diags((~edges.border).astype(float))
-    border = sparse.diags(edges.border.astype(float))
+    inner = _diagonal((~edges.border).astype(np.float64))
+    border = _diagonal(edges.border.astype(np.float64))
     edge_points = border @ midpoints + inner @ (0.5 * midpoints + 0.25 * edge_faces @ faces)
 
     valence, is_border = _valence(vertex_count, edges)
@@ -72,15 +72,15 @@ def subdivide(vertex_count: int, quads: Ints) -> Subdivision:
     vertex_edges = _matrix(edges.ends.ravel(), np.repeat(np.arange(edge_count), 2), 1.0, (vertex_count, edge_count))
     m = np.where(is_border, 1.0, valence)
     around = vertex_faces @ faces + 2.0 * vertex_edges @ midpoints
-    smooth = sparse.diags(np.where(is_border, 0.0, 1.0 / m**2)) @ around
-    smooth = smooth + sparse.diags(np.where(is_border, 0.0, (m - 3.0) / m))
-    curve = 0.25 * sparse.diags(is_border.astype(float)) @ (vertex_edges @ border @ midpoints)
-    curve = curve + sparse.diags(0.5 * is_border)
+    smooth = _diagonal(np.where(is_border, 0.0, 1.0 / m**2)) @ around
+    smooth = smooth + _diagonal(np.where(is_border, 0.0, (m - 3.0) / m))
+    curve = 0.25 * _diagonal(is_border.astype(np.float64)) @ (vertex_edges @ border @ midpoints)
+    curve = curve + _diagonal(np.where(is_border, 0.5, 0.0))
 
     e = edges.of_quad + vertex_count
     f = np.arange(face_count)[:, None] + vertex_count + edge_count
     children = np.stack([quads, e, np.broadcast_to(f, quads.shape), np.roll(e, 1, axis=1)], axis=2)
-    matrix = sparse.vstack([smooth + curve, edge_points, faces]).tocsr()
+    matrix = sparse.csr_matrix(sparse.vstack([smooth + curve, edge_points, faces]))
     return Subdivision(matrix, children.reshape(-1, 4).astype(np.int64), edges)
 
 
@@ -98,10 +98,10 @@ def limit_matrix(vertex_count: int, quads: Ints) -> sparse.csr_matrix:
     rim = np.concatenate([edges.ends[edges.border], edges.ends[edges.border][:, ::-1]])
     rim_neighbours = _matrix(rim[:, 0], rim[:, 1], 1.0, shape)
     opposite = _matrix(quads.ravel(), np.roll(quads, 2, axis=1).ravel(), 1.0, shape)
-    inner = sparse.diags(np.where(is_border, 0.0, 1.0 / (valence * (valence + 5.0))))
-    surface = inner @ (sparse.diags(valence**2) + 4.0 * neighbours + opposite)
-    curve = sparse.diags(is_border / 6.0) @ (4.0 * sparse.identity(vertex_count) + rim_neighbours)
-    return (surface + curve).tocsr()
+    inner = _diagonal(np.where(is_border, 0.0, 1.0 / (valence * (valence + 5.0))))
+    surface = inner @ (_diagonal(valence**2) + 4.0 * neighbours + opposite)
+    curve = _diagonal(is_border / 6.0) @ (4.0 * sparse.identity(vertex_count) + rim_neighbours)
+    return sparse.csr_matrix(surface + curve)
 
 
 def cage_through(targets: Floats, quads: Ints, *, rounds: int = 60, tolerance: float = 1e-5) -> Floats:
@@ -133,6 +133,12 @@ def cage_through(targets: Floats, quads: Ints, *, rounds: int = 60, tolerance: f
 def _matrix(rows: Ints, columns: Ints, value: float, shape: tuple[int, int]) -> sparse.csr_matrix:
     """Sparse matrix with one value at every (row, column)."""
     return sparse.csr_matrix((np.full(len(rows), value), (rows, columns)), shape=shape)
+
+
+def _diagonal(values: Floats) -> sparse.csr_matrix:
+    """Sparse diagonal matrix."""
+    n = len(values)
+    return sparse.csr_matrix((values, np.arange(n), np.arange(n + 1)), shape=(n, n))
 
 
 def _valence(vertex_count: int, edges: QuadEdges) -> tuple[Floats, Bools]:

@@ -68,7 +68,8 @@ class HeadSkin:
     def region_vertices(self, *regions: Region) -> Ints:
         """Vertices (N,) of all quads in some regions, ascending."""
         chosen = np.array([region in regions for region in self.regions])
-        return np.unique(self.quads[chosen])
+        found: Ints = np.unique(self.quads[chosen])
+        return found
 
 
 def build_skin(figures: HeadFigures) -> HeadSkin:
@@ -86,7 +87,7 @@ def build_skin(figures: HeadFigures) -> HeadSkin:
     )
     nodes = cage_through(targets, cage.quads, tolerance=1e-5)
     step = subdivide(len(cage.names), cage.quads)
-    matrix = (limit_matrix(step.matrix.shape[0], step.quads) @ step.matrix).tocsr()
+    matrix = sparse.csr_matrix(limit_matrix(step.matrix.shape[0], step.quads) @ step.matrix)
     regions = tuple(region for region in cage.regions for _ in range(4))
     skin = HeadSkin(
         vertices=matrix @ nodes,
@@ -112,7 +113,8 @@ def _vertex_mirror(cage: Cage, edges: QuadEdges) -> Ints:
     edge_mirror = np.array([order[int(a), int(b)] for a, b in mirrored])
     faces = len(cage.quads)
     face_mirror = np.roll(np.arange(faces), faces // 2)
-    return np.concatenate([cage.mirror, edge_mirror + count, face_mirror + count + len(edges.ends)]).astype(np.int64)
+    mirror: Ints = np.concatenate([cage.mirror, edge_mirror + count, face_mirror + count + len(edges.ends)])
+    return mirror
 
 
 def _clear_eyeball(skin: HeadSkin, ball: EyeballFigures) -> None:
