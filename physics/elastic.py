@@ -98,8 +98,8 @@ def laplacian(
 def pair_laplacian(pairs: Ints, weights: Floats, vertex_count: int) -> Sparse:
     """Graph Laplacian (V, V) with sum over pairs of w (u_i - u_j)^2 = u' L u; repeated pairs add up."""
     i, j = pairs.T
-    rows = np.concatenate([i, j, i, j])
-    columns = np.concatenate([j, i, i, j])
+    rows = np.concatenate([i, j, i, j]).astype(np.int32)  # half the traffic of int64 in every product
+    columns = np.concatenate([j, i, i, j]).astype(np.int32)
     values = np.concatenate([-weights, -weights, weights, weights])
     return sparse.coo_array((values, (rows, columns)), shape=(vertex_count, vertex_count)).tocsr()
 
@@ -151,7 +151,7 @@ def bending_matrix(laplacian: Sparse, areas: Floats, bending: Floats | float) ->
 
 def diagonal_matrix(values: Floats) -> Sparse:
     """The values (n,) on the diagonal of an (n, n) sparse matrix."""
-    index = np.arange(len(values))
+    index = np.arange(len(values), dtype=np.int32)
     return sparse.csr_array((values, (index, index)), shape=(len(values), len(values)))
 
 

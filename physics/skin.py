@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -150,6 +151,12 @@ class Skin:
         rate = tissue.damping_rate if damping is None else damping
         return cls(vertices, springs, mass, tissue.membrane * bed * lumps, operator, rate * mass)
 
+    @cached_property
+    def _linear(self) -> Sparse:
+        """Bending and anchors (V, V) N/m, in one product."""
+        anchor = diagonal_matrix(self.anchor)
+        return anchor if self.bending is None else (self.bending + anchor).tocsr()
+
     def energy_and_force(self, positions: Floats, anchors: Floats | None = None) -> tuple[float, Floats]:
         """Elastic energy E in J and its negative gradient (V, 3) N at `positions` (V, 3) m.
 
@@ -157,9 +164,7 @@ class Skin:
         """
         energy, force = self.springs.energy_and_force(positions)
         moved = positions - (self.rest if anchors is None else anchors)
-        held = self.anchor[:, None] * moved
-        if self.bending is not None:
-            held += np.stack([self.bending @ column for column in np.ascontiguousarray(moved.T)], axis=1)
+        held = np.stack([self._linear @ column for column in np.ascontiguousarray(moved.T)], axis=1)
         force -= held
         return energy + 0.5 * float(np.vdot(moved, held)), force
 
@@ -199,8 +204,7 @@ class Skin:
 
         The springs' part bounds their true stiffness at low strain (`high`: at any strain) from above.
         """
-        matrix = self.springs.laplacian(high=high) + diagonal_matrix(self.anchor)
-        return (matrix if self.bending is None else matrix + self.bending).tocsr()
+        return (self.springs.laplacian(high=high) + self._linear).tocsr()
 
 
 def force_at(force: Force | None, positions: Floats) -> Floats:

@@ -53,12 +53,9 @@ def spring_tension(
     ------
     ParameterError : unknown law.
     """
-    e = np.asarray(extension, dtype=np.float64)
-    law = spring_law(law)
     extra = np.subtract(stiffness_high, stiffness_low)
-    if law is SpringLaw.CONTINUOUS:
-        return np.asarray(stiffness_low * e + extra * np.maximum(e - threshold, 0.0))
-    return np.asarray((stiffness_low + extra * (e > threshold)) * e)
+    e = np.asarray(extension, dtype=np.float64)
+    return _tension_and_work(e, np.asarray(stiffness_low), extra, np.asarray(threshold), spring_law(law))[0]
 
 
 def spring_energy(
@@ -70,12 +67,9 @@ def spring_energy(
     law: SpringLaw | str = "continuous",
 ) -> Floats:
     """Integral of `spring_tension` over the strain from 0: energy in N; times the rest length, in J. Same arguments."""
-    e = np.asarray(extension, dtype=np.float64)
-    law = spring_law(law)
     extra = np.subtract(stiffness_high, stiffness_low)
-    over = np.maximum(e - threshold, 0.0)
-    beyond = over * over if law is SpringLaw.CONTINUOUS else over * (e + threshold)
-    return np.asarray((stiffness_low * e * e + extra * beyond) / 2)
+    e = np.asarray(extension, dtype=np.float64)
+    return _tension_and_work(e, np.asarray(stiffness_low), extra, np.asarray(threshold), spring_law(law))[1] / 2
 
 
 def spring_law(law: SpringLaw | str) -> SpringLaw:
@@ -84,6 +78,16 @@ def spring_law(law: SpringLaw | str) -> SpringLaw:
         return SpringLaw(law)
     except ValueError:
         raise ParameterError("law", f"must be one of {[str(known) for known in SpringLaw]}", law) from None
+
+
+def _tension_and_work(e: Floats, low: Floats, extra: Floats, limit: Floats, law: SpringLaw) -> tuple[Floats, Floats]:
+    """Tension and twice its integral; `extra` is k_h - k_l. Homogeneous: strains with N, or lengths with N/m."""
+    base = low * e
+    over = np.maximum(e - limit, 0.0)
+    if law is SpringLaw.CONTINUOUS:
+        beyond = extra * over
+        return base + beyond, base * e + beyond * over
+    return base + extra * (over > 0) * e, base * e + extra * over * (e + limit)
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,22 +187,18 @@ class SpringNetwork:
         return self.incidence.T.tocsr()
 
     @cached_property
-    def _by_strain(self) -> tuple[Floats, Floats]:
-        """Low and high stiffness per unit of strain, N."""
-        return self.stiffness_low * self.rest_length, self.stiffness_high * self.rest_length
+    def _figures(self) -> tuple[Floats, Floats]:
+        """k_h - k_l in N/m and the stretch in m at the threshold."""
+        return self.stiffness_high - self.stiffness_low, self.threshold * self.rest_length
 
     def energy_and_force(self, positions: Floats) -> tuple[float, Floats]:
         """Elastic energy in J and the force (V, 3) N on every node at `positions` (V, 3) m; equations (1)-(5)."""
         columns = np.ascontiguousarray(positions.T)  # three plain vectors are twice as fast as rows of three
         apart = np.stack([self.incidence @ column for column in columns])
         length = np.sqrt(apart[0] ** 2 + apart[1] ** 2 + apart[2] ** 2)
-        strain = length / self.rest_length - 1.0
-        low, high = self._by_strain
-        limit, law = self.threshold, self.law
-        pull = spring_tension(strain, stiffness_low=low, stiffness_high=high, threshold=limit, law=law)
-        stored = spring_energy(strain, stiffness_low=low, stiffness_high=high, threshold=limit, law=law)
+        pull, work = _tension_and_work(length - self.rest_length, self.stiffness_low, *self._figures, self.law)
         apart *= pull / np.where(length > 0, length, 1.0)
-        return float(stored @ self.rest_length), -np.stack([self._scatter @ column for column in apart], axis=1)
+        return 0.5 * float(work.sum()), -np.stack([self._scatter @ column for column in apart], axis=1)
 
     def force(self, positions: Floats) -> Floats:
         """Force (V, 3) N on every node at `positions` (V, 3) m: Q of equation (5), minus the gradient of `energy`."""
