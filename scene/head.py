@@ -59,7 +59,8 @@ def _material(material: Material) -> Any:
     if found is not None and found.library is None:
         return found
     made = bpy.data.materials.new(name)
-    made.use_nodes = True
+    if made.node_tree is None:
+        made.use_nodes = True
     made.diffuse_color = (*material.colour, 1.0)
     made.roughness = material.roughness
     principled = next((node for node in made.node_tree.nodes if node.type == "BSDF_PRINCIPLED"), None)

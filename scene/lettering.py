@@ -65,7 +65,8 @@ def _text_object(scene: Any, text: Text) -> Any:
     curve.align_x = "RIGHT" if text.right else "LEFT"
     ink = bpy.data.materials.get(INK) or bpy.data.materials.new(INK)
     ink.diffuse_color = (0.0, 0.0, 0.0, 1.0)
-    ink.use_nodes = True
+    if ink.node_tree is None:
+        ink.use_nodes = True
     for node in ink.node_tree.nodes:
         if node.type == "BSDF_PRINCIPLED":
             node.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
@@ -104,7 +105,8 @@ def _settings(scene: Any, width: int, height: int) -> None:
     shading.light, shading.color_type = "FLAT", "MATERIAL"
     world = bpy.data.worlds.new("Risorius Paper")
     world.color = (1.0, 1.0, 1.0)
-    world.use_nodes = True
+    if world.node_tree is None:
+        world.use_nodes = True
     for node in world.node_tree.nodes:
         if node.type == "BACKGROUND":
             node.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)

@@ -160,7 +160,8 @@ def _world(scene: Any, look: Look) -> Any:
     """An even background to look at, that lights the face only a little."""
     world = bpy.data.worlds.new("Risorius World")
     world.color = look.background
-    world.use_nodes = True
+    if world.node_tree is None:
+        world.use_nodes = True
     nodes, links = world.node_tree.nodes, world.node_tree.links
     background = next(node for node in nodes if node.type == "BACKGROUND")
     background.inputs["Color"].default_value = (*look.background, 1.0)

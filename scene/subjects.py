@@ -141,7 +141,8 @@ def paint_parts(obj: Any) -> None:
     for name, colour in PLAIN_COLOURS.items():
         material = bpy.data.materials.new(f"Risorius plain {name.lower()}")
         material.diffuse_color = (*colour, 1.0)
-        material.use_nodes = True
+        if material.node_tree is None:
+            material.use_nodes = True
         for node in material.node_tree.nodes:
             if node.type == "BSDF_PRINCIPLED":
                 node.inputs["Base Color"].default_value = (*colour, 1.0)

@@ -1,0 +1,45 @@
+"""Fixtures for tests inside Blender (the bpy module): a registered extension, an empty file, a head."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+if importlib.util.find_spec("bpy") is None:
+    collect_ignore_glob = ["test_*.py"]
+else:
+    import bpy
+
+    import risorius
+
+
+@pytest.fixture(scope="session")
+def _registered() -> Iterator[None]:
+    """The extension, registered once for all tests."""
+    risorius.register()
+    yield
+    risorius.unregister()
+
+
+@pytest.fixture(autouse=True)
+def empty_file(_registered: None) -> None:
+    """Every test starts from an empty file."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+
+@pytest.fixture
+def head() -> Any:
+    """The default head, selected and active."""
+    from risorius.scene.head import add_default_head
+
+    return add_default_head()
+
+
+@pytest.fixture
+def cube() -> Any:
+    """A small mesh without feature points, selected and active."""
+    bpy.ops.mesh.primitive_cube_add()
+    return bpy.context.object

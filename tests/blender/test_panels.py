@@ -1,0 +1,117 @@
+"""Every panel drawn by a spy that records what a user would see."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import bpy
+import pytest
+
+from risorius import operators
+from risorius.operators import requirements
+
+pytestmark = pytest.mark.smoke
+
+
+class Spy:
+    """A layout that records: labels, properties and operators, whatever box or row they are in."""
+
+    def __init__(self, seen: list[tuple[str, str]] | None = None) -> None:
+        self.seen = [] if seen is None else seen
+
+    def _nested(self, **options: Any) -> Spy:
+        return Spy(self.seen)
+
+    row = column = box = split = _nested
+
+    def label(self, *, text: str = "", icon: str = "NONE") -> None:
+        self.seen.append(("label", text))
+
+    def prop(self, data: Any, name: str, **options: Any) -> None:
+        assert name in data.bl_rna.properties, f"{data} has no {name}"
+        unknown = set(options) - {"text", "icon", "slider", "expand", "toggle", "placeholder"}
+        assert not unknown
+        self.seen.append(("prop", name))
+
+    def operator(self, name: str, **options: Any) -> Any:
+        assert name.partition(".")[2] in dir(bpy.ops.risorius)
+        self.seen.append(("operator", name))
+        return SimpleNamespace()
+
+
+def drawn() -> dict[str, list[tuple[str, str]]]:
+    """What each panel shows now; panels that do not show are missing."""
+    context = bpy.context
+    shown = {}
+    for cls in operators._classes():
+        if not issubclass(cls, bpy.types.Panel):
+            continue
+        if not getattr(cls, "poll", lambda _: True)(context):
+            continue
+        spy = Spy()
+        panel = SimpleNamespace(layout=spy)
+        for name in vars(cls):
+            if name.startswith("_draw_"):
+                setattr(panel, name, getattr(cls, name).__get__(panel))
+        cls.draw(panel, context)
+        shown[cls.__name__] = spy.seen
+    return shown
+
+
+def test_without_an_object_the_way_in_is_shown() -> None:
+    shown = drawn()
+    assert set(shown) == {"RISORIUS_PT_main"}
+    assert ("operator", "risorius.add_head") in shown["RISORIUS_PT_main"]
+
+
+def test_a_mesh_without_points_is_told_what_it_needs(cube: Any) -> None:
+    shown = drawn()
+    assert ("operator", "risorius.import_points") in shown["RISORIUS_PT_main"]
+    assert not bpy.ops.risorius.bake_expression.poll()
+
+
+def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
+    shown = drawn()
+    assert list(shown) == ["RISORIUS_PT_main", "RISORIUS_PT_face", "RISORIUS_PT_emotion", "RISORIUS_PT_bake", "RISORIUS_PT_film"]
+    assert ("label", head.name) in shown["RISORIUS_PT_main"]
+    assert [entry for entry in shown["RISORIUS_PT_emotion"] if entry[0] == "prop"][:2] == [
+        ("prop", "word"),
+        ("prop", "activation"),
+    ]
+    assert ("label", "Joy's own: 5.4") in shown["RISORIUS_PT_emotion"]
+
+
+def test_missing_scipy_is_said_with_the_remedy(monkeypatch: pytest.MonkeyPatch) -> None:
+    from risorius.operators.face import panel
+
+    monkeypatch.setattr(panel, "has_scipy", lambda: False)
+    labels = [text for kind, text in drawn()["RISORIUS_PT_main"] if kind == "label"]
+    assert labels[0] == requirements.MISSING
+    assert any("python3-scipy" in text for text in labels)
+
+
+def test_a_new_word_brings_its_own_activation_and_variants(head: Any) -> None:
+    emotion = head.risorius.emotion
+    emotion.variant = "1"
+    emotion.activation = 2.0
+    emotion.word = "fear"
+    assert emotion.activation == pytest.approx(4.9)
+    assert emotion.variant == "DEFAULT"
+    emotion.variant = "8"
+    emotion.activation = 6.0
+    bpy.ops.risorius.reset_activation()
+    assert emotion.activation == pytest.approx(4.9)
+    assert not bpy.ops.risorius.reset_activation.poll()
+
+
+def test_all_words_can_be_chosen_and_keep_their_number(head: Any) -> None:
+    from risorius.mpeg4 import WORDS
+    from risorius.operators.emotion.props import word_items
+
+    items = word_items(head.risorius.emotion, bpy.context)
+    assert {item[0] for item in items} == set(WORDS)
+    assert len({item[4] for item in items}) == len(items)
+    for name, *_ in items:
+        head.risorius.emotion.word = name
+        assert head.risorius.emotion.word == name
