@@ -106,7 +106,7 @@ class _Entry:
         activation = self.number("activation", ACTIVATION_MIN, ACTIVATION_MAX, known.activation if known else None)
         if not neutral and activation is None:
             raise self.refuse("activation", f"must be a number from {ACTIVATION_MIN:g} to {ACTIVATION_MAX:g}")
-        if not neutral and category is None and angle is None:
+        if not neutral and category is None and angle is None and "neighbours" not in self.table:
             raise self.refuse("category", "must be given unless the word has an angle (or is neutral)")
         try:
             return Word(

@@ -139,9 +139,11 @@ class Profile:
         ParameterError
             When the activation is off the scale.
         """
-        factor = check_activation(activation) / self.activation
-        ranges = {number: (low * factor, high * factor) for number, (low, high) in self.ranges.items()}
-        return replace(self, ranges=ranges, activation=activation)
+        wanted, own = check_activation(activation), self.activation
+        if wanted == own:
+            return self  # x * a / a is not x in every last digit
+        ranges = {number: (low * wanted / own, high * wanted / own) for number, (low, high) in self.ranges.items()}
+        return replace(self, ranges=ranges, activation=wanted)
 
     def named(self, word: str | None) -> Profile:
         """The same profile under an emotion word."""

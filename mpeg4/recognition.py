@@ -14,20 +14,25 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Floats
+from ..arrays import Bools, Floats
 from ..errors import ParameterError
 from .archetypes import VARIANTS, archetype
-from .features import faps_from_features
+from .features import FEATURE_COUNT, faps_from_features
 from .profile import ARCHETYPES, Archetype, Profile
 from .standard import FAP_COUNT
 
-# Half of the range's length is the paper's own spread. Printed ranges of one face differ by whole variants, so a range
-# is widened to this share of its centre, and to this many units where it is printed around 0.
-RELATIVE_WIDTH = 0.5
+# Half of the range's length is the paper's own spread. Faces differ in strength by more than the printed variants do,
+# so a range is widened to this share of its centre, and to this many units where it is printed around 0. Of 0.35, 0.5,
+# 0.75 and 1, this share recognised most archetypes scaled to activations 2 to 7; judged on profiles, not yet on faces.
+RELATIVE_WIDTH = 0.75
 LEAST_WIDTH = 40.0  # FAP units
 
-# With less than this share of its FAPs observed, a profile is not judged at all: one lucky FAP is no evidence.
-LEAST_OBSERVED = 0.5
+# A FAP that was not seen speaks neither for nor against a profile: it counts as one width off the centre. Left out
+# instead, it would favour the profiles that ask for what cannot be seen.
+UNSEEN_MEMBERSHIP = 0.5
+
+# With less than this share of its FAPs seen, a profile is not judged at all: one lucky FAP is no evidence.
+LEAST_SEEN = 0.5
 
 # What recognition works on: (archetype, variant, FAP indices, centres, widths) of every profile.
 _Class: TypeAlias = tuple[Archetype, int, tuple[int, ...], Floats, Floats]
@@ -71,8 +76,8 @@ def recognise(frame: ArrayLike) -> Beliefs:
 
     Parameters
     ----------
-    frame : (68,) FAPs in FAP units and MPEG-4 signs, index = FAP number - 1; NaN where not observed. A profile is
-        judged by its observed FAPs, if they are at least half of its FAPs; otherwise its belief is 0.
+    frame : (68,) FAPs in FAP units and MPEG-4 signs, index = FAP number - 1; NaN where not observed, which counts as
+        a membership of 1/2. A profile of which less than half is observed has the belief 0.
 
     Returns
     -------
@@ -86,15 +91,7 @@ def recognise(frame: ArrayLike) -> Beliefs:
     values = np.asarray(frame, dtype=np.float64)
     if values.shape != (FAP_COUNT,) or np.isinf(values).any():
         raise ParameterError("frame", f"must be {FAP_COUNT} numbers (NaN where unknown)", values.shape)
-    beliefs: dict[Archetype, dict[int, float]] = {name: {} for name in ARCHETYPES}
-    for name, variant, indices, centres, widths in _classes():
-        asked = values[list(indices)]
-        seen = ~np.isnan(asked)
-        if seen.sum() < LEAST_OBSERVED * seen.size:
-            beliefs[name][variant] = 0.0
-        else:
-            beliefs[name][variant] = float(membership(asked[seen], centres[seen], widths[seen]).prod())
-    return Beliefs(beliefs)
+    return _beliefs(values, np.ones(FAP_COUNT, dtype=np.bool_))
 
 
 def recognise_features(features: ArrayLike) -> Beliefs:
@@ -102,7 +99,8 @@ def recognise_features(features: ArrayLike) -> Beliefs:
 
     Parameters
     ----------
-    features : (15,) as printed in the table, in FAP units; NaN where unknown.
+    features : (15,) as printed in the table, in FAP units; NaN where unknown. Profiles are judged by the FAPs that
+        features can show at all, so that a smile is not held against them for its unmeasured corners.
 
     Returns
     -------
@@ -113,7 +111,26 @@ def recognise_features(features: ArrayLike) -> Beliefs:
     ParameterError
         When there are not 15 finite-or-NaN numbers.
     """
-    return recognise(faps_from_features(features))
+    return _beliefs(faps_from_features(features), _shown_by_features())
+
+
+def _beliefs(values: Floats, visible: Bools) -> Beliefs:
+    """Equations (8) and (9) over the visible FAPs, (68,) each; NaN where a visible FAP was not seen."""
+    beliefs: dict[Archetype, dict[int, float]] = {name: {} for name in ARCHETYPES}
+    for name, variant, indices, centres, widths in _classes():
+        asked, judged = values[list(indices)], visible[list(indices)]
+        seen = ~np.isnan(asked)
+        if not judged.any() or seen.sum() < LEAST_SEEN * judged.sum():
+            beliefs[name][variant] = 0.0
+            continue
+        memberships = np.where(seen, membership(asked, centres, widths), UNSEEN_MEMBERSHIP)
+        beliefs[name][variant] = float(memberships[judged].prod())
+    return Beliefs(beliefs)
+
+
+def _shown_by_features() -> Bools:
+    """(68,) the FAPs that some feature shows."""
+    return ~np.isnan(faps_from_features(np.zeros(FEATURE_COUNT)))
 
 
 @cache

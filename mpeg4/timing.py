@@ -105,7 +105,7 @@ def _ramp(since: Floats, duration: float) -> Floats:
     if duration == 0.0:
         return np.where(since >= 0.0, 1.0, 0.0)
     s = np.clip(since / duration, 0.0, 1.0)
-    return np.asarray(s**3 * (10.0 - 15.0 * s + 6.0 * s**2), dtype=np.float64)
+    return np.clip(s**3 * (10.0 - 15.0 * s + 6.0 * s**2), 0.0, 1.0)  # rounding may pass 1
 
 
 def envelope(
