@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import math
 import sys
@@ -59,7 +60,8 @@ def main(argv: list[str] | None = None) -> int:
     except (RisoriusError, OSError) as error:
         print(f"risorius {arguments.verb}: {error}", file=sys.stderr)
         return 1
-    print(json.dumps(_plain(result.data), indent=1) if arguments.json else "\n".join(result.lines))
+    with contextlib.suppress(BrokenPipeError):  # the reader (head, less) has seen enough
+        print(json.dumps(_plain(result.data), indent=1) if arguments.json else "\n".join(result.lines), flush=True)
     return 0
 
 
@@ -114,7 +116,7 @@ def _measure(arguments: argparse.Namespace) -> Result:
     from . import api
 
     face = _face(arguments)
-    frames = {str(path): face.measure(_vertices(path, face, arguments)) for path in arguments.deformed}
+    frames = {str(path): face.measure(_vertices(path, face)) for path in arguments.deformed}
     if arguments.out:
         stream = api.FapStream(frames=np.stack(list(frames.values())), fps=arguments.fps, name=arguments.out.stem)
         api.write_fap(arguments.out, stream)
@@ -128,13 +130,16 @@ def _recognise(arguments: argparse.Namespace) -> Result:
 
     if arguments.file.suffix.lower() == ".fap":
         frames = api.read_fap(arguments.file).frames
-        if not -len(frames) <= arguments.frame < len(frames):
-            raise ParameterError("frame", f"must be one of 0..{len(frames) - 1}", arguments.frame)
-        frame = frames[arguments.frame]
+        strongest = int(np.nansum(np.abs(frames), axis=1).argmax())
+        index = strongest if arguments.frame is None else arguments.frame
+        if not 0 <= index < len(frames):
+            raise ParameterError("frame", f"must lie in 0..{len(frames) - 1}", index)
+        frame = frames[index]
     else:
         face = _face(arguments)
-        frame = face.measure(_vertices(arguments.file, face, arguments))
-    beliefs = dict(sorted(api.recognise(frame).items(), key=lambda item: -item[1]))
+        frame = face.measure(_vertices(arguments.file, face))
+    beliefs = {str(name): belief for name, belief in api.recognise(frame).items()}
+    beliefs = dict(sorted(beliefs.items(), key=lambda item: -item[1]))
     return Result(beliefs, [f"{name:<12} {belief:.3f}" for name, belief in beliefs.items()])
 
 
@@ -146,7 +151,11 @@ def _fap(arguments: argparse.Namespace) -> Result:
         stream = api.read_fap(Path(arguments.source))
     else:
         arguments.word, arguments.angle = arguments.source, None
-        frames = api.envelope(_expression(arguments), fps=arguments.fps)
+        timing = api.load_timings()["natural"]
+        profile = _expression(arguments)
+        frames = api.envelope(
+            profile, onset=timing.onset, apex=timing.apex, offset=timing.offset, fps=arguments.fps
+        )
         stream = api.FapStream(frames=frames, fps=arguments.fps, name=arguments.source)
     if arguments.out:
         api.write_fap(arguments.out, stream)
@@ -183,8 +192,7 @@ def _expression(arguments: argparse.Namespace) -> Any:
         if arguments.activation is None:
             raise _UsageError("--angle needs --activation")
         return api.expression(angle=arguments.angle, activation=arguments.activation)
-    options = {"activation": arguments.activation} if arguments.activation is not None else {}
-    return api.expression(arguments.word, **options)
+    return api.expression(arguments.word, activation=arguments.activation, variants=arguments.variant)
 
 
 def _face(arguments: argparse.Namespace) -> Any:
@@ -197,15 +205,15 @@ def _face(arguments: argparse.Namespace) -> Any:
         raise _UsageError("--mesh and --points go together")
     if arguments.mesh is None:
         return api.default_face()
-    mesh = read_mesh(arguments.mesh, y_up=arguments.y_up)
+    mesh = read_mesh(arguments.mesh)
     return api.Face.from_arrays(mesh.vertices, mesh.polygons, read_points(arguments.points))
 
 
-def _vertices(path: Path, face: Any, arguments: argparse.Namespace) -> Any:
+def _vertices(path: Path, face: Any) -> Any:
     """The vertices of a deformed mesh, as many as the face has."""
     from .face.mesh_file import read_mesh
 
-    vertices = read_mesh(path, y_up=arguments.y_up).vertices
+    vertices = read_mesh(path).vertices
     if len(vertices) != len(face.vertices):
         rule = f"must have the neutral face's {len(face.vertices)} vertices"
         raise ParameterError(str(path), rule, len(vertices))
@@ -225,8 +233,8 @@ def _jobs() -> Any:
 
 def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:
     """The options that all jobs share."""
-    if (arguments.mesh is None) != (arguments.points is None):
-        raise _UsageError("--mesh and --points go together")
+    if arguments.mesh is None and arguments.points is not None:
+        raise _UsageError("--points needs --mesh")
     shared = {name: getattr(arguments, name) for name in ("mesh", "points", "fps")}
     words = {"words": tuple(arguments.words)} if arguments.words else {}
     return {**shared, **words, "progress": _show_progress}
@@ -284,7 +292,7 @@ def _parser() -> argparse.ArgumentParser:
     profile = _verb(verbs, "profile", _profile)
     profile.add_argument("word", nargs="?", help="an emotion word")
     profile.add_argument("--angle", type=float, help="degrees on the emotion wheel, instead of a word")
-    _add_activation(profile)
+    _add_strength(profile)
 
     bake = _verb(verbs, "bake", _bake)
     _add_words(bake)
@@ -305,19 +313,18 @@ def _parser() -> argparse.ArgumentParser:
 
     recognise = _verb(verbs, "recognise", _recognise)
     recognise.add_argument("file", type=Path, help="a .fap file, or a deformed mesh")
-    recognise.add_argument("--frame", type=int, default=-1, help="which frame of a .fap file (default: the last)")
+    recognise.add_argument("--frame", type=int, help="which frame of a .fap file (default: the strongest)")
     _add_face(recognise)
 
     fap = _verb(verbs, "fap", _fap)
     fap.add_argument("source", help="a .fap file to look into, or an emotion word to write as one")
-    _add_activation(fap)
+    _add_strength(fap)
     _add_fps(fap)
     fap.add_argument("--out", type=Path, help="the .fap file to write")
 
     points = _verb(verbs, "points", _points)
     points.add_argument("points", type=Path, help='a JSON file {"8.4": vertex index or [x, y, z], ...}')
     points.add_argument("--mesh", type=Path, required=True, help="the mesh they belong to, .npz or .obj")
-    points.add_argument("--y-up", action="store_true", help="the mesh has +Y up and looks along +Z")
 
     demo = _verb(verbs, "demo", _demo)
     _add_words(demo, nargs="*")
@@ -340,8 +347,9 @@ def _add_words(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
     parser.add_argument("words", nargs=nargs, metavar="WORD", help="emotion words, shown one after another")
 
 
-def _add_activation(parser: argparse.ArgumentParser) -> None:
+def _add_strength(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--activation", type=float, help="1..7 (default: the word's own)")
+    parser.add_argument("--variant", type=int, help="which of the paper's variants of the emotion")
 
 
 def _add_fps(parser: argparse.ArgumentParser) -> None:
@@ -354,7 +362,6 @@ def _add_engine(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_face(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--mesh", type=Path, help="the neutral face (default: the embedded head)")
-    parser.add_argument("--points", type=Path, help="its feature points, a JSON file")
-    parser.add_argument("--y-up", action="store_true", help="the mesh has +Y up and looks along +Z")
+    parser.add_argument("--mesh", type=Path, help="the neutral face: .npz or .obj; in Blender also .blend or .glb")
+    parser.add_argument("--points", type=Path, help="its feature points, a JSON file (without both: the default head)")
     _add_fps(parser)

@@ -1,7 +1,7 @@
 """Meshes in files, without Blender: .npz and .obj.
 
 The .npz files hold `vertices` (V, 3) in metres with either `polygons` (F, 3|4) or `loops` (the corners of all
-polygons, one after another) and `face_sizes` (F,). An .obj is read as it stands, unless `y_up` turns it.
+polygons, one after another) and `face_sizes` (F,). An .obj is read as it stands, whichever way it looks.
 """
 
 from __future__ import annotations
@@ -31,13 +31,8 @@ class MeshFile:
             raise ValueError(f"vertices must be (V, 3), but are {self.vertices.shape}")
 
 
-def read_mesh(path: str | Path, *, y_up: bool = False) -> MeshFile:
+def read_mesh(path: str | Path) -> MeshFile:
     """Read an .npz or .obj mesh.
-
-    Parameters
-    ----------
-    path : the file.
-    y_up : turn a mesh with +Y up and the face towards +Z into +Z up and the face towards -Y.
 
     Returns
     -------
@@ -54,11 +49,7 @@ def read_mesh(path: str | Path, *, y_up: bool = False) -> MeshFile:
         raise FormatError(path, f"only {' and '.join(SUFFIXES)} are read without Blender; export the mesh as .obj")
     if not path.is_file():
         raise FormatError(path, "there is no such file")
-    mesh = _read_npz(path) if path.suffix.lower() == ".npz" else _read_obj(path)
-    if y_up:
-        x, y, z = mesh.vertices.T
-        return MeshFile(np.stack([x, -z, y], axis=1), mesh.polygons)
-    return mesh
+    return _read_npz(path) if path.suffix.lower() == ".npz" else _read_obj(path)
 
 
 def _read_npz(path: Path) -> MeshFile:

@@ -29,15 +29,6 @@ def test_obj_reads_mixed_polygons_and_relative_indices(tmp_path: Path) -> None:
     np.testing.assert_array_equal(mesh.vertices[4], [0.5, 2.0, 0.25])
 
 
-def test_y_up_is_a_proper_rotation_onto_z_up(tmp_path: Path) -> None:
-    path = tmp_path / "mesh.obj"
-    path.write_text(QUAD_AND_TRIANGLE)
-    as_is, turned = read_mesh(path).vertices, read_mesh(path, y_up=True).vertices
-    np.testing.assert_array_equal(turned[:, 2], as_is[:, 1])
-    rotation = np.linalg.lstsq(as_is, turned, rcond=None)[0]
-    assert np.linalg.det(rotation) == pytest.approx(1.0)
-
-
 def test_npz_by_polygons_and_by_loops_agree(tmp_path: Path) -> None:
     vertices = np.random.default_rng(1).random((5, 3))
     np.savez(tmp_path / "a.npz", vertices=vertices, polygons=np.array([[0, 1, 2], [2, 3, 4]]))
