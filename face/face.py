@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Floats, Ints
 from ..errors import ModelError, ParameterError
-from ..mpeg4 import ARCHETYPES, FAP_COUNT
+from ..mpeg4 import ARCHETYPES, FAP_COUNT, Cue
 from ..physics import mesh
 from .anatomy import Anatomy, Mesh
 from .frame import Fapu, fapu, head_frame
@@ -21,7 +21,7 @@ from .parts import Part
 from .points import FeaturePoints, PointSource, bind_points, check_sides
 from .pose import Pose, Poser
 from .segmentation import derive_parts
-from .simulate import Simulation
+from .simulate import Simulation, cue_moments, stream_moments
 from .template import TEMPLATE_POINTS
 from .wishes import Drive
 
@@ -65,7 +65,9 @@ class Face:
         """
         array = _checked_vertices(vertices)
         faces = _checked_polygons(polygons, len(array))
-        bound = bind_points(_with_pupils(points, array), array, mesh.triangulate(faces))
+        sources, triangles = _with_pupils(points, array), mesh.triangulate(faces)
+        skin = None if parts is None else np.asarray(parts) == Part.SKIN
+        bound = bind_points(sources, array, triangles, skin if skin is not None and skin.shape == (len(array),) else None)
         positions = bound.positions()
         frame = head_frame(positions)
         landmarks = {name: frame.to_head(position) for name, position in positions.items()}
@@ -73,6 +75,8 @@ class Face:
         units = fapu(positions, frame)
         head = frame.to_head(array)
         given = _parts(parts, head, faces, landmarks, bound)
+        if parts is None:
+            bound = bind_points(sources, array, triangles, given == Part.SKIN)
         face_mesh = Mesh(head, faces, given, bound, landmarks, frame, units)
         return cls(array, face_mesh)
 
@@ -150,14 +154,34 @@ class Face:
         emotions: ArrayLike | None = None,
         integrator: str = "implicit",
         substeps: int = 1,
+        tissue: str = "default",
     ) -> Iterator[Floats]:
         """Positions (V, 3) frame by frame of the moving face; see `simulate`."""
         checked = np.stack([_checked_frame(frame) for frame in np.asarray(frames, dtype=np.float64)])
         weights = None if emotions is None else np.asarray(emotions, dtype=np.float64)
         if weights is not None and weights.shape != (len(checked), len(ARCHETYPES)):
             raise ParameterError("emotions", f"must have the shape ({len(checked)}, {len(ARCHETYPES)})", weights.shape)
-        simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps)
-        return simulation.run(checked, _checked_drive(drive), weights)
+        simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
+        return simulation.run(stream_moments(self._poser, checked, _checked_drive(drive), weights))
+
+    def performance(
+        self,
+        cues: Sequence[Cue],
+        fps: float = 25.0,
+        *,
+        drive: str | Drive = Drive.NATURAL,
+        integrator: str = "implicit",
+        substeps: int = 1,
+        tissue: str = "default",
+    ) -> Iterator[Floats]:
+        """Positions (V, 3) frame by frame of expressions in time (`sequence` gives their frames).
+
+        In the natural drive each cue is planned at its apex and the plans are blended, so that an apex that is held is
+        the pose of its profile. Keywords and errors as `simulate`.
+        """
+        simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
+        return simulation.run(cue_moments(self._poser, cues, fps, _checked_drive(drive)))
+
 
     def simulate(
         self,
@@ -168,6 +192,7 @@ class Face:
         emotions: ArrayLike | None = None,
         integrator: str = "implicit",
         substeps: int = 1,
+        tissue: str = "default",
     ) -> Clip:
         """The moving face: frames of FAPs with the skin's inertia and damping.
 
@@ -178,13 +203,14 @@ class Face:
         emotions : (T, 6) strength of each archetype over time (`emotion_weights`), where the words are known.
         integrator : "implicit" (default) or "rk2", the paper's.
         substeps : steps per frame of the implicit integrator; rk2 chooses its own.
+        tissue : "default", "young", "aged" or "stiff" (presets/tissue.toml).
 
         Raises
         ------
         ParameterError, SolverError
         """
         moving = self.simulation(
-            frames, fps, drive=drive, emotions=emotions, integrator=integrator, substeps=substeps
+            frames, fps, drive=drive, emotions=emotions, integrator=integrator, substeps=substeps, tissue=tissue
         )
         return Clip(np.stack(list(moving)), fps)
 

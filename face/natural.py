@@ -8,7 +8,7 @@ Figures and reasons: docs/muscles.md; all in millimetres on the template face.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -71,6 +71,33 @@ class Plan:
         if abs(goal - limited) > 0.1 * abs(limited) + 5.0:
             return "weighed against other requests"
         return "as asked"
+
+
+def blend(plans: Sequence[Plan], weights: Sequence[float]) -> Plan:
+    """One plan from several that are shown at once, each in 0..1 of its strength; together never above 1.
+
+    A FAP is asked where any plan that is shown at all asks for it.
+    """
+    total = max(float(sum(weights)), 1.0)
+    shown = [(plan, weight / total) for plan, weight in zip(plans, weights, strict=True) if weight > 0.0]
+
+    def mix(name: str) -> Floats:
+        values = np.stack([getattr(plan, name) for plan, _ in shown])
+        shares = np.array([share for _, share in shown])
+        known = ~np.isnan(values)
+        return np.where(known.any(axis=0), shares @ np.where(known, values, 0.0), np.nan)
+
+    if not shown:
+        silent = np.full(FAP_COUNT, np.nan)
+        rest = np.where(np.isnan(plans[0].goal), np.nan, 0.0)
+        return Plan(rest, silent, silent, {}, {})
+    muscles: dict[str, float] = {}
+    units: dict[str, float] = {}
+    for plan, share in shown:
+        for source, target in ((plan.muscles, muscles), (plan.units, units)):
+            for key, value in source.items():
+                target[key] = target.get(key, 0.0) + share * value
+    return Plan(mix("goal"), mix("asked"), mix("limited"), muscles, units)
 
 
 def symmetric(frame: Floats) -> tuple[Floats, bool]:

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from ..arrays import Floats, Ints
+from ..arrays import Bools, Floats, Ints
 from ..errors import ModelError
 from ..mpeg4 import FEATURE_POINTS
 
@@ -115,7 +115,15 @@ def _bind_position(name: str, position: Floats, vertices: Floats, triangles: Int
     return BoundPoint(name, position, corners[best].astype(np.int64), weights[best])
 
 
-def bind_points(points: Mapping[str, PointSource], vertices: Floats, triangles: Ints) -> FeaturePoints:
+def lies_on_skin(name: str) -> bool:
+    """Whether a feature point is one of skin, rather than of eyeball, tongue, teeth or spine."""
+    group = name.split(".")[0]
+    return group not in ("6", "7") and name not in ("3.5", "3.6", "9.8", "9.9", "9.10", "9.11", "11.5")
+
+
+def bind_points(
+    points: Mapping[str, PointSource], vertices: Floats, triangles: Ints, skin: Bools | None = None
+) -> FeaturePoints:
     """Bind feature points to a mesh.
 
     Parameters
@@ -123,6 +131,7 @@ def bind_points(points: Mapping[str, PointSource], vertices: Floats, triangles: 
     points : name ("8.4") -> vertex index, or position (3,) in the mesh's coordinates.
     vertices : (V, 3) the neutral mesh, metres.
     triangles : (T, 3) vertex indices of the triangulated mesh.
+    skin : (V,) which vertices are skin; points of the skin are bound to it alone, however near a brow or tooth is.
 
     Raises
     ------
@@ -136,6 +145,7 @@ def bind_points(points: Mapping[str, PointSource], vertices: Floats, triangles: 
         raise ModelError(f"the face lacks the feature points {', '.join(missing)}: add them to the points given")
     near = cKDTree(vertices)
     reach = FREE_DISTANCE * float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    on_skin = triangles if skin is None else triangles[skin[triangles].all(axis=1)]
     bound: dict[str, BoundPoint] = {}
     for name, source in points.items():
         if isinstance(source, int | np.integer):
@@ -147,7 +157,8 @@ def bind_points(points: Mapping[str, PointSource], vertices: Floats, triangles: 
         position = np.asarray(source, dtype=np.float64)
         if position.shape != (3,) or not np.isfinite(position).all():
             raise ModelError(f"feature point {name} must be a vertex index or three finite coordinates, not {source!r}")
-        bound[name] = _bind_position(name, position, vertices, triangles, near, reach)
+        surface = triangles if skin is None or not lies_on_skin(name) else on_skin
+        bound[name] = _bind_position(name, position, vertices, surface, near, reach)
     return FeaturePoints(bound, len(vertices))
 
 

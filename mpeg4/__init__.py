@@ -56,7 +56,7 @@ from .standard import (
     Unit,
     fap,
 )
-from .timing import Cue, Timing, emotion_weights, envelope, load_timings, sequence
+from .timing import Cue, Timing, emotion_weights, envelope, load_timings, sequence, strengths
 from .wheel import ACTIVATION_MAX, ACTIVATION_MIN
 from .words import TABLE_WORDS, Word
 
@@ -123,6 +123,7 @@ __all__ = [
     "recognise",
     "recognise_features",
     "sequence",
+    "strengths",
     "viseme_frame",
     "write_fap",
 ]

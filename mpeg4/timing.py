@@ -160,11 +160,11 @@ def sequence(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
     ParameterError
         When there is no cue or the rate is not positive.
     """
-    strengths = _strengths(cues, fps)
+    strength = strengths(cues, fps=fps)
     wanted = np.array([cue.profile.frame(cue.seed) for cue in cues])  # (C, 68)
     asks = ~np.isnan(wanted)
-    summed = strengths @ asks.astype(np.float64)
-    frames = strengths @ np.where(asks, wanted, 0.0) / np.maximum(summed, 1.0)
+    summed = strength @ asks.astype(np.float64)
+    frames = strength @ np.where(asks, wanted, 0.0) / np.maximum(summed, 1.0)
     return np.asarray(np.where(asks.any(axis=0), frames, np.nan), dtype=np.float64)
 
 
@@ -181,13 +181,19 @@ def emotion_weights(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
     ParameterError
         As `sequence`.
     """
-    strengths = _strengths(cues, fps)
+    strength = strengths(cues, fps=fps)
     shares = np.array([[cue.profile.weights.get(name, 0.0) for name in ARCHETYPES] for cue in cues])
-    return np.asarray(strengths @ shares / np.maximum(strengths.sum(axis=1, keepdims=True), 1.0), dtype=np.float64)
+    return np.asarray(strength @ shares / np.maximum(strength.sum(axis=1, keepdims=True), 1.0), dtype=np.float64)
 
 
-def _strengths(cues: Sequence[Cue], fps: float) -> Floats:
-    """(T, C) strength of every cue at every frame, up to the first frame at or after the last cue's end."""
+def strengths(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
+    """(T, C) strength 0..1 of every cue at every frame, up to the first frame at or after the last cue's end.
+
+    Raises
+    ------
+    ParameterError
+        As `sequence`.
+    """
     _check_fps(fps)
     if not cues:
         raise ParameterError("cues", "must hold at least one cue", 0)
