@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,8 @@ import pytest
 from risorius.errors import ModelError
 from risorius.face.default_head import HeadMesh, build_default_head
 from risorius.face.default_head.brows import front_surface
-from risorius.face.default_head.figures import read_figures
+from risorius.face.default_head.figures import PointFigures, read_figures
+from risorius.face.default_head.points import skin_points
 from risorius.face.default_head.skin import build_skin
 from risorius.face.parts import Part
 
@@ -131,6 +133,23 @@ def test_the_eyeball_shows_between_the_lids(head: HeadMesh) -> None:
     assert (np.linalg.norm((margin - centre)[:, [0, 2]], axis=1) < radius).all()
 
 
+def test_lids_have_a_rim_of_the_stated_thickness(head: HeadMesh) -> None:
+    """Anatomy: a lid margin is about 2 mm thick; at the canthi it thins out."""
+    centre = head.landmarks["eyeball_l"]
+    outer, inner = (head.vertices[head.groups[name]] - centre for name in ("lash_line_l", "lid_margin_l"))
+    thickness = np.linalg.norm(outer, axis=1) - np.linalg.norm(inner, axis=1)
+    assert thickness.min() > -0.1e-3
+    assert 1.0e-3 < thickness[0] < 2.7e-3  # medial canthus
+    assert 1.0e-3 < thickness[8] < 2.7e-3  # upper lid
+    assert 1.0e-3 < thickness[24] < 2.7e-3  # lower lid
+
+
+def test_teeth_and_tongue_stay_behind_the_closed_lips(head: HeadMesh) -> None:
+    inner = np.isin(head.parts, (Part.TEETH_UPPER, Part.TEETH_LOWER, Part.TONGUE))
+    foot, _ = front_surface(build_skin(read_figures()), head.vertices[inner][:, [0, 2]])
+    assert (head.vertices[inner, 1] - foot[:, 1]).min() > 2e-3
+
+
 def test_brows_rise_out_of_the_skin(head: HeadMesh) -> None:
     """Inner brow vertices lie in front of the skin, border vertices under it, seen along +Y at the same place."""
     quads = quads_of(head, Part.OTHER)
@@ -226,6 +245,15 @@ def test_points_off_the_skin_are_on_their_own_part(head: HeadMesh) -> None:
     tongue = head.vertices[head.parts == Part.TONGUE]
     assert head.position("6.1")[1] == tongue[:, 1].min()
     assert head.position("6.3")[0] == tongue[:, 0].max()
+
+
+@pytest.mark.parametrize(("uv", "node"), [((0.0, 0.0), 0), ((1.0, 0.0), 1), ((1.0, 1.0), 2), ((0.0, 1.0), 3)])
+def test_uv_runs_from_the_first_node_to_the_second_and_to_the_fourth(uv: tuple[float, float], node: int) -> None:
+    figures = read_figures()
+    corners = ("r02c05", "r03c05", "r03c06", "r02c06")
+    placed = replace(figures, points={"4.3": PointFigures(corners, uv)}, point_pairs={})
+    found = skin_points(placed, build_skin(figures))["4.3"]
+    assert np.allclose(found, figures.nodes[corners[node]], atol=1e-9)
 
 
 def test_positions_that_are_not_vertices_lie_on_the_skin(head: HeadMesh) -> None:
