@@ -32,7 +32,7 @@ class Minimum:
     positions : (V, 3) m.
     residual : m, the largest correction of a node that is still expected.
     iterations : solves with the matrix.
-    rate : last ratio of one correction to the one before; a guess for the next problem of the kind.
+    rate : largest ratio of one correction to the one before; a guess for the next problem of the kind.
     converged : the residual is within the tolerance.
     """
 
@@ -73,30 +73,34 @@ def minimise(
     tolerance : m, the largest correction of a node, as P^-1 times the gradient tells it, that may be left.
     max_iterations : solves with P.
     memory : remembered steps.
-    rate : given, corrections are expected to shrink by it (by the observed ratio, once there are two), and the
-        last solve is saved when what is left after a step must lie within the tolerance.
+    rate : given, corrections are expected to shrink by it (by the largest observed ratio, once there are two), and
+        the last solve is saved when what is left after a step must then lie within the tolerance.
     """
     x = np.array(start, dtype=np.float64)
     energy, gradient = objective(x)
     history: deque[_Pair] = deque(maxlen=memory)
     scaled = factor.solve(gradient)
     before = np.inf
-    observed = 1.0 if rate is None else rate
+    expected = 1.0 if rate is None else rate
+    ratios: list[float] = []
     for iteration in range(1, max_iterations + 1):
         residual = _largest(scaled)
         if residual <= tolerance:
-            return Minimum(x, residual, iteration, observed, True)
+            return Minimum(x, residual, iteration, expected, True)
         step, energy, new = _descend(objective, x, energy, gradient, _direction(gradient, scaled, history))
         if step is None or new is None:
             step, energy, new = _descend(objective, x, energy, gradient, -scaled)
             history.clear()
             if step is None or new is None:
-                return Minimum(x, residual, iteration, observed, False)
+                return Minimum(x, residual, iteration, expected, False)
         x = x + step
         moved = _largest(step)
-        observed, before = (min(moved / before, 1.0) if np.isfinite(before) else observed), moved
-        if rate is not None and observed < 1 and moved * observed / (1 - observed) <= tolerance:
-            return Minimum(x, moved * observed / (1 - observed), iteration, observed, True)
+        if np.isfinite(before):
+            ratios.append(moved / before)
+            expected = min(max(ratios), 1.0)
+        before = moved
+        if rate is not None and expected < 1 and moved * expected / (1 - expected) <= tolerance:
+            return Minimum(x, moved * expected / (1 - expected), iteration, expected, True)
         rescaled = factor.solve(new)
         y, z = new - gradient, rescaled - scaled
         curvature = float(np.vdot(step, y))
@@ -104,7 +108,7 @@ def minimise(
             history.append(_Pair(step, y, z, curvature))
         gradient, scaled = new, rescaled
     residual = _largest(scaled)
-    return Minimum(x, residual, max_iterations, observed, residual <= tolerance)
+    return Minimum(x, residual, max_iterations, expected, residual <= tolerance)
 
 
 def _direction(gradient: Floats, scaled: Floats, history: deque[_Pair]) -> Floats:
