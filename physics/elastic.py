@@ -19,7 +19,8 @@ from scipy.sparse.linalg import splu
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import ParameterError, SolverError
-from .mesh import Polygons, Sparse, by_size, face_pairs, pair_keys, polygon_areas, within
+from .mesh import Polygons, by_size, face_pairs, pair_keys, polygon_areas, within
+from .mesh import Sparse as Sparse  # re-exported: whoever assembles K needs its type
 
 _SHORTEST = 1e-2
 """A side shorter than this fraction of sqrt(polygon area) counts as this long: slivers must not freeze the skin."""

@@ -25,7 +25,7 @@ class SpringLaw(StrEnum):
     CONTINUOUS = "continuous"
     """k_l e up to the threshold, then k_l e_c + k_h (e - e_c): real tissue, and every solver, needs no jump."""
     PRINTED = "printed"
-    """Equation (3) as printed, k_l e or k_h e: the tension jumps at the threshold, where a spring then has no position of
+    """Equation (3) as printed, k_l e or k_h e: the tension jumps at the threshold, where a spring then has no place of
     balance. For comparison, with `rk2`; the implicit and the equilibrium solver raise where they meet the jump."""
 
 
