@@ -23,6 +23,13 @@ JAW_ANCHOR_LENGTH = 16.625 * MM
 JAW_STIFFNESS = 1.0 / (13.13 * MM) ** 2
 CHIN_WEIGHT = 0.9
 
+#: The floor of the mouth, squeezed between mandible and neck, bulges along its normal: height per squared sine of the
+#: opening angle (there is slack first), place on the template and extent (side, height, depth), metres. Fitted to a scanned open jaw, whose residual
+#: under the chin lies along the normal for 83 %; this one window explains 94 % of that.
+FLOOR_BULGE = 82.7 * MM
+FLOOR_CENTRE = np.array([0.0, -72.8, -59.2]) * MM
+FLOOR_EXTENT = np.array([69.0, 23.8, 40.9]) * MM
+
 
 @dataclass(frozen=True)
 class JawMotion:
@@ -41,10 +48,12 @@ class Jaw:
     ----------
     hinge : (3,) a point on the axis, which runs left to right.
     weights : (n,) how far each vertex of the outer skin follows, 0 to 1.
+    bulge : (n, 3) where the floor of the mouth goes besides, metres per squared sine of the opening angle.
     """
 
     hinge: Floats
     weights: Floats
+    bulge: Floats
 
     def rigid(self, positions: Floats, motion: JawMotion) -> Floats:
         """Displacement (k, 3) of points (k, 3) fixed to the mandible itself: teeth, tongue, bone."""
@@ -58,7 +67,7 @@ class Jaw:
 
     def skin(self, positions: Floats, motion: JawMotion) -> Floats:
         """Displacement (n, 3) of the outer skin."""
-        return self.weights[:, None] * self.rigid(positions, motion)
+        return self.weights[:, None] * self.rigid(positions, motion) + max(np.sin(motion.angle), 0.0) ** 2 * self.bulge
 
     def derivatives(self, positions: Floats, motion: JawMotion) -> Floats:
         """(3, n, 3) change of `skin` per radian of opening and per metre of slide left and forward, at a motion."""
@@ -69,7 +78,9 @@ class Jaw:
         change[0, :, 2] = cosine * y - sine * z
         change[1, :, 0] = 1.0
         change[2, :, 2] = 1.0
-        return change * self.weights[None, :, None]
+        change *= self.weights[None, :, None]
+        change[0] += 2.0 * max(sine, 0.0) * cosine * self.bulge
+        return change
 
 
 def _above_line(positions: Floats, start: Floats, end: Floats, blend: float) -> Floats:
@@ -90,7 +101,9 @@ def mandible_mask(skin: OuterSkin) -> Floats:
     upper, lower = skin.lip_distances
     lower_lip = smoothstep(((upper - lower) / (8 * MM) + 1.0) / 2.0)
     below_mouth = 1.0 - _above_line(skin.positions, corner, angle + np.array([0.0, 20 * MM, 0.0]), 16 * MM)
-    above_jaw = _above_line(skin.positions, chin - np.array([0.0, 4 * MM, 0.0]), angle - np.array([0.0, 4 * MM, 0.0]), 10 * MM)
+    above_jaw = _above_line(
+        skin.positions, chin - np.array([0.0, 4 * MM, 0.0]), angle - np.array([0.0, 4 * MM, 0.0]), 10 * MM
+    )
     before_angle = smoothstep((skin.positions[:, 2] - angle[2]) / (14 * MM) + 0.5)
     return lower_lip * below_mouth * above_jaw * before_angle
 
@@ -111,7 +124,15 @@ def build_jaw(skin: OuterSkin, warp: TemplateWarp) -> Jaw:
     weights = Factor(stiffness).solve(skin.areas * pull)
     boss = np.argmin(np.linalg.norm(skin.positions - points["2.10"], axis=1))
     weights *= CHIN_WEIGHT / max(float(weights[boss]), 1e-6)
-    return Jaw(hinge=hinge, weights=np.clip(weights, 0.0, 1.0))
+    return Jaw(hinge=hinge, weights=np.clip(weights, 0.0, 1.0), bulge=_floor_bulge(skin, warp))
+
+
+def _floor_bulge(skin: OuterSkin, warp: TemplateWarp) -> Floats:
+    """(n, 3) bulge of the floor of the mouth per squared sine of the opening angle."""
+    away = (skin.positions - warp(FLOOR_CENTRE)) / FLOOR_EXTENT
+    window = np.exp(-(away[:, 0] ** 4) - away[:, 1] ** 2 - away[:, 2] ** 2)
+    below = smoothstep((skin.points["2.3"][1] - 12 * MM - skin.positions[:, 1]) / (15 * MM))
+    return FLOOR_BULGE * (window * below)[:, None] * skin.normals
 
 
 def _rest_anchor(skin: OuterSkin) -> Floats:
