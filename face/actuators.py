@@ -50,7 +50,9 @@ class Amounts:
 class Actuators:
     """The actuators of one face with their fields on the outer skin."""
 
-    def __init__(self, skin: OuterSkin, tissue: Tissue, jaw: Jaw, eyes: Mapping[str, Eye], muscles: Sequence[PlacedMuscle]) -> None:
+    def __init__(
+        self, skin: OuterSkin, tissue: Tissue, jaw: Jaw, eyes: Mapping[str, Eye], muscles: Sequence[PlacedMuscle]
+    ) -> None:
         self.skin, self.jaw, self.eyes = skin, jaw, eyes
         forces = stack([force_density(skin, muscle) * skin.areas[:, None] for muscle in muscles])
         sheets = tissue.relax(forces)

@@ -206,12 +206,20 @@ class Anatomy:
         if len(index) == 0:
             return None
         units, scale = self.mesh.units, self.mesh.frame.scale
-        return build_tongue(index, self.mesh.positions[index], (units.mw0 / 1024.0 / scale, units.mns0 / 1024.0 / scale))
+        return build_tongue(
+            index, self.mesh.positions[index], (units.mw0 / 1024.0 / scale, units.mns0 / 1024.0 / scale)
+        )
 
     @cached_property
     def head_turn(self) -> HeadTurn:
         """The head on its spine."""
         landmarks = self.mesh.landmarks
-        pivot = landmarks["7.1"] if "7.1" in landmarks else self.warp(TEMPLATE_POINTS["7.1"]) if "7.1" in TEMPLATE_POINTS else np.array([0.0, 0.0, -128.0]) * MM
+        pivot = (
+            landmarks["7.1"]
+            if "7.1" in landmarks
+            else self.warp(TEMPLATE_POINTS["7.1"])
+            if "7.1" in TEMPLATE_POINTS
+            else np.array([0.0, 0.0, -128.0]) * MM
+        )
         brow = float(landmarks["4.3"][1] + landmarks["4.4"][1]) / 2.0
         return build_head_turn(self.mesh.positions, pivot, brow)

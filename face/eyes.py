@@ -97,7 +97,9 @@ class Eye:
 
 def _fissure_position(skin: OuterSkin, side: str) -> Floats:
     """(n,) where a vertex lies along the eye: 0 at the inner corner, 1 at the outer one."""
-    inner, outer = (skin.points["3.11"], skin.points["3.7"]) if side == "l" else (skin.points["3.8"], skin.points["3.12"])
+    inner, outer = (
+        (skin.points["3.11"], skin.points["3.7"]) if side == "l" else (skin.points["3.8"], skin.points["3.12"])
+    )
     axis = outer - inner
     along: Floats = (skin.positions - inner) @ axis / (axis @ axis)
     return along

@@ -67,7 +67,9 @@ class Face:
         faces = _checked_polygons(polygons, len(array))
         sources, triangles = _with_pupils(points, array), mesh.triangulate(faces)
         skin = None if parts is None else np.asarray(parts) == Part.SKIN
-        bound = bind_points(sources, array, triangles, skin if skin is not None and skin.shape == (len(array),) else None)
+        bound = bind_points(
+            sources, array, triangles, skin if skin is not None and skin.shape == (len(array),) else None
+        )
         positions = bound.positions()
         frame = head_frame(positions)
         landmarks = {name: frame.to_head(position) for name, position in positions.items()}
@@ -182,7 +184,6 @@ class Face:
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
         return simulation.run(cue_moments(self._poser, cues, fps, _checked_drive(drive)))
 
-
     def simulate(
         self,
         frames: ArrayLike,
@@ -268,12 +269,18 @@ def _place(source: PointSource, vertices: Floats) -> Floats | None:
 
 
 def _parts(
-    parts: ArrayLike | None, head: Floats, polygons: Sequence[Ints], landmarks: Mapping[str, Floats], points: FeaturePoints
+    parts: ArrayLike | None,
+    head: Floats,
+    polygons: Sequence[Ints],
+    landmarks: Mapping[str, Floats],
+    points: FeaturePoints,
 ) -> Ints:
     """Given parts, checked, or derived ones."""
     nose = int(points["9.3"].vertices[0]) if points["9.3"].is_bound else -1
     if nose < 0:
-        raise ModelError("feature point 9.3 (nose tip) does not lie on the mesh: give a vertex or a point on the surface")
+        raise ModelError(
+            "feature point 9.3 (nose tip) does not lie on the mesh: give a vertex or a point on the surface"
+        )
     if parts is None:
         return derive_parts(head, polygons, landmarks, nose)
     array = np.array(parts, dtype=np.int64)

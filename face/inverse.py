@@ -128,4 +128,3 @@ class Inverse:
         loose = (doubts[known] / TAU) ** 2 + 1e-9
         weights = linalg.solve(compliance + np.diag(loose), residual[known], assume_a="pos") * self._scale
         return np.tensordot(weights, self.kernel[known], axes=1)
-

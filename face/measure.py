@@ -65,4 +65,3 @@ def features(anatomy: Anatomy, positions: Floats) -> Floats:
         before, after = (float(np.linalg.norm(np.diff(reader @ p, axis=0))) for p in (rest, now))
         values[i] = feature.value(after, before, unit_length(feature.unit, anatomy.mesh.units))
     return values
-

@@ -124,7 +124,9 @@ def _row(path: Path, name: str, raw: Mapping[str, Any]) -> MuscleRow:
     for figure in ("prior_mm", "amplitude_mm"):
         if not raw[figure] > 0:
             raise FormatError(path, f"{figure} must be positive, not {raw[figure]!r}", key=key)
-    places = {p: _place(path, f"{key}.{p}", raw[p]) if p in raw else None for p in ("attachment", "insertion", "centre")}
+    places = {
+        p: _place(path, f"{key}.{p}", raw[p]) if p in raw else None for p in ("attachment", "insertion", "centre")
+    }
     return MuscleRow(
         name=name,
         title=str(raw["title"]),

@@ -248,9 +248,7 @@ class Natural:
         spread = np.concatenate([data.unit_spread, np.full(len(data.sum_names), SUM_SPREAD)])
         mean = np.zeros(len(spread))
         paired = np.array([name.endswith(("_l", "_r")) for name in data.unit_names])
-        other = [
-            L1_OTHER_SUM if word_known and name[:-2] in EMOTIONS else L1_SUM for name in data.sum_names
-        ]
+        other = [L1_OTHER_SUM if word_known and name[:-2] in EMOTIONS else L1_SUM for name in data.sum_names]
         l1 = np.concatenate([np.where(paired, L1_UNIT, L1_UNIT_MIDLINE), other])
         for column, name in enumerate(data.sum_names, start=len(data.unit_names)):
             if name[:-2] in own:

@@ -66,7 +66,9 @@ def _path(graph: sparse.csr_array, stops: Sequence[int], names: Sequence[str]) -
     return np.array(steps, dtype=np.int64)
 
 
-def find_opening(graph: sparse.csr_array, nearest: Mapping[str, int], upper: Sequence[str], lower: Sequence[str]) -> Opening:
+def find_opening(
+    graph: sparse.csr_array, nearest: Mapping[str, int], upper: Sequence[str], lower: Sequence[str]
+) -> Opening:
     """The opening whose margin runs through the named points.
 
     Parameters

@@ -100,7 +100,9 @@ def _closest_on_triangles(position: Floats, corners: Floats) -> tuple[Floats, Fl
     return best, distance
 
 
-def _bind_position(name: str, position: Floats, vertices: Floats, triangles: Ints, near: cKDTree, reach: float) -> BoundPoint:
+def _bind_position(
+    name: str, position: Floats, vertices: Floats, triangles: Ints, near: cKDTree, reach: float
+) -> BoundPoint:
     """Bind a position to the closest polygon, or leave it free where there is none within reach."""
     _, candidates = near.query(position, k=min(NEAR_VERTICES, len(vertices)))
     free = BoundPoint(name, position, np.zeros(0, dtype=np.int64), np.zeros(0))
@@ -151,7 +153,9 @@ def bind_points(
         if isinstance(source, int | np.integer):
             index = int(source)
             if not 0 <= index < len(vertices):
-                raise ModelError(f"feature point {name} names vertex {index}, but the mesh has {len(vertices)} vertices")
+                raise ModelError(
+                    f"feature point {name} names vertex {index}, but the mesh has {len(vertices)} vertices"
+                )
             bound[name] = BoundPoint(name, vertices[index].copy(), np.array([index]), np.ones(1))
             continue
         position = np.asarray(source, dtype=np.float64)
@@ -173,11 +177,25 @@ def check_sides(points: Mapping[str, Floats]) -> None:
     ------
     ModelError : names the first wrong pair and the remedy.
     """
-    for left, right in (("8.3", "8.4"), ("3.7", "3.12"), ("3.11", "3.8"), ("2.4", "2.5"), ("4.1", "4.2"), ("4.5", "4.6")):
+    for left, right in (
+        ("8.3", "8.4"),
+        ("3.7", "3.12"),
+        ("3.11", "3.8"),
+        ("2.4", "2.5"),
+        ("4.1", "4.2"),
+        ("4.5", "4.6"),
+    ):
         if points[left][0] <= points[right][0]:
             raise ModelError(
                 f"feature points {left} and {right} are swapped: {left} must lie on the subject's left (the viewer's right)"
             )
-    for upper, lower in (("3.1", "3.3"), ("3.2", "3.4"), ("8.1", "8.2"), ("9.3", "8.1"), ("8.2", "2.1"), ("4.3", "3.1")):
+    for upper, lower in (
+        ("3.1", "3.3"),
+        ("3.2", "3.4"),
+        ("8.1", "8.2"),
+        ("9.3", "8.1"),
+        ("8.2", "2.1"),
+        ("4.3", "3.1"),
+    ):
         if points[upper][1] <= points[lower][1]:
             raise ModelError(f"feature points {upper} and {lower} are swapped: {upper} must lie above {lower}")

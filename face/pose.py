@@ -125,7 +125,9 @@ class Poser:
             elastic = elastic + change
             if plan is not None:
                 break
-        return SkinState(kinematic + elastic if plan is None else self._contact(kinematic + elastic), elastic, amounts.jaw)
+        return SkinState(
+            kinematic + elastic if plan is None else self._contact(kinematic + elastic), elastic, amounts.jaw
+        )
 
     def _targets(self, frame: Floats, plan: Plan | None) -> tuple[Floats, Floats]:
         """Row targets and doubts (m,) of the elastic correction."""

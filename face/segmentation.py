@@ -38,7 +38,11 @@ def _eye(piece: Floats, points: Mapping[str, Floats]) -> Part | None:
             continue
         centre, radius = fit_sphere(piece)
         off = np.abs(np.linalg.norm(piece - centre, axis=1) - radius)
-        if 6 * MM < radius < 22 * MM and np.median(off) < ROUNDNESS * radius and np.ptp(piece, axis=0).min() > 0.4 * radius:
+        if (
+            6 * MM < radius < 22 * MM
+            and np.median(off) < ROUNDNESS * radius
+            and np.ptp(piece, axis=0).min() > 0.4 * radius
+        ):
             return part
     return None
 

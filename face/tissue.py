@@ -38,7 +38,9 @@ def _surface_divergence(skin: OuterSkin) -> sparse.csr_array:
                 columns.append(3 * skin.triangles[:, corner] + axis)
                 values.append(gradient[:, axis] * double_area[:, 0] / 6.0)
     n = skin.vertex_count
-    summed = sparse.coo_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(n, 3 * n))
+    summed = sparse.coo_array(
+        (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(n, 3 * n)
+    )
     return sparse.csr_array(sparse.diags_array(1.0 / np.maximum(skin.areas, 1e-18)) @ summed)
 
 
@@ -62,7 +64,9 @@ class Tissue:
     @cached_property
     def _correction_factor(self) -> Factor:
         skin = self.skin
-        return Factor(elastic_matrix(skin.laplacian, skin.areas, regions.correction_bending(skin), regions.anchor(skin)))
+        return Factor(
+            elastic_matrix(skin.laplacian, skin.areas, regions.correction_bending(skin), regions.anchor(skin))
+        )
 
     @cached_property
     def _divergence(self) -> sparse.csr_array:

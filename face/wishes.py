@@ -95,4 +95,3 @@ def fill(frame: Floats) -> Floats:
 def _asks(frame: Floats, *numbers: int) -> bool:
     """Whether a frame says anything of these FAPs."""
     return bool(any(not np.isnan(frame[number - 1]) for number in numbers))
-
