@@ -1,0 +1,8 @@
+"""Property tests on a busy machine: a slow example is no failure."""
+
+from __future__ import annotations
+
+from hypothesis import settings
+
+settings.register_profile("patient", deadline=None)
+settings.load_profile("patient")
