@@ -7,10 +7,14 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from ..arrays import Bools, Floats, Ints
-from ..physics.elastic import Factor, Sparse
+from ..physics.elastic import Factor, diagonal_matrix
+from ..physics.mesh import Sparse
 
-#: Loose vertices follow the average of this many nearest carriers.
-NEIGHBOURS = 4
+#: Loose vertices follow this many nearest carriers.
+NEIGHBOURS = 12
+
+#: Neighbours lie on a sheet; across it a slope cannot be told and is held at 0 by this much.
+SHEET_TIE = 0.02
 
 #: Inner skin is tied to rest as weakly as this, relative to its neighbours, so that loose pieces stay put.
 REST_TIE = 1e-4
@@ -24,19 +28,19 @@ class InnerSkin:
         self.index: Ints = np.flatnonzero(inner)
         if len(self.index) == 0:
             return
-        rows = sparse.csr_array(laplacian)[self.index]
-        own = sparse.csr_array(rows[:, self.index])
+        rows: Sparse = laplacian[self.index]
+        own: Sparse = rows[:, self.index]
         diagonal = own.diagonal()
         tie = REST_TIE * np.where(diagonal > 0, diagonal, 1.0)
-        self._factor = Factor(sparse.csr_array(own + sparse.diags_array(tie)))
+        self._factor = Factor(own + diagonal_matrix(tie))
         keep = np.ones(laplacian.shape[0])
         keep[self.index] = 0.0
-        self._coupling = sparse.csr_array(rows @ sparse.diags_array(keep))
+        self._coupling: Sparse = rows @ diagonal_matrix(keep)
 
     def follow(self, displacement: Floats) -> None:
         """Fill in the inner rows of a displacement field (V, 3), in place."""
         if len(self.index):
-            displacement[self.index] = self._factor.solve(-(self._coupling @ displacement))
+            displacement[self.index] = self._factor.solve(-np.asarray(self._coupling @ displacement))
 
 
 class LooseParts:
@@ -45,14 +49,13 @@ class LooseParts:
     def __init__(self, positions: Floats, loose: Ints, carriers: Ints) -> None:
         """Bind vertices `loose` to the nearest of `carriers` (indices into positions (V, 3))."""
         self.index = loose
-        self._weights = sparse.csr_array((len(loose), len(positions)))
+        self._weights: Sparse = sparse.csr_array((len(loose), len(positions)), dtype=np.float64)
         if len(loose) == 0 or len(carriers) == 0:
             return
         count = min(NEIGHBOURS, len(carriers))
-        distance, nearest = cKDTree(positions[carriers]).query(positions[loose], k=count)
-        distance, nearest = distance.reshape(len(loose), count), nearest.reshape(len(loose), count)
-        weight = 1.0 / np.maximum(distance, 1e-6) ** 2
-        weight /= weight.sum(axis=1, keepdims=True)
+        found = cKDTree(positions[carriers]).query(positions[loose], k=count)
+        distance, nearest = (np.reshape(part, (len(loose), count)) for part in found)
+        weight = _linear_shares(positions[carriers][nearest] - positions[loose][:, None], distance)
         rows = np.repeat(np.arange(len(loose)), count)
         self._weights = sparse.csr_array(
             (weight.ravel(), (rows, carriers[nearest.ravel()])), shape=(len(loose), len(positions))
@@ -61,4 +64,22 @@ class LooseParts:
     def follow(self, displacement: Floats) -> None:
         """Fill in the loose rows of a displacement field (V, 3), in place."""
         if len(self.index):
-            displacement[self.index] = self._weights @ displacement
+            displacement[self.index] = np.asarray(self._weights @ displacement)
+
+
+def _linear_shares(away: Floats, distance: Floats) -> Floats:
+    """Weights (l, k) of neighbours that reproduce constant and, along the sheet they lie on, linear displacements.
+
+    Moving least squares; neighbours given by offset (l, k, 3) and distance (l, k), nearest first. Averages alone would
+    let a brow sink where the skin turns.
+    """
+    reach = np.maximum(distance[:, -1:], 1e-9)
+    near = np.exp(-2.0 * (distance / reach) ** 2)
+    basis = np.concatenate([np.ones((*distance.shape, 1)), away / reach[:, :, None]], axis=2)
+    moment = np.einsum("lk,lki,lkj->lij", near, basis, basis)
+    moment[:, range(1, 4), range(1, 4)] += SHEET_TIE * near.sum(axis=1)[:, None]
+    value = np.zeros((len(moment), 4, 1))
+    value[:, 0] = 1.0
+    shape = np.linalg.solve(moment, value)[:, :, 0]
+    shares: Floats = near * np.einsum("lki,li->lk", basis, shape)
+    return shares / shares.sum(axis=1, keepdims=True)
