@@ -10,8 +10,9 @@ import argparse
 import contextlib
 import json
 import math
+import os
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import Any
@@ -98,17 +99,17 @@ def _profile(arguments: argparse.Namespace) -> Result:
 
 def _bake(arguments: argparse.Namespace) -> Result:
     """Bake expressions onto a face and save the .blend."""
-    return _made(_jobs().bake_file(arguments.out, **_job_options(arguments), dynamic=arguments.dynamic))
+    return _made("bake_file", arguments, dynamic=arguments.dynamic)
 
 
 def _render(arguments: argparse.Namespace) -> Result:
     """Bake and film expressions."""
-    return _made(_jobs().render_film(arguments.out, **_job_options(arguments), engine=arguments.engine))
+    return _made("render_film", arguments, engine=arguments.engine)
 
 
 def _demo(arguments: argparse.Namespace) -> Result:
     """The six archetypes in one film, with its .blend and contact sheet."""
-    return _made(_jobs().demo(arguments.out, **_job_options(arguments), engine=arguments.engine))
+    return _made("demo", arguments, engine=arguments.engine)
 
 
 def _measure(arguments: argparse.Namespace) -> Result:
@@ -237,18 +238,43 @@ def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:
         raise _UsageError("--points needs --mesh")
     shared = {name: getattr(arguments, name) for name in ("mesh", "points", "fps")}
     words = {"words": tuple(arguments.words)} if arguments.words else {}
-    return {**shared, **words, "progress": _show_progress}
+    return {**shared, **words, "progress": _ShowProgress()}
 
 
-def _show_progress(step: Any) -> None:
-    """One line per step, on standard error so that --json stays clean."""
-    print(f"{100.0 * step.fraction:3.0f} %  {step.text}", file=sys.stderr, flush=True)
+class _ShowProgress:
+    """One line per whole percent, on standard error so that --json stays clean."""
+
+    def __init__(self) -> None:
+        self.shown = -1
+
+    def __call__(self, step: Any) -> None:
+        percent = int(100.0 * step.fraction)
+        if percent != self.shown:
+            self.shown = percent
+            print(f"{percent:3d} %  {step.text}", file=sys.stderr, flush=True)
 
 
-def _made(result: Any) -> Result:
-    """The files a job has written."""
-    files = {str(key): value for key, value in dict(result).items()}
-    return Result(files, [f"{key}: {value}" for key, value in files.items()])
+@contextlib.contextmanager
+def _silent_blender() -> Iterator[None]:
+    """Keep what Blender prints for every frame it saves off standard output, at the level where it writes."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    try:
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), 1)
+        yield
+    finally:
+        sys.stdout.flush()
+        os.dup2(kept, 1)
+        os.close(kept)
+
+
+def _made(job: str, arguments: argparse.Namespace, **options: object) -> Result:
+    """Run a job, and name the files that it has written."""
+    run = getattr(_jobs(), job)
+    with _silent_blender():
+        made = dict(run(arguments.out, **_job_options(arguments), **options))
+    return Result(made, [f"{key}: {value}" for key, value in made.items()])
 
 
 def _frame_lines(frame: Any) -> list[str]:
