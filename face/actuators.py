@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats
-from ..physics.elastic import Sparse
+from ..physics.mesh import Sparse
 from .eyes import Eye, LidMove
 from .jaw import Jaw, JawMotion
 from .muscle_fields import PlacedMuscle, force_density
@@ -67,7 +67,7 @@ class Actuators:
 
     @property
     def prior(self) -> Floats:
-        """(k + 8 + 3,) usual size of each amount, metres: muscles, lids, jaw opening at the chin, slide left, forward."""
+        """(k + 8 + 3,) usual amounts, metres: muscles, lids, jaw at the chin, its slides left and forward."""
         muscles = [muscle.row.prior for muscle in self.muscles]
         return np.array([*muscles, *[LID_PRIOR] * len(self.lid_moves), JAW_PRIOR, *SLIDE_PRIOR.values()])
 
@@ -83,14 +83,13 @@ class Actuators:
         """Metres the chin moves per radian of opening."""
         return float(np.linalg.norm((self.skin.points["2.1"] - self.jaw.hinge)[1:]))
 
-    def responses(self, rows: Sparse, jaw_angle: float = 0.0) -> Floats:
-        """(m, k + 8 + 3) change of FAP rows per metre of each amount, the jaw taken about an opening angle.
+    def responses(self, rows: Sparse) -> Floats:
+        """(m, k + 8 + 3) change of FAP rows per metre of each amount, about rest.
 
         rows : (m, 3n) reads rows off flattened displacements of the outer skin.
         """
-        at = JawMotion(angle=jaw_angle)
         lids = [self.lid_field({move: 1 * MM}, side) / MM for side, move in self.lid_moves]
-        opening, left, forward = self.jaw.derivatives(self.skin.positions, at)
+        opening, left, forward = self.jaw.derivatives(self.skin.positions, JawMotion())
         extra = np.stack([*lids, opening / self.chin_lever, left, forward])
         every = np.concatenate([self.fields, extra])
         return np.asarray(rows @ every.reshape(len(every), -1).T)
@@ -115,7 +114,7 @@ class Actuators:
 
     def muscular(self, amounts: Amounts) -> Floats:
         """(n, 3) displacement of the outer skin by muscles."""
-        return np.tensordot(amounts.muscles, self.fields, axes=1)
+        return np.asarray(np.tensordot(amounts.muscles, self.fields, axes=1), dtype=np.float64)
 
     def contractions(self, amounts: Amounts) -> dict[str, float]:
         """Actuator name -> contraction in [0, 1]; the jaw as "jaw_open"."""

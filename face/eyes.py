@@ -86,7 +86,7 @@ class Eye:
         return moved
 
     def clear(self, positions: Floats, rest: Floats, near: Floats) -> Floats:
-        """Positions (n, 3) with lid skin (weight `near` (n,)) kept as far off the eyeball as it was at rest, or nearly."""
+        """Positions (n, 3) with lid skin (weight `near` (n,)) kept off the eyeball as far as at rest, or nearly."""
         away = positions - self.centre
         distance = np.linalg.norm(away, axis=1)
         wanted = np.minimum(np.linalg.norm(rest - self.centre, axis=1), self.radius + LID_CLEARANCE)
@@ -132,7 +132,7 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
         LidMove.LOWER_DOWN: taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
     }
     middle = np.exp(-(((along - 0.5) / 0.35) ** 2))
-    slides = {move: np.zeros(skin.vertex_count) for move in LidMove}
+    slides: dict[LidMove, Floats] = {move: np.zeros(skin.vertex_count) for move in LidMove}
     slides[LidMove.UPPER_CLOSE] = NASAL_SLIDE_UPPER * radius * weights[LidMove.UPPER_CLOSE] * middle
     slides[LidMove.LOWER_UP] = NASAL_SLIDE_LOWER * radius * weights[LidMove.LOWER_UP] * middle
     per_metre = {}
@@ -143,7 +143,7 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
 
 
 def fit_sphere(points: Floats) -> tuple[Floats, float]:
-    """Centre (3,) and radius of the sphere nearest to points (k, 3), by linear least squares, refitted on the outermost."""
+    """Centre (3,) and radius of the sphere nearest to points (k, 3), refitted without the farthest fifth."""
     chosen = points
     for _ in range(3):
         matrix = np.column_stack([2.0 * chosen, np.ones(len(chosen))])

@@ -28,7 +28,8 @@ UPRIGHT_TOLERANCE = np.radians(10.0)
 
 #: Points that hardly move with expression and hardly depend on the person: they carry the frame.
 FRAME_POINTS = (
-    "3.7", "3.11", "3.8", "3.12", "9.15", "9.3", "9.12", "4.3", "4.4", "8.3", "8.4", "2.10", "10.9", "10.10", "2.13", "2.14",
+    "3.7", "3.11", "3.8", "3.12", "9.15", "9.3", "9.12", "4.3", "4.4", "8.3", "8.4", "2.10", "10.9", "10.10",
+    "2.13", "2.14",
 )  # fmt: skip
 
 

@@ -76,7 +76,7 @@ class Inverse:
     def _weighing(self) -> Floats:
         """(m, m) compliance with a stiff chin, scaled to a mean of 1."""
         share = np.where(np.isin(self.rows.numbers, CHIN_FAPS), CHIN_COMPLIANCE, 1.0)
-        return self.compliance * self._scale * share[:, None] * share[None, :]
+        return np.asarray(self.compliance * self._scale * share[:, None] * share[None, :])
 
     def solve(self, wish: Wish) -> Amounts:
         """The amounts that explain a wish best."""
@@ -84,7 +84,7 @@ class Inverse:
         known = ~np.isnan(wish.targets)
         prior = actuators.prior
         prior[-3], prior[-2:] = wish.jaw_prior, wish.slide_prior
-        mean = np.zeros(len(prior))
+        mean: Floats = np.zeros(len(prior))
         for i, muscle in enumerate(actuators.muscles):
             mean[i] = wish.muscles.get(muscle.name, 0.0)
         upper = actuators.upper
@@ -94,8 +94,8 @@ class Inverse:
         factor = linalg.cholesky(covariance, lower=True)
         responses = self._still.copy()
         if wish.carried is not None:
-            responses[np.ix_(wish.carried, [-3, -2, -1])] = 0.0
-        solution = lower
+            responses[wish.carried, -3:] = 0.0
+        solution: Floats = lower
         for _ in range(2):
             whitened = linalg.solve_triangular(
                 factor, np.column_stack([responses[known], wish.targets[known]]), lower=True, check_finite=False

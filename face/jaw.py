@@ -24,8 +24,8 @@ JAW_STIFFNESS = 1.0 / (13.13 * MM) ** 2
 CHIN_WEIGHT = 0.9
 
 #: The floor of the mouth, squeezed between mandible and neck, bulges along its normal: height per squared sine of the
-#: opening angle (there is slack first), place on the template and extent (side, height, depth), metres. Fitted to a scanned open jaw, whose residual
-#: under the chin lies along the normal for 83 %; this one window explains 94 % of that.
+#: opening angle (there is slack first), place on the template and extent (side, height, depth), metres. Fitted to a
+#: scanned open jaw: its residual under the chin lies along the normal for 83 %; this one window explains 94 % of that.
 FLOOR_BULGE = 82.7 * MM
 FLOOR_CENTRE = np.array([0.0, -72.8, -59.2]) * MM
 FLOOR_EXTENT = np.array([69.0, 23.8, 40.9]) * MM
@@ -67,7 +67,8 @@ class Jaw:
 
     def skin(self, positions: Floats, motion: JawMotion) -> Floats:
         """Displacement (n, 3) of the outer skin."""
-        return self.weights[:, None] * self.rigid(positions, motion) + max(np.sin(motion.angle), 0.0) ** 2 * self.bulge
+        bulged = max(float(np.sin(motion.angle)), 0.0) ** 2 * self.bulge
+        return np.asarray(self.weights[:, None] * self.rigid(positions, motion) + bulged)
 
     def derivatives(self, positions: Floats, motion: JawMotion) -> Floats:
         """(3, n, 3) change of `skin` per radian of opening and per metre of slide left and forward, at a motion."""

@@ -36,7 +36,7 @@ def measure(anatomy: Anatomy, positions: Floats) -> Floats:
         frame[number - 1] = value
     rows = anatomy.rows
     reader = anatomy.mesh.points.matrix(rows.names)
-    shift = reader @ (head - rest)
+    shift = np.asarray(reader @ (head - rest))
     frame[rows.numbers - 1] = (shift * rows.directions).sum(axis=1) / rows.units
     for ball in anatomy.eyeballs:
         for number, value in ball.measure(head[ball.index]).items():
@@ -62,6 +62,6 @@ def features(anatomy: Anatomy, positions: Floats) -> Floats:
         if missing:
             raise ModelError(f"feature f{i + 1} needs the feature point {' and '.join(missing)}")
         reader = points.matrix(pair)
-        before, after = (float(np.linalg.norm(np.diff(reader @ p, axis=0))) for p in (rest, now))
+        before, after = (float(np.linalg.norm(np.diff(np.asarray(reader @ p), axis=0))) for p in (rest, now))
         values[i] = feature.value(after, before, unit_length(feature.unit, anatomy.mesh.units))
     return values

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats
+from ..errors import ModelError
 from ..physics.muscles import LinearMuscle, Muscle, SheetMuscle, SphincterMuscle
 from .muscle_table import Kind, MuscleRow, Region, Sides
 from .outer_skin import OuterSkin, smoothstep
@@ -38,6 +39,28 @@ class PlacedMuscle:
     insertion: Floats | None
     centre: Floats | None
     amplitude: float
+
+    @property
+    def line(self) -> tuple[Floats, Floats]:
+        """Attachment and insertion of a linear or a sheet muscle."""
+        return self._given(self.attachment, "attachment"), self._given(self.insertion, "insertion")
+
+    @property
+    def middle(self) -> Floats:
+        """(3,) centre of a kind that has one."""
+        return self._given(self.centre, "centre")
+
+    @property
+    def pull(self) -> Floats:
+        """(3,) fixed line of pull on the muscle's own side."""
+        direction = self._given(self.row.direction, "direction")
+        return direction if self.side > 0 else direction * MIRROR
+
+    def _given(self, value: Floats | None, what: str) -> Floats:
+        """A figure that the muscle's kind needs."""
+        if value is None:
+            raise ModelError(f"muscle {self.name} is of the kind {self.row.kind} and has no {what}: add it to its row")
+        return value
 
 
 def place_muscles(rows: dict[str, MuscleRow], warp: TemplateWarp) -> list[PlacedMuscle]:
@@ -79,16 +102,16 @@ def region_mask(skin: OuterSkin, region: Region) -> Floats:
     if region is Region.CHEEK:
         on_lower_lid = np.min([skin.lid_distances(s)[0] - skin.lid_distances(s)[1] for s in "lr"], axis=0)
         below = smoothstep((lower_lid + 14 * MM - y) / (10 * MM))
-        return below * np.where(y > lower_lid - 4 * MM, smoothstep((on_lower_lid + 2 * MM) / (4 * MM)), 1.0)
+        return np.asarray(below * np.where(y > lower_lid - 4 * MM, smoothstep((on_lower_lid + 2 * MM) / (4 * MM)), 1.0))
     if region is Region.NOSE:
-        return skin.upper_lip_side * smoothstep((34 * MM - np.abs(x)) / (10 * MM))
+        return np.asarray(skin.upper_lip_side * smoothstep((34 * MM - np.abs(x)) / (10 * MM)))
     return np.ones(skin.vertex_count)
 
 
 def force_density(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
-    """(n, 3) pull per area of skin at full contraction, up to a common factor; 0 outside the muscle's zone and region."""
+    """(n, 3) pull per area of skin at full contraction, up to a factor; 0 outside the muscle's zone and region."""
     row = muscle.row
-    force = _FIELDS[row.kind](skin, muscle) * region_mask(skin, row.region)[:, None]
+    force: Floats = _FIELDS[row.kind](skin, muscle) * region_mask(skin, row.region)[:, None]
     force *= smoothstep((skin.positions[:, 2] - FACE_BEHIND) / (30 * MM))[:, None]
     if row.sides is Sides.HALVES:
         force *= smoothstep((muscle.side * skin.positions[:, 0] / (14 * MM) + 1.0) / 2.0)[:, None]
@@ -97,22 +120,16 @@ def force_density(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
 
 def _tangential(skin: OuterSkin, vectors: Floats) -> Floats:
     """The part of vectors (n, 3) along the skin."""
-    return vectors - skin.normals * (vectors * skin.normals).sum(axis=1, keepdims=True)
-
-
-def _mirrored(muscle: PlacedMuscle, direction: Floats) -> Floats:
-    """A table direction on the muscle's own side."""
-    return direction if muscle.side > 0 else direction * MIRROR
+    return np.asarray(vectors - skin.normals * (vectors * skin.normals).sum(axis=1, keepdims=True))
 
 
 def _linear(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     """Equations (6)-(13)."""
-    assert muscle.attachment is not None
-    assert muscle.insertion is not None
-    length = float(np.linalg.norm(muscle.insertion - muscle.attachment))
+    attachment, insertion = muscle.line
+    length = float(np.linalg.norm(insertion - attachment))
     row = muscle.row
     paper: Muscle = LinearMuscle(
-        muscle.attachment, muscle.insertion, radius=row.reach * length, angle=row.angle, exponent=row.exponent
+        attachment, insertion, radius=row.reach * length, angle=row.angle, exponent=row.exponent
     )
     return paper.force(skin.positions)
 
@@ -122,17 +139,16 @@ def _sheet(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
 
     A sheet without bony origin, such as the frontalis, draws the scalp down while it raises the brow.
     """
-    assert muscle.attachment is not None
-    assert muscle.insertion is not None
+    attachment, insertion = muscle.line
     row = muscle.row
-    origin, end = muscle.attachment.mean(axis=0), muscle.insertion.mean(axis=0)
+    origin, end = attachment.mean(axis=0), insertion.mean(axis=0)
     axis = end - origin
     length = float(np.linalg.norm(axis))
     axis = axis / length
-    across = (muscle.attachment[1] - muscle.attachment[0] + muscle.insertion[1] - muscle.insertion[0]) / 2.0
+    across = (attachment[1] - attachment[0] + insertion[1] - insertion[0]) / 2.0
     across = across - axis * (across @ axis)
     width = float(np.linalg.norm(across))
-    paper: Muscle = SheetMuscle(muscle.attachment, muscle.insertion, length=row.reach * length, exponent=row.exponent)
+    paper: Muscle = SheetMuscle(attachment, insertion, length=row.reach * length, exponent=row.exponent)
     away = skin.positions - origin
     latitude = np.abs(away @ (across / width)) / (width / 2.0)
     window = np.cos(np.minimum(latitude, 1.0) ** 4 * np.pi / 2.0)
@@ -145,8 +161,7 @@ def _sheet(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
 
 def _elliptic_radius(skin: OuterSkin, muscle: PlacedMuscle) -> tuple[Floats, Floats]:
     """Elliptic radius (n,) in the face's frontal plane, and depth behind the centre in units of the larger axis."""
-    assert muscle.centre is not None
-    away = skin.positions - muscle.centre
+    away = skin.positions - muscle.middle
     wide, high = muscle.row.radii
     radius = np.hypot(away[:, 0] / wide, away[:, 1] / high)
     depth = away[:, 2] / (1.2 * max(wide, high))
@@ -158,16 +173,15 @@ def _sphincter(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
 
     An epicentre in front of the lips makes drawing together a protrusion.
     """
-    assert muscle.centre is not None
     wide, high = muscle.row.radii
     paper: Muscle = SphincterMuscle(
-        muscle.centre, np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), semi_major=wide, semi_minor=high
+        muscle.middle, np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), semi_major=wide, semi_minor=high
     )
     radius, _ = _elliptic_radius(skin, muscle)
-    toward = muscle.centre - skin.positions
+    toward = muscle.middle - skin.positions
     toward = toward / np.maximum(np.linalg.norm(toward, axis=1, keepdims=True), 1e-9)
     outside = np.where(radius > 1.0, np.exp(-(((radius - 1.0) / muscle.row.fall) ** 2)), 0.0)
-    return paper.force(skin.positions) * (radius <= 1.0)[:, None] + outside[:, None] * toward
+    return np.asarray(paper.force(skin.positions) * (radius <= 1.0)[:, None] + outside[:, None] * toward)
 
 
 def _sphincter_skin(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
@@ -176,29 +190,27 @@ def _sphincter_skin(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     _, depth = _elliptic_radius(skin, muscle)
     near = np.exp(-(depth**4))[:, None]
     strength = np.linalg.norm(along, axis=1, keepdims=True)
-    return near * (along + muscle.row.bulge * strength * skin.normals)
+    return np.asarray(near * (along + muscle.row.bulge * strength * skin.normals))
 
 
 def _window(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     """A short sheet with a fixed line of pull inside an elliptic window."""
-    assert muscle.row.direction is not None
     radius, depth = _elliptic_radius(skin, muscle)
     reach = np.minimum(np.hypot(radius, depth), 1.0)
     weight = np.cos(reach**muscle.row.power * np.pi / 2.0)
-    return weight[:, None] * _mirrored(muscle, muscle.row.direction)
+    return np.asarray(weight[:, None] * muscle.pull)
 
 
 def _band(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     """A band of the lip's margin with a fixed line of pull."""
-    assert muscle.row.direction is not None
     radius, depth = _elliptic_radius(skin, muscle)
-    return np.exp(-(radius**2) - depth**4)[:, None] * _mirrored(muscle, muscle.row.direction)
+    return np.asarray(np.exp(-(radius**2) - depth**4)[:, None] * muscle.pull)
 
 
 def _pressure(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     """Air pressure in the cheek pouch along the skin's normal: outwards for bulge 1, inwards for bulge -1."""
     radius, depth = _elliptic_radius(skin, muscle)
-    return muscle.row.bulge * np.exp(-(radius**2) - depth**4)[:, None] * skin.normals
+    return np.asarray(muscle.row.bulge * np.exp(-(radius**2) - depth**4)[:, None] * skin.normals)
 
 
 _FIELDS = {

@@ -101,7 +101,7 @@ def _place(path: Path, key: str, entry: Any) -> Floats:
         return np.stack([_place(path, key, one) for one in entry])
     point = entry.get("point") if isinstance(entry, dict) else None
     offset = entry.get("offset") if isinstance(entry, dict) else None
-    if point not in TEMPLATE_POINTS:
+    if not isinstance(point, str) or point not in TEMPLATE_POINTS:
         raise FormatError(path, f"names feature point {point!r}, which the template lacks", key=key)
     if not isinstance(offset, list) or len(offset) != 3:
         raise FormatError(path, "needs an offset of three numbers in units of ES0, ENS0, ENS0", key=key)

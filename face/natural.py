@@ -10,13 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
 from ..arrays import Bools, Floats
-from ..mpeg4 import FAP_COUNT
+from ..mpeg4 import FAP_COUNT, Archetype
 from .nonnegative import bounded_least_squares
 from .synergies import Synergies, load_synergies, mirror_fap
+
+#: Archetype -> share of an expression, 0..1; an `Archetype` is its own name (a StrEnum).
+EmotionShares: TypeAlias = Mapping[Archetype, float] | Mapping[str, float]
 
 #: A difference of left and right below these is no wish: units, and share of the larger.
 SYMMETRY_UNITS, SYMMETRY_SHARE = 12.0, 0.12
@@ -101,7 +105,7 @@ def blend(plans: Sequence[Plan], weights: Sequence[float]) -> Plan:
 
 
 def symmetric(frame: Floats) -> tuple[Floats, bool]:
-    """A frame (68,) with small differences of left and right removed and missing sides filled; and if it is asymmetric."""
+    """A frame (68,) without small differences of left and right, missing sides filled; and if it is asymmetric."""
     result = frame.copy()
     asymmetric = False
     for number in range(3, FAP_COUNT + 1):
@@ -127,7 +131,8 @@ def saturate(value: Floats, low: Floats, high: Floats) -> Floats:
     knee = LINEAR_SHARE * limit
     rest = limit - knee
     beyond = knee + rest * (1.0 - np.exp(-np.maximum(size - knee, 0.0) / rest))
-    return np.sign(value) * np.where(size <= knee, size, beyond)
+    held: Floats = np.sign(value) * np.where(size <= knee, size, beyond)
+    return held
 
 
 class Natural:
@@ -141,7 +146,7 @@ class Natural:
         )
         self._row = self.data.position
 
-    def plan(self, frame: Floats, emotion: Mapping[str, float] | None = None) -> Plan:
+    def plan(self, frame: Floats, emotion: EmotionShares | None = None) -> Plan:
         """The plan for a frame.
 
         Parameters
@@ -156,13 +161,12 @@ class Natural:
         limited = np.where(asked, saturate(np.nan_to_num(y), data.low, data.high), np.nan)
         noise = self._conflicts(np.nan_to_num(y), limited, asked)
         self._spare_smiling_eyes(limited, asked)
-        known = {name: share for name, share in (emotion or {}).items() if share > 0.0}
-        amounts, strengths = self._mixture(limited, asked, noise, known, asymmetric)
+        known = {str(name): share for name, share in (emotion or {}).items() if share > 0.0}
+        amounts = self._mixture(limited, asked, noise, known, asymmetric)
         explained = data.units @ amounts
         trust = self._psi**2 / (self._psi**2 + noise**2)
         goal = np.where(asked, explained + trust * (np.nan_to_num(limited) - explained), explained)
         goal = np.clip(goal, data.low, data.high)
-        del strengths
         return Plan(
             goal=self._frame(goal),
             asked=request,
@@ -210,10 +214,8 @@ class Natural:
             strengths[emotion] = share * float(np.clip(fit, 0.0, OWN_LIMIT))
         return strengths
 
-    def _mixture(
-        self, y: Floats, asked: Bools, noise: Floats, known: Mapping[str, float], asymmetric: bool
-    ) -> tuple[Floats, dict[str, float]]:
-        """Amounts (k,) of the half units that explain the request, and strengths of the known emotions."""
+    def _mixture(self, y: Floats, asked: Bools, noise: Floats, known: Mapping[str, float], asymmetric: bool) -> Floats:
+        """Amounts (k,) of the half units that explain the request."""
         data = self.data
         unit_count, sum_count = data.units.shape[1], data.sums.shape[1]
         weight = 1.0 / np.sqrt(self._psi**2 + noise**2)
@@ -234,13 +236,12 @@ class Natural:
             rows.append(silent)
             right.append(np.zeros(len(silent)))
         matrix, target = np.concatenate(rows), np.concatenate(right)
-        normal = matrix.T @ matrix
-        factor = np.linalg.cholesky(normal).T
+        factor: Floats = np.asarray(np.linalg.cholesky(matrix.T @ matrix).T, dtype=np.float64)
         linear = matrix.T @ target - l1 / 2.0
-        shifted = np.linalg.solve(factor.T, linear)
+        shifted: Floats = np.asarray(np.linalg.solve(factor.T, linear), dtype=np.float64)
         zero = np.zeros(unit_count + sum_count)
         solution = bounded_least_squares(factor, shifted, zero, zero + 10.0)
-        return solution[:unit_count] + data.sums @ solution[unit_count:], own
+        return np.asarray(solution[:unit_count] + data.sums @ solution[unit_count:])
 
     def _priors(self, own: Mapping[str, float], word_known: bool) -> tuple[Floats, Floats, Floats]:
         """Spread, mean and L1 weight of every unit and sum."""

@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import ModelError
+from ..physics.mesh import Sparse
 
 #: Closed path through the lips: upper arc from the left corner to the right one, then the lower arc back.
 LIP_UPPER = ("2.4", "2.6", "2.2", "2.7", "2.5")
@@ -38,10 +39,10 @@ class Opening:
     @property
     def loop(self) -> Ints:
         """Every margin vertex once."""
-        return np.unique(np.concatenate([self.upper, self.lower]))
+        return np.asarray(np.unique(np.concatenate([self.upper, self.lower])), dtype=np.int64)
 
 
-def edge_graph(edges: Ints, vertices: Floats) -> sparse.csr_array:
+def edge_graph(edges: Ints, vertices: Floats) -> Sparse:
     """(V, V) symmetric graph of edge lengths."""
     lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
     lengths = np.maximum(lengths, 1e-9)
@@ -50,13 +51,13 @@ def edge_graph(edges: Ints, vertices: Floats) -> sparse.csr_array:
     return sparse.csr_array(half + half.T)
 
 
-def _path(graph: sparse.csr_array, stops: Sequence[int], names: Sequence[str]) -> Ints:
+def _path(graph: Sparse, stops: Sequence[int], names: Sequence[str]) -> Ints:
     """Shortest path along edges through the given vertices, each vertex named once per leg."""
     steps = [stops[0]]
     for start, end, a, b in zip(stops, stops[1:], names, names[1:], strict=False):
         if start == end:
             continue
-        distance, previous = dijkstra(graph, indices=end, return_predecessors=True)
+        distance, previous = dijkstra(graph, indices=np.array(end), return_predecessors=True)
         if not np.isfinite(distance[start]):
             raise ModelError(f"feature points {a} and {b} lie on separate pieces of the mesh: no lip or lid joins them")
         at = start
@@ -66,9 +67,7 @@ def _path(graph: sparse.csr_array, stops: Sequence[int], names: Sequence[str]) -
     return np.array(steps, dtype=np.int64)
 
 
-def find_opening(
-    graph: sparse.csr_array, nearest: Mapping[str, int], upper: Sequence[str], lower: Sequence[str]
-) -> Opening:
+def find_opening(graph: Sparse, nearest: Mapping[str, int], upper: Sequence[str], lower: Sequence[str]) -> Opening:
     """The opening whose margin runs through the named points.
 
     Parameters

@@ -58,7 +58,7 @@ class Eyeball:
 
     def _dilated(self, growth: float) -> Floats:
         """Vertices from the centre (k, 3) with the pupil's edge moved out by a growth in metres, along the ball."""
-        away = self.positions - self.centre
+        away: Floats = self.positions - self.centre
         if growth == 0.0:
             return away
         distance = np.linalg.norm(away, axis=1)
@@ -68,7 +68,8 @@ class Eyeball:
         wider = angle * (1.0 + max(growth / radius / self.pupil, -0.9) * share)
         side = away - (away @ self.gaze)[:, None] * self.gaze
         side /= np.maximum(np.linalg.norm(side, axis=1, keepdims=True), 1e-12)
-        return distance[:, None] * (np.cos(wider)[:, None] * self.gaze + np.sin(wider)[:, None] * side)
+        wide: Floats = distance[:, None] * (np.cos(wider)[:, None] * self.gaze + np.sin(wider)[:, None] * side)
+        return wide
 
     def measure(self, positions: Floats) -> dict[int, float]:
         """FAP number -> value read off deformed vertices (k, 3) in head space."""
@@ -76,7 +77,6 @@ class Eyeball:
         body = (away @ self.gaze) < np.cos(self.iris) * np.linalg.norm(away, axis=1)
         if body.sum() < 4:
             body = np.ones(len(away), dtype=bool)
-        shift = now[body].mean(axis=0) - away[body].mean(axis=0)
         turn, _ = Rotation.align_vectors(now[body] - now[body].mean(axis=0), away[body] - away[body].mean(axis=0))
         centre_shift = now[body].mean(axis=0) - turn.apply(away[body].mean(axis=0))
         yaw, pitch, _ = turn.as_euler("yxz")
@@ -88,7 +88,6 @@ class Eyeball:
         dilation = self._read_dilation(turn.inv().apply(now - centre_shift))
         if dilation is not None:
             values[self.faps[3]] = dilation
-        assert shift.shape == (3,)
         return values
 
     def _read_dilation(self, unturned: Floats) -> float | None:
@@ -125,11 +124,12 @@ class Tongue:
         """(k, 3) displacement in head space for FAPs 43-47 of a frame (68,)."""
         wide, high = self.units
         right, up, forward, raised, roll = (value_of(frame, number) for number in range(43, 48))
-        moved = np.zeros_like(self.positions)
+        moved: Floats = np.zeros_like(self.positions)
         moved[:, 0] = -self.tip * right * wide
         moved[:, 1] = self.tip * up * high + self.body * raised * high
         moved[:, 2] = self.tip * forward * wide
-        return moved + self._rolled(roll * ANGLE_UNIT) * np.maximum(self.tip, 0.3 * self.body)[:, None]
+        moved += self._rolled(roll * ANGLE_UNIT) * np.maximum(self.tip, 0.3 * self.body)[:, None]
+        return moved
 
     def _rolled(self, angle: float) -> Floats:
         """(k, 3) displacement that lifts both borders by turning each half about the midline."""

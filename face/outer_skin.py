@@ -16,7 +16,8 @@ from scipy.sparse.csgraph import dijkstra
 
 from ..arrays import Floats, Ints
 from ..physics import mesh
-from ..physics.elastic import Factor, laplacian
+from ..physics.elastic import Factor, diagonal_matrix, laplacian
+from ..physics.mesh import Sparse
 from .openings import Opening
 
 
@@ -59,7 +60,7 @@ class OuterSkin:
         return mesh.vertex_areas(self.positions, self.polygons)
 
     @cached_property
-    def laplacian(self) -> sparse.csc_array:
+    def laplacian(self) -> Sparse:
         """(n, n) L with u'Lu the integral of |grad u|^2 over the skin."""
         return laplacian(self.positions, self.polygons)
 
@@ -69,7 +70,7 @@ class OuterSkin:
         return mesh.triangulate(self.polygons)
 
     @cached_property
-    def graph(self) -> sparse.csr_array:
+    def graph(self) -> Sparse:
         """(n, n) lengths of edges and face diagonals: distances along it are distances along the skin."""
         pairs = np.concatenate([mesh.unique_edges(self.polygons), mesh.face_diagonals(self.polygons)])
         lengths = np.linalg.norm(self.positions[pairs[:, 0]] - self.positions[pairs[:, 1]], axis=1)
@@ -84,8 +85,7 @@ class OuterSkin:
 
     def smoothing(self, radius: float) -> Factor:
         """Prefactored filter: solve(areas * f) is f averaged over a Gaussian-like window of a given radius (metres)."""
-        mass = sparse.diags_array(self.areas)
-        return Factor(sparse.csc_array(mass + 0.5 * radius**2 * self.laplacian))
+        return Factor(diagonal_matrix(self.areas) + 0.5 * radius**2 * self.laplacian)
 
     @cached_property
     def raw_normals(self) -> Floats:
@@ -96,7 +96,8 @@ class OuterSkin:
     def normals(self) -> Floats:
         """(n, 3) unit normals averaged over 12 mm: the lie of the bone rather than of the wrinkle."""
         smooth = self.smoothing(0.012).solve(self.areas[:, None] * self.raw_normals)
-        return smooth / np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
+        unit: Floats = smooth / np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
+        return unit
 
     @cached_property
     def lip_distances(self) -> tuple[Floats, Floats]:
@@ -105,7 +106,7 @@ class OuterSkin:
 
     @cached_property
     def upper_lip_side(self) -> Floats:
-        """(n,) 1 where the skin belongs to the upper lip's side, 0 on the lower lip's, a 5 mm blend beside the corners."""
+        """(n,) 1 on the upper lip's side of the skin, 0 on the lower lip's, a 5 mm blend beside the corners."""
         upper, lower = self.lip_distances
         return smoothstep(((lower - upper) / 0.005 + 1.0) / 2.0)
 
@@ -119,7 +120,8 @@ class OuterSkin:
     @cached_property
     def lid_edge_distance(self) -> Floats:
         """(n,) distance along the skin from the nearest lid edge of either eye, metres."""
-        return np.min([self.lid_distances(side)[i] for side in "lr" for i in (0, 1)], axis=0)
+        nearest: Floats = np.min([self.lid_distances(side)[i] for side in "lr" for i in (0, 1)], axis=0)
+        return nearest
 
     @cached_property
     def lip_edge_distance(self) -> Floats:

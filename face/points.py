@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 from ..arrays import Bools, Floats, Ints
 from ..errors import ModelError
 from ..mpeg4 import FEATURE_POINTS
+from ..physics.mesh import Sparse
 
 #: What a caller may give for a feature point: a vertex index, or a position (3,) on the surface.
 PointSource: TypeAlias = int | np.integer | Sequence[float] | Floats
@@ -55,7 +56,7 @@ class FeaturePoints(Mapping[str, BoundPoint]):
     def __getitem__(self, name: str) -> BoundPoint:
         return self._bound[name]
 
-    def __iter__(self):  # type: ignore[no-untyped-def]
+    def __iter__(self) -> Iterator[str]:
         return iter(self._bound)
 
     def __len__(self) -> int:
@@ -65,7 +66,7 @@ class FeaturePoints(Mapping[str, BoundPoint]):
         """Name -> (3,) position on the neutral face, in the face's coordinates."""
         return {name: point.position for name, point in self._bound.items()}
 
-    def matrix(self, names: Sequence[str]) -> sparse.csr_array:
+    def matrix(self, names: Sequence[str]) -> Sparse:
         """(len(names), V) matrix that reads the named points off vertex positions or displacements."""
         rows, columns, values = [], [], []
         for row, name in enumerate(names):
@@ -187,7 +188,8 @@ def check_sides(points: Mapping[str, Floats]) -> None:
     ):
         if points[left][0] <= points[right][0]:
             raise ModelError(
-                f"feature points {left} and {right} are swapped: {left} must lie on the subject's left (the viewer's right)"
+                f"feature points {left} and {right} are swapped: {left} must lie on the subject's left "
+                "(the viewer's right)"
             )
     for upper, lower in (
         ("3.1", "3.3"),

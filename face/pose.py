@@ -12,10 +12,11 @@ from ..errors import ParameterError
 from .actuators import LID_AMPLITUDES, LID_NAMES, Amounts
 from .anatomy import Anatomy
 from .eyes import LidMove
+from .inverse import EXACT_NOISE
 from .jaw import JawMotion
 from .measure import measure
-from .natural import Natural, Plan
-from .wishes import ASKED_DOUBT, EXACT_NOISE, LIP_DOUBT, LIP_FAPS, SILENT_DOUBT, Drive, exact_wish, natural_wish
+from .natural import EmotionShares, Natural, Plan
+from .wishes import ASKED_DOUBT, LIP_DOUBT, LIP_FAPS, SILENT_DOUBT, Drive, exact_wish, natural_wish
 
 #: Rounds of elastic correction: what contact with the eyeball disturbs is corrected again.
 CORRECTION_ROUNDS = 2
@@ -59,7 +60,7 @@ class Poser:
         self.natural = Natural()
 
     def pose(
-        self, frame: Floats, drive: Drive, emotion: Mapping[str, float] | None, contractions: Mapping[str, float] | None
+        self, frame: Floats, drive: Drive, emotion: EmotionShares | None, contractions: Mapping[str, float] | None
     ) -> Pose:
         """The equilibrium for one frame (68,); see `Face.pose`."""
         plan = self.natural.plan(frame, emotion) if drive is Drive.NATURAL else None

@@ -56,7 +56,7 @@ def bending(skin: OuterSkin) -> Floats:
 
 def correction_bending(skin: OuterSkin) -> Floats:
     """(n,) as `bending`, softer still round the nostrils, so that a nostril's correction stays there."""
-    soft = np.zeros(skin.vertex_count)
+    soft: Floats = np.zeros(skin.vertex_count)
     for name in ("9.1", "9.2"):
         if name in skin.points:
             soft = np.maximum(soft, gaussian(skin.positions, skin.points[name], 12 * MM))

@@ -11,6 +11,7 @@ from scipy import sparse
 
 from ..arrays import Floats, Ints
 from ..mpeg4 import FAPS, Unit
+from ..physics.mesh import Sparse
 from .frame import Fapu, HeadFrame
 from .points import FeaturePoints
 
@@ -53,14 +54,17 @@ class FapRows:
         """(m,) the rows' displacements in metres asked for by a frame (68,) in FAP units; NaN where silent."""
         return frame[self.numbers - 1] * self.units
 
-    def matrix(self, reader: sparse.csr_array) -> sparse.csr_array:
+    def matrix(self, reader: Sparse) -> Sparse:
         """(m, 3n) matrix reading the rows off flattened displacements, from a (m, n) point reader."""
-        blocks = [sparse.kron(reader, sparse.csr_array(np.eye(3)[[axis]])) for axis in range(3)]
-        return sparse.csr_array(sum(sparse.diags_array(self.directions[:, axis]) @ blocks[axis] for axis in range(3)))
+        read = sparse.coo_array(reader)
+        values = read.data[:, None] * self.directions[read.row]
+        columns = 3 * read.col[:, None] + np.arange(3)
+        entries = (values.ravel(), (np.repeat(read.row, 3), columns.ravel()))
+        return sparse.csr_array(entries, shape=(len(self), 3 * reader.shape[1]))
 
 
 def displacement_rows(points: FeaturePoints, units: Fapu, frame: HeadFrame) -> FapRows:
-    """The rows of every displacement FAP whose feature point is bound to the mesh; eyeballs and head are not among them."""
+    """The rows of every displacement FAP whose feature point is bound to the mesh; eyeballs and head have none."""
     numbers, names, directions, lengths = [], [], [], []
     for number, fap in FAPS.items():
         direction = fap.motion.direction if fap.motion is not None else None

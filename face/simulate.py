@@ -1,8 +1,8 @@
 """The face in motion: the skin's inertia, damping and biphasic springs between the poses that FAPs ask for.
 
-At every frame the muscles bear the load that would hold the frame's own pose in equilibrium; the skin, carried by jaw
-and lids, follows it by Lagrangian dynamics (Zhang, Sung, Prakash 2001, equation (23)). A held frame is therefore reached
-exactly, and what lies between is physics.
+At every frame the muscles bear the load that would hold the frame's own pose in equilibrium; the skin, carried by
+jaw and lids, follows it by Lagrangian dynamics (Zhang, Sung, Prakash 2001, equation (23)). A held frame is therefore
+reached exactly, and what lies between is physics.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ class Simulation:
 
 
 def stream_moments(poser: Poser, frames: Floats, drive: Drive, weights: Floats | None) -> Iterator[Moment]:
-    """Moments of a FAP stream (T, 68), each planned by itself; weights (T, 6) name the emotions where they are known."""
+    """Moments of a FAP stream (T, 68), each planned by itself; weights (T, 6) name the emotions where known."""
     for number, frame in enumerate(frames):
         emotion = None
         if weights is not None and (total := float(weights[number].sum())) > 0.0:

@@ -22,8 +22,12 @@ from .template import ANATOMY
 
 #: Millimetres per FAP unit on the template face.
 TEMPLATE_UNITS: Mapping[Unit, float] = {
-    Unit.IRISD: 9.997 / 1024, Unit.ES: 65.634 / 1024, Unit.ENS: 48.015 / 1024, Unit.MNS: 21.202 / 1024, Unit.MW: 50.698 / 1024,
-}  # fmt: skip
+    Unit.IRISD: 9.997 / 1024,
+    Unit.ES: 65.634 / 1024,
+    Unit.ENS: 48.015 / 1024,
+    Unit.MNS: 21.202 / 1024,
+    Unit.MW: 50.698 / 1024,
+}
 
 #: FAPs that point to one side and so change sign in the mirror.
 SIDEWAYS = (15, 64)
@@ -137,6 +141,13 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
     spread = np.array([UNIT_PRIORS.get(name.split("_")[0], UNIT_PRIOR) for name in names])
     hidden = {unit: {m: float(v) * 1e-3 for m, v in entry.items()} for unit, entry in raw["hidden"].items()}
     return Synergies(
-        numbers=numbers, low=low, high=high, units=np.column_stack(columns), unit_names=tuple(names), unit_spread=spread,
-        sums=np.column_stack(sums), sum_names=tuple(sum_names), hidden=hidden,
-    )  # fmt: skip
+        numbers=numbers,
+        low=low,
+        high=high,
+        units=np.column_stack(columns),
+        unit_names=tuple(names),
+        unit_spread=spread,
+        sums=np.column_stack(sums),
+        sum_names=tuple(sum_names),
+        hidden=hidden,
+    )

@@ -14,7 +14,8 @@ import numpy as np
 from scipy import sparse
 
 from ..arrays import Floats
-from ..physics.elastic import Factor, elastic_matrix
+from ..physics.elastic import Factor, diagonal_matrix, elastic_matrix
+from ..physics.mesh import Sparse
 from . import regions
 from .outer_skin import OuterSkin
 
@@ -22,7 +23,7 @@ from .outer_skin import OuterSkin
 BULGE_SMOOTHING = 8e-3
 
 
-def _surface_divergence(skin: OuterSkin) -> sparse.csr_array:
+def _surface_divergence(skin: OuterSkin) -> Sparse:
     """(n, 3n) area-averaged surface divergence of a vector field given as n rows of x, y, z."""
     corners = skin.positions[skin.triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -41,7 +42,8 @@ def _surface_divergence(skin: OuterSkin) -> sparse.csr_array:
     summed = sparse.coo_array(
         (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(n, 3 * n)
     )
-    return sparse.csr_array(sparse.diags_array(1.0 / np.maximum(skin.areas, 1e-18)) @ summed)
+    averaged: Sparse = diagonal_matrix(1.0 / np.maximum(skin.areas, 1e-18)) @ summed.tocsr()
+    return averaged
 
 
 class Tissue:
@@ -51,7 +53,7 @@ class Tissue:
         self.skin = skin
 
     @cached_property
-    def stiffness(self) -> sparse.csc_array:
+    def stiffness(self) -> Sparse:
         """(n, n) K of the muscles: membrane, bending and anchors."""
         skin = self.skin
         return elastic_matrix(skin.laplacian, skin.areas, regions.bending(skin), regions.anchor(skin))
@@ -69,7 +71,7 @@ class Tissue:
         )
 
     @cached_property
-    def _divergence(self) -> sparse.csr_array:
+    def _divergence(self) -> Sparse:
         return _surface_divergence(self.skin)
 
     @cached_property
@@ -89,18 +91,18 @@ class Tissue:
         flat = fields.reshape(-1, self.skin.vertex_count, 3)
         normals = self.skin.normals
         slid = flat - (self._slide * normals) * (flat * normals).sum(axis=2, keepdims=True)
-        squeeze = self._divergence @ slid.reshape(len(flat), -1).T
+        squeeze = np.asarray(self._divergence @ slid.reshape(len(flat), -1).T)
         smooth = self._bulge_filter.solve(self.skin.areas[:, None] * squeeze)
         shown = slid - (self._bulge[:, None] * smooth).T[:, :, None] * normals
-        return shown.reshape(fields.shape)
+        return np.asarray(shown.reshape(fields.shape))
 
     def show_transposed(self, loads: Floats) -> Floats:
         """W' f for loads (k, n, 3): the sheet forces that stand for forces on what the face shows."""
         normals = self.skin.normals
         pressed = -(self._bulge * (loads * normals).sum(axis=2)).T
         spread = self.skin.areas[:, None] * self._bulge_filter.solve(pressed)
-        back = loads + (self._divergence.T @ spread).T.reshape(loads.shape)
-        return back - (self._slide * normals) * (back * normals).sum(axis=2, keepdims=True)
+        back = loads + np.asarray(self._divergence.T @ spread).T.reshape(loads.shape)
+        return np.asarray(back - (self._slide * normals) * (back * normals).sum(axis=2, keepdims=True))
 
     def relax(self, forces: Floats) -> Floats:
         """K^-1 f: sheet displacements (k, n, 3) under forces (k, n, 3)."""
