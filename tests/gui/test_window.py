@@ -21,6 +21,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PICTURE = ROOT / "out" / "test-reports" / "window.png"
+OPENGL = ("libgl1", "libegl1", "libglx-mesa0")
 PATIENCE = 200.0  # s for the script in the window to get done
 
 
@@ -48,7 +49,19 @@ def blender(shared: Path) -> Path:
     if done.returncode:
         said = (done.stderr or done.stdout).strip()[-300:]
         pytest.skip(f"the Blender with a virtual screen cannot be set up: {said}")
+    provide_opengl(Path(os.environ.get("BLENDER_GUI_ROOT", "/var/tmp/blender-gui")))
     return tool
+
+
+def provide_opengl(root: Path) -> None:
+    """Install the OpenGL libraries where the tool's Blender was set up without them."""
+    if any(root.glob("usr/lib/*/libGL.so.1")):
+        return
+    install = ["chroot", str(root), "apt-get", "install", "-y", "-q", "--no-install-recommends", *OPENGL]
+    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    done = subprocess.run(install, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode:
+        pytest.skip(f"the Blender with a virtual screen has no OpenGL: {(done.stderr or done.stdout).strip()[-300:]}")
 
 
 @pytest.fixture(scope="session")
