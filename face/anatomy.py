@@ -26,7 +26,7 @@ from .outer_skin import OuterSkin
 from .parts import Part
 from .points import FeaturePoints
 from .rows import FapRows, displacement_rows
-from .template import MM, TEMPLATE_POINTS, TemplateWarp
+from .template import TEMPLATE_POINTS, TemplateWarp
 from .tissue import Tissue
 
 
@@ -214,12 +214,6 @@ class Anatomy:
     def head_turn(self) -> HeadTurn:
         """The head on its spine."""
         landmarks = self.mesh.landmarks
-        pivot = (
-            landmarks["7.1"]
-            if "7.1" in landmarks
-            else self.warp(TEMPLATE_POINTS["7.1"])
-            if "7.1" in TEMPLATE_POINTS
-            else np.array([0.0, 0.0, -128.0]) * MM
-        )
+        pivot = landmarks["7.1"] if "7.1" in landmarks else self.warp(TEMPLATE_POINTS["7.1"])
         brow = float(landmarks["4.3"][1] + landmarks["4.4"][1]) / 2.0
         return build_head_turn(self.mesh.positions, pivot, brow)

@@ -82,4 +82,4 @@ def _linear_shares(away: Floats, distance: Floats) -> Floats:
     value[:, 0] = 1.0
     shape = np.linalg.solve(moment, value)[:, :, 0]
     shares: Floats = near * np.einsum("lki,li->lk", basis, shape)
-    return shares / shares.sum(axis=1, keepdims=True)
+    return np.asarray(shares / shares.sum(axis=1, keepdims=True))

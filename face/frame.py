@@ -87,14 +87,6 @@ class HeadFrame:
         """Positions (..., 3) of head space as positions of the face."""
         return positions @ self.axes * self.scale + self.origin
 
-    def vectors_to_face(self, vectors: Floats) -> Floats:
-        """Displacements (..., 3) of head space as displacements of the face."""
-        return vectors @ self.axes * self.scale
-
-    def vectors_to_head(self, vectors: Floats) -> Floats:
-        """Displacements (..., 3) of the face as displacements in head space."""
-        return vectors @ self.axes.T / self.scale
-
 
 def _rotation_between(source: Floats, target: Floats) -> Floats:
     """Rotation R (3, 3) with R @ source ~ target for centred point sets (n, 3) (Kabsch)."""

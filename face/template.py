@@ -24,7 +24,7 @@ ANATOMY = Path(__file__).resolve().parent.parent / "presets" / "anatomy"
 #: Groups of feature points on bone or skin that carry the warp (the standard's groups 2-5 and 8-11).
 WARP_GROUPS = ("2", "3", "4", "5", "8", "9", "10", "11")
 
-#: How far, in metres, the warp may pass beside a feature point: points are placed by hand.
+#: How much the warp may pass beside feature points, which are placed by hand (scipy's `smoothing`, in millimetres).
 WARP_SMOOTHING = 3.0
 
 
