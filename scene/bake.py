@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError, SceneError
+from ..face.natural import EmotionShares
 from ..face.parts import Part
 from . import action as actions
 from . import shape_keys
@@ -102,7 +103,7 @@ def bake_expression(
     timing: ClipTiming,
     peak: float = 1.0,
     drive: str = "natural",
-    emotion: Mapping[str, float] | None = None,
+    emotion: EmotionShares | None = None,
     contractions: Mapping[str, float] | None = None,
 ) -> Work[BakeResult]:
     """Bake one expression as one shape key at its apex, with keyframes along onset, apex and offset.

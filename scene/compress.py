@@ -30,8 +30,7 @@ class Shapes:
 
     def displacement(self) -> Floats:
         """(T, V, 3) the motion that the shapes and weights make, metres."""
-        moved: Floats = np.tensordot(self.weights, self.shapes, axes=1)
-        return moved
+        return np.asarray(np.tensordot(self.weights, self.shapes, axes=1), dtype=np.float64)
 
 
 def compress(displacements: Floats, *, tolerance: float = TOLERANCE) -> Shapes:

@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..arrays import Floats
 from ..face.default_head import HeadMesh, Material
 from . import mesh as meshes
 from .faces import store_points
@@ -38,9 +39,16 @@ def head_object(head: HeadMesh, name: str) -> Any:
     mesh.polygons.foreach_set("material_index", np.ascontiguousarray(head.material_index, dtype=np.int32))
     meshes.write_parts(mesh, np.asarray(head.parts))
     obj = bpy.data.objects.new(name, mesh)
-    points = {n: int(p) if np.ndim(p) == 0 else tuple(map(float, p)) for n, p in head.points.items()}
-    store_points(obj, points)
+    store_points(obj, {name: _place(point) for name, point in head.points.items()})
     return obj
+
+
+def _place(point: int | Floats) -> int | tuple[float, float, float]:
+    """A feature point as it is stored: a vertex index, or three plain numbers."""
+    if isinstance(point, int | np.integer):
+        return int(point)
+    x, y, z = point
+    return float(x), float(y), float(z)
 
 
 def select_only(obj: Any, context: Any | None = None) -> None:
