@@ -1,9 +1,11 @@
 """One particular face: parts, feature points, muscles placed on it, FAPs to contractions and back.
 
-frame, points, parts, segmentation     where the face is and what its vertices are
-openings, outer_skin, regions, tissue  the skin as an elastic sheet
-muscle_table, muscle_fields, jaw, eyes, organs   what moves it
-rows, inverse, natural, synergies, wishes        from FAPs to contractions
-pose, simulate, measure, face          the public `Face`
-default_head                           the head that comes with Risorius
+checks, frame, points, parts, segmentation       what is given, where the face is, what its vertices are
+openings, outer_skin, regions, tissue, followers the skin as an elastic sheet, and what follows it
+template, muscle_table, muscle_fields            the muscles, written on the template, placed on the face
+jaw, eyes, organs, actuators, anatomy            what else moves, and all of it together
+rows, inverse, nonnegative                       from FAPs to contractions
+natural, synergies, wishes                       what a face does when asked for a few FAPs
+measure, pose, simulate, face                    the public `Face`
+default_head, mesh_file                          the head that comes with Risorius; heads in files
 """

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..errors import FormatError
+from ..errors import FormatError, ParameterError
 from ..mpeg4 import FAPS, Unit
 from .template import ANATOMY
 
@@ -40,7 +40,8 @@ UNIT_PRIORS = {"AU9": 0.24}
 def template_millimetres(number: int) -> float:
     """Millimetres on the template per unit of a displacement FAP."""
     unit = FAPS[number].unit
-    assert unit is not None
+    if unit is None or unit not in TEMPLATE_UNITS:
+        raise ParameterError("FAP", "must be one that moves a point by a length", number)
     return TEMPLATE_UNITS[unit]
 
 
