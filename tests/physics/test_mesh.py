@@ -119,3 +119,12 @@ def test_within_keeps_whole_polygons_only() -> None:
 def test_wrong_polygons_are_named(polygons: list[list[int]]) -> None:
     with pytest.raises(ParameterError, match="polygons"):
         mesh.vertex_areas(SQUARE, polygons)
+
+
+@pytest.mark.parametrize("polygons", [[[0, 1, 2], [0, 3, 4]], [[1, 2, 0], [4, 0, 3]], [[1, 2, 0], [3, 0, 4]]])
+def test_borders_that_touch_in_a_vertex_use_every_edge_once(polygons: list[list[int]]) -> None:
+    loops = [loop.tolist() for loop in mesh.boundary_loops(polygons)]
+    walked = [frozenset(step) for loop in loops for step in zip(loop, loop[1:] + loop[:1], strict=True)]
+    sides = {frozenset(side) for p in polygons for side in zip(p, p[1:] + p[:1], strict=True)}
+    assert len(walked) == len(set(walked))
+    assert set(walked) == sides
