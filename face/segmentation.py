@@ -10,12 +10,19 @@ from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Floats, Ints
 from .eyes import fit_sphere
+from .mouth_parts import mouth_part, split_gums
 from .parts import Part
 from .template import MM, TEMPLATE_POINTS
 
-#: A piece is an eyeball when it fills this box round the eye corners' middle and is round to this share of its radius.
-EYE_REACH = 26 * MM
-ROUNDNESS = 0.12
+#: An eyeball lies this near to the middle of the eye's corners and has a radius between these.
+EYE_REACH, EYE_RADII = 26 * MM, (6 * MM, 22 * MM)
+
+#: It is round to this share of its radius, at least this many radii thick, and its middle lies this near to its centre:
+#: half a ball is still an eyeball, a strip of lashes on it is none.
+ROUNDNESS, THICKNESS, CENTRED = 0.12, 0.9, 0.62
+
+#: What lies wholly within this many radii of an eyeball (iris, cornea) belongs to it.
+WITHIN_BALL = 1.1
 
 #: Pieces within this box (head space) lie in the mouth.
 MOUTH_HALF_WIDTH = 40 * MM
@@ -39,12 +46,27 @@ def _eye(piece: Floats, points: Mapping[str, Floats]) -> Part | None:
         centre, radius = fit_sphere(piece)
         off = np.abs(np.linalg.norm(piece - centre, axis=1) - radius)
         if (
-            6 * MM < radius < 22 * MM
+            EYE_RADII[0] < radius < EYE_RADII[1]
             and np.median(off) < ROUNDNESS * radius
-            and np.ptp(piece, axis=0).min() > 0.4 * radius
+            and np.ptp(piece, axis=0).min() > THICKNESS * radius
+            and np.linalg.norm(piece.mean(axis=0) - centre) < CENTRED * radius
         ):
             return part
     return None
+
+
+def _add_inner_pieces(parts: Ints, labels: Ints, positions: Floats) -> None:
+    """Give pieces that lie wholly in an eyeball to it, in place."""
+    for part in (Part.EYEBALL_L, Part.EYEBALL_R):
+        ball = positions[parts == part]
+        if len(ball) == 0:
+            continue
+        centre, radius = fit_sphere(ball)
+        inside = np.linalg.norm(positions - centre, axis=1) < WITHIN_BALL * radius
+        for label in np.unique(labels[(parts == Part.OTHER) & inside]):
+            member = labels == label
+            if inside[member].all():
+                parts[member] = int(part)
 
 
 def derive_parts(positions: Floats, polygons: Sequence[Ints], points: Mapping[str, Floats], skin_vertex: int) -> Ints:
@@ -63,6 +85,7 @@ def derive_parts(positions: Floats, polygons: Sequence[Ints], points: Mapping[st
     """
     labels = pieces(polygons, len(positions))
     parts = np.full(len(positions), int(Part.OTHER), dtype=np.int64)
+    gums = np.zeros(len(positions), dtype=bool)
     lips = (points["2.2"] + points["2.3"]) / 2.0
     span = TEMPLATE_POINTS["8.3"][0] - TEMPLATE_POINTS["8.4"][0]
     reach = (points["8.3"][0] - points["8.4"][0]) / span
@@ -81,15 +104,9 @@ def derive_parts(positions: Floats, polygons: Sequence[Ints], points: Mapping[st
         middle = piece.mean(axis=0) - lips
         inside = np.abs(piece[:, 0] - lips[0]).max() < MOUTH_HALF_WIDTH * reach and -MOUTH_DEPTH < middle[2] < 4 * MM
         if inside and abs(middle[1]) < 30 * MM:
-            parts[member] = int(_mouth_part(piece, lips))
+            found = mouth_part(piece, lips)
+            parts[member] = int(Part.OTHER if found is None else found)
+            gums[member] = found is None
+    _add_inner_pieces(parts, labels, positions)
+    split_gums(parts, gums, positions, polygons)
     return parts
-
-
-def _mouth_part(piece: Floats, lips: Floats) -> Part:
-    """Teeth above or below the lips' line, or the tongue: a low, long body in the middle."""
-    low, high = piece[:, 1].min() - lips[1], piece[:, 1].max() - lips[1]
-    width, depth = np.ptp(piece[:, 0]), np.ptp(piece[:, 2])
-    hollow = np.linalg.norm(piece[:, [0, 2]] - piece[:, [0, 2]].mean(axis=0), axis=1).min() > 0.25 * width
-    if width > 20 * MM and depth > 25 * MM and not hollow and (low + high) / 2.0 < 0.0:
-        return Part.TONGUE
-    return Part.TEETH_UPPER if low + high > 0.0 else Part.TEETH_LOWER
