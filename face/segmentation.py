@@ -12,10 +12,10 @@ from ..arrays import Floats, Ints
 from .eyes import fit_sphere
 from .mouth_parts import mouth_part, split_gums
 from .parts import Part
-from .template import MM, TEMPLATE_POINTS
+from .template import MM
 
 #: An eyeball lies this near to the middle of the eye's corners and has a radius between these.
-EYE_REACH, EYE_RADII = 26 * MM, (6 * MM, 22 * MM)
+EYE_REACH, EYE_RADII = 30 * MM, (6 * MM, 22 * MM)
 
 #: It is round to this share of its radius, at least this many radii thick, and its middle lies this near to its centre:
 #: half a ball is still an eyeball, a strip of lashes on it is none.
@@ -25,7 +25,7 @@ ROUNDNESS, THICKNESS, CENTRED = 0.12, 0.9, 0.62
 WITHIN_BALL = 1.1
 
 #: Pieces within this box (head space) lie in the mouth.
-MOUTH_HALF_WIDTH = 40 * MM
+MOUTH_HALF_WIDTH = 48 * MM
 MOUTH_DEPTH = 90 * MM
 
 
@@ -87,8 +87,6 @@ def derive_parts(positions: Floats, polygons: Sequence[Ints], points: Mapping[st
     parts = np.full(len(positions), int(Part.OTHER), dtype=np.int64)
     gums = np.zeros(len(positions), dtype=bool)
     lips = (points["2.2"] + points["2.3"]) / 2.0
-    span = TEMPLATE_POINTS["8.3"][0] - TEMPLATE_POINTS["8.4"][0]
-    reach = (points["8.3"][0] - points["8.4"][0]) / span
     for label in range(labels.max() + 1):
         member = np.flatnonzero(labels == label)
         piece = positions[member]
@@ -102,7 +100,7 @@ def derive_parts(positions: Floats, polygons: Sequence[Ints], points: Mapping[st
             parts[member] = int(eye)
             continue
         middle = piece.mean(axis=0) - lips
-        inside = np.abs(piece[:, 0] - lips[0]).max() < MOUTH_HALF_WIDTH * reach and -MOUTH_DEPTH < middle[2] < 4 * MM
+        inside = np.abs(piece[:, 0] - lips[0]).max() < MOUTH_HALF_WIDTH and -MOUTH_DEPTH < middle[2] < 4 * MM
         if inside and abs(middle[1]) < 30 * MM:
             found = mouth_part(piece, lips)
             parts[member] = int(Part.OTHER if found is None else found)
