@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +24,7 @@ from .faces import face_of, read_face
 from .framing import framing_of
 from .mesh import key_vertices
 from .progress import Progress, Work, part_of, run
-from .studio import Engine, Look, furnish
+from .studio import Engine, Look, furnish, render_still, studio
 from .subjects import subject
 
 if TYPE_CHECKING:
@@ -32,7 +32,9 @@ if TYPE_CHECKING:
 
 ARCHETYPES = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
 #: Seconds of rest before, between and after expressions.
-PAUSE = 0.3
+PAUSE = 0.2
+#: Pixels of a picture on the contact sheet.
+SHEET_SIZE = 640
 #: Frame at which a job's motion begins.
 FIRST_FRAME = 1
 
@@ -263,11 +265,10 @@ def _demo(out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, f
     obj = subject(mesh, points)
     cues, moved = yield from part_of(_move(obj, words, fps), 0.02, 0.35)
     scene = bpy.context.scene
-    with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
-        work = film.render_film([obj], movie, start=scene.frame_start, end=scene.frame_end, look=look, frames=folder)
-        rendered = yield from part_of(work, 0.35, 0.95)
-        yield Progress(0.96, "Composing the contact sheet")
-        write_sheet(_exhibits(obj, cues, fps, Path(folder)), sheet)
+    work = film.render_film([obj], movie, start=scene.frame_start, end=scene.frame_end, look=look)
+    rendered = yield from part_of(work, 0.35, 0.9)
+    yield Progress(0.91, "Composing the contact sheet")
+    _write_sheet(obj, cues, fps, replace(look, width=SHEET_SIZE, height=SHEET_SIZE, fine=True), sheet)
     yield Progress(0.99, "Saving the .blend")
     furnish(scene, framing_of(obj), look)
     save(blend)
@@ -287,8 +288,19 @@ def apex_frame(cue: Cue, fps: float) -> int:
     return FIRST_FRAME + int(np.floor((cue.start + cue.onset + cue.apex) * fps))
 
 
+def _write_sheet(obj: Any, cues: Sequence[Cue], fps: float, look: Look, path: Path) -> None:
+    """Picture each cue's apex, with what was asked against what the baked face shows."""
+    with tempfile.TemporaryDirectory(prefix="risorius-") as name:
+        folder = Path(name)
+        with studio([obj], framing_of(obj), look) as scene:
+            for cue in cues:
+                frame = apex_frame(cue, fps)
+                render_still(scene, frame, folder / f"{frame:04d}.png")
+        write_sheet(_exhibits(obj, cues, fps, folder), path)
+
+
 def _exhibits(obj: Any, cues: Sequence[Cue], fps: float, folder: Path) -> list[Exhibit]:
-    """Each cue's apex: its picture, and what was asked against what the baked face shows."""
+    """The apexes, pictured in `folder`, with their values."""
     from .. import api
 
     source = read_face(obj)

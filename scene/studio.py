@@ -45,15 +45,15 @@ class Look:
     width, height : pixels.
     yaw : how far the camera stands to the subject's left, radians.
     background : linear RGB.
-    samples : Cycles samples per pixel.
+    fine : for stills: twice the smoothing, and shading that shows every fold. Three times as long without a GPU.
     """
 
     engine: Engine = Engine.WORKBENCH
-    width: int = 720
-    height: int = 720
+    width: int = 576
+    height: int = 576
     yaw: float = 0.17
     background: tuple[float, float, float] = (0.42, 0.45, 0.48)
-    samples: int = 32
+    fine: bool = False
 
     def __post_init__(self) -> None:
         for name in ("width", "height"):
@@ -185,10 +185,10 @@ def _settings(scene: Any, look: Look) -> None:
     scene.view_settings.look = "None"
     render.image_settings.file_format = "PNG"
     render.image_settings.color_mode = "RGB"
-    scene.display.render_aa = "16"
+    scene.display.render_aa = "16" if look.fine else "8"
     shading = scene.display.shading
     shading.light, shading.color_type = "STUDIO", "MATERIAL"
-    shading.show_cavity, shading.cavity_type = True, "BOTH"
+    shading.show_cavity, shading.cavity_type = True, "BOTH" if look.fine else "SCREEN"
     shading.cavity_ridge_factor, shading.cavity_valley_factor = 0.4, 1.0
     shading.curvature_ridge_factor, shading.curvature_valley_factor = 0.2, 0.7
     shading.show_shadows, shading.show_specular_highlight = False, True
@@ -211,7 +211,7 @@ def _set_engine(scene: Any, look: Look) -> None:
     else:
         raise SceneError(engine.value.title(), "is not available in this Blender: choose another engine")
     if engine is Engine.CYCLES:
-        scene.cycles.samples = look.samples
+        scene.cycles.samples = 64 if look.fine else 16
         scene.cycles.use_denoising = True
 
 

@@ -39,7 +39,7 @@ class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
             path,
             start=start,
             end=end,
-            look=Look(engine=Engine(chosen.engine), width=chosen.size // 2 * 2, height=chosen.size // 2 * 2),
+            look=look_of(chosen),
             frames=path.with_suffix("") if chosen.keep_pictures else None,
         )
 
@@ -48,6 +48,12 @@ class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
         for remark in result.remarks:
             self.report({"WARNING"}, remark)
         return f"Rendered {result.frame_count} frames to {result.path}"
+
+
+def look_of(chosen: Any) -> Look:
+    """The look chosen; with a window there is a graphics card that affords the fine one."""
+    size = chosen.size // 2 * 2
+    return Look(engine=Engine(chosen.engine), width=size, height=size, fine=not bpy.app.background)
 
 
 def output_path(chosen: Any) -> Path:
