@@ -19,10 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from . import __doc__ as package_doc
 from .errors import ParameterError, RisoriusError
 
-DESCRIPTION = (package_doc or "").partition("\n")[0]
+DESCRIPTION = "An emotion word and an activation become a moving face."
 NEEDS_BLENDER = (
     "this verb needs Blender: run it as `blender --command risorius ...`, or `pip install bpy` into this Python"
 )
