@@ -101,21 +101,27 @@ def _closest_on_triangles(position: Floats, corners: Floats) -> tuple[Floats, Fl
     return best, distance
 
 
-def _bind_position(
-    name: str, position: Floats, vertices: Floats, triangles: Ints, near: cKDTree, reach: float
-) -> BoundPoint:
-    """Bind a position to the closest polygon, or leave it free where there is none within reach."""
-    _, candidates = near.query(position, k=min(NEAR_VERTICES, len(vertices)))
-    free = BoundPoint(name, position, np.zeros(0, dtype=np.int64), np.zeros(0))
-    chosen = np.isin(triangles, candidates).any(axis=1)
-    if not chosen.any():
-        return free
-    corners = triangles[chosen]
-    weights, distance = _closest_on_triangles(position, vertices[corners])
-    best = int(np.argmin(distance))
-    if distance[best] > reach:
-        return free
-    return BoundPoint(name, position, corners[best].astype(np.int64), weights[best])
+class _Surface:
+    """Triangles that positions are bound to."""
+
+    def __init__(self, vertices: Floats, triangles: Ints) -> None:
+        self._vertices, self._triangles = vertices, triangles
+        self._own: Ints = np.unique(triangles)
+        self._near = cKDTree(vertices[self._own])
+        self._reach = FREE_DISTANCE * float(np.linalg.norm(np.ptp(vertices, axis=0)))
+
+    def bind(self, name: str, position: Floats) -> BoundPoint:
+        """Bind a position to the closest triangle, or leave it free where there is none within reach."""
+        free = BoundPoint(name, position, np.zeros(0, dtype=np.int64), np.zeros(0))
+        if len(self._own) == 0:
+            return free
+        _, nearest = self._near.query(position, k=min(NEAR_VERTICES, len(self._own)))
+        corners = self._triangles[np.isin(self._triangles, self._own[nearest]).any(axis=1)]
+        weights, distance = _closest_on_triangles(position, self._vertices[corners])
+        best = int(np.argmin(distance))
+        if distance[best] > self._reach:
+            return free
+        return BoundPoint(name, position, corners[best].astype(np.int64), weights[best])
 
 
 def lies_on_skin(name: str) -> bool:
@@ -146,9 +152,8 @@ def bind_points(
     missing = [name for name in REQUIRED if name not in points]
     if missing:
         raise ModelError(f"the face lacks the feature points {', '.join(missing)}: add them to the points given")
-    near = cKDTree(vertices)
-    reach = FREE_DISTANCE * float(np.linalg.norm(np.ptp(vertices, axis=0)))
-    on_skin = triangles if skin is None else triangles[skin[triangles].all(axis=1)]
+    anywhere = _Surface(vertices, triangles)
+    on_skin = anywhere if skin is None else _Surface(vertices, triangles[skin[triangles].all(axis=1)])
     bound: dict[str, BoundPoint] = {}
     for name, source in points.items():
         if isinstance(source, int | np.integer):
@@ -162,8 +167,7 @@ def bind_points(
         position = np.asarray(source, dtype=np.float64)
         if position.shape != (3,) or not np.isfinite(position).all():
             raise ModelError(f"feature point {name} must be a vertex index or three finite coordinates, not {source!r}")
-        surface = triangles if skin is None or not lies_on_skin(name) else on_skin
-        bound[name] = _bind_position(name, position, vertices, surface, near, reach)
+        bound[name] = (on_skin if lies_on_skin(name) else anywhere).bind(name, position)
     return FeaturePoints(bound, len(vertices))
 
 
