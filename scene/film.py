@@ -14,7 +14,7 @@ import bpy
 from ..errors import SceneError
 from .framing import framing_of
 from .progress import Progress, Work
-from .studio import Look, render_still, studio, usable_engine
+from .studio import Look, render_frame, studio, usable_engine
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def render_frames(
     count = end - start + 1
     with studio(objects, framing_of(objects[0]), look) as scene:
         for index, frame in enumerate(range(start, end + 1)):
-            pictures.append(render_still(scene, frame, folder / f"{frame:04d}.png"))
+            pictures.append(render_frame(scene, frame, folder))
             yield Progress(0.95 * (index + 1) / count, f"Rendering frame {index + 1} of {count}")
     return pictures
 

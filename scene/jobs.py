@@ -24,7 +24,7 @@ from .faces import face_of, read_face
 from .framing import framing_of
 from .mesh import key_vertices
 from .progress import Progress, Work, part_of, run
-from .studio import Engine, Look, furnish, render_still, studio
+from .studio import Engine, Look, furnish, render_frame, studio
 from .subjects import subject
 
 if TYPE_CHECKING:
@@ -291,28 +291,24 @@ def apex_frame(cue: Cue, fps: float) -> int:
 def _write_sheet(obj: Any, cues: Sequence[Cue], fps: float, look: Look, path: Path) -> None:
     """Picture each cue's apex, with what was asked against what the baked face shows."""
     with tempfile.TemporaryDirectory(prefix="risorius-") as name:
-        folder = Path(name)
         with studio([obj], framing_of(obj), look) as scene:
-            for cue in cues:
-                frame = apex_frame(cue, fps)
-                render_still(scene, frame, folder / f"{frame:04d}.png")
-        write_sheet(_exhibits(obj, cues, fps, folder), path)
+            pictures = [render_frame(scene, apex_frame(cue, fps), Path(name)) for cue in cues]
+        write_sheet(_exhibits(obj, cues, fps, pictures), path)
 
 
-def _exhibits(obj: Any, cues: Sequence[Cue], fps: float, folder: Path) -> list[Exhibit]:
-    """The apexes, pictured in `folder`, with their values."""
+def _exhibits(obj: Any, cues: Sequence[Cue], fps: float, pictures: Sequence[Path]) -> list[Exhibit]:
+    """The pictured apexes with their values."""
     from .. import api
 
     source = read_face(obj)
     face = face_of(source)
     labels = [f"F{fap.number} {fap.name}" for fap in api.FAPS.values()]
     exhibits = []
-    for cue in cues:
-        frame = apex_frame(cue, fps)
-        shown = face.measure(source.vertices + _played(obj, source.pieces[0].to_metres[:3, :3], frame))
-        values = exhibit_values(labels, cue.profile.frame(), shown)
+    for cue, picture in zip(cues, pictures, strict=True):
+        moved = _played(obj, source.pieces[0].to_metres[:3, :3], apex_frame(cue, fps))
+        values = exhibit_values(labels, cue.profile.frame(), face.measure(source.vertices + moved))
         caption = f"activation {cue.profile.activation:.1f}"
-        exhibits.append(Exhibit(str(cue.profile.word), caption, folder / f"{frame:04d}.png", values))
+        exhibits.append(Exhibit(str(cue.profile.word), caption, picture, values))
     return exhibits
 
 

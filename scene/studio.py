@@ -215,12 +215,16 @@ def _set_engine(scene: Any, look: Look) -> None:
         scene.cycles.use_denoising = True
 
 
-def render_still(scene: Any, frame: float, path: Path) -> Path:
-    """Render one frame of a studio scene to a PNG."""
-    whole = int(np.floor(frame))
-    scene.frame_set(whole, subframe=float(frame - whole))
-    scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+def render_frame(scene: Any, frame: int, folder: Path) -> Path:
+    """Render one frame of a studio scene to a numbered PNG in `folder`.
+
+    As an animation of one frame: a still is rendered without evaluating shape keys anew in a scene that no window
+    shows, and would show the resting face.
+    """
+    scene.frame_start = scene.frame_end = frame
+    scene.render.filepath = str(folder / "####.png")
+    path = Path(scene.render.frame_path(frame=frame))
+    bpy.ops.render.render(animation=True, scene=scene.name)
     if not path.is_file():
         raise SceneError(str(path), "was not written: choose a folder that can be written to")
     return path
