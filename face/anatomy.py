@@ -206,9 +206,9 @@ class Anatomy:
         if len(index) == 0:
             return None
         units, scale = self.mesh.units, self.mesh.frame.scale
-        return build_tongue(
-            index, self.mesh.positions[index], (units.mw0 / 1024.0 / scale, units.mns0 / 1024.0 / scale)
-        )
+        lengths = (units.mw0 / 1024.0 / scale, units.mns0 / 1024.0 / scale)
+        tip, body = (self.mesh.landmarks.get(name) for name in ("6.1", "6.2"))
+        return build_tongue(index, self.mesh.positions[index], lengths, tip, body)
 
     @cached_property
     def head_turn(self) -> HeadTurn:

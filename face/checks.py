@@ -129,8 +129,9 @@ def checked_emotions(emotions: ArrayLike | None, count: int) -> Floats | None:
     array = np.array(emotions, dtype=np.float64)
     if array.shape != (count, len(ARCHETYPES)):
         raise ParameterError("emotions", f"must have the shape ({count}, {len(ARCHETYPES)})", array.shape)
-    if not (np.isfinite(array).all() and (array >= 0.0).all()):
-        raise ParameterError("emotions", "must be finite strengths, none negative", float(np.nanmin(array)))
+    wrong = array[~(np.isfinite(array) & (array >= 0.0))]
+    if len(wrong):
+        raise ParameterError("emotions", "must be finite strengths, none negative", float(wrong[0]))
     return array
 
 

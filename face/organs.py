@@ -141,17 +141,23 @@ class Tongue:
         return turned
 
 
-def build_tongue(index: Ints, positions: Floats, units: tuple[float, float]) -> Tongue:
-    """The tongue of a face from its vertices (k, 3) in head space."""
+def build_tongue(
+    index: Ints, positions: Floats, units: tuple[float, float], tip: Floats | None = None, body: Floats | None = None
+) -> Tongue:
+    """The tongue of a face from its vertices (k, 3) and the points 6.1 `tip` and 6.2 `body` (3,) in head space.
+
+    The tip's weight is 0 at the body's point and the body's is 0 at the tip's, so that each FAP moves its own point.
+    """
     front = positions[:, 2]
-    along = (front - front.min()) / max(float(np.ptp(front)), 1e-6)
-    return Tongue(
-        index=index,
-        positions=positions,
-        tip=smoothstep((along - 0.35) / 0.6),
-        body=np.exp(-(((along - 0.5) / 0.25) ** 2)),
-        units=units,
-    )
+    start, length = float(front.min()), max(float(np.ptp(front)), 1e-6)
+    along = (front - start) / length
+    ends = 1.0 if tip is None else float(tip[2] - start) / length
+    middle = 0.5 if body is None else float(body[2] - start) / length
+    if ends - middle < 0.1:
+        ends, middle = 1.0, 0.5
+    foremost = smoothstep((along - middle) / (ends - middle))
+    rise = np.exp(-(((along - middle) / 0.25) ** 2)) * (1.0 - foremost)
+    return Tongue(index=index, positions=positions, tip=foremost, body=rise, units=units)
 
 
 @dataclass(frozen=True)

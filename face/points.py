@@ -172,7 +172,7 @@ def bind_points(
 
 
 def check_sides(points: Mapping[str, Floats]) -> None:
-    """Refuse feature points whose left and right, or upper and lower, are swapped.
+    """Refuse feature points whose left and right, upper and lower, or all left and all right ones, are swapped.
 
     Parameters
     ----------
@@ -182,6 +182,11 @@ def check_sides(points: Mapping[str, Floats]) -> None:
     ------
     ModelError : names the first wrong pair and the remedy.
     """
+    if points["9.3"][2] <= (points["8.3"][2] + points["8.4"][2]) / 2.0:
+        raise ModelError(
+            "all left and right feature points are swapped, or the nose tip 9.3 is wrong: it lies behind the mouth; "
+            "8.3, 3.7 and 4.1 lie on the subject's left (the viewer's right)"
+        )
     for left, right in (
         ("8.3", "8.4"),
         ("3.7", "3.12"),
