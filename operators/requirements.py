@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 from importlib.util import find_spec
 
 from ..errors import SceneError
@@ -40,6 +41,6 @@ def need_scipy() -> None:
     if not has_scipy():
         raise SceneError(MISSING, " ".join(REMEDY))
     try:
-        import scipy.sparse.linalg
+        import_module("scipy.sparse.linalg")
     except ImportError as problem:
         raise SceneError("SciPy cannot be loaded", f"{problem}. {' '.join(REMEDY[2:])}") from problem

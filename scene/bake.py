@@ -179,7 +179,8 @@ def bake_motion(
     times = start + np.arange(len(frames), dtype=np.float64)
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
     action, keys, said = _write(target, source, clip, names, packed.shapes, curves, slider_min=-1.0)
-    return BakeResult(clip, action.name, keys, packed.error, tuple(action.frame_range), None, remarks(source.head) + said)
+    said = remarks(source.head) + said
+    return BakeResult(clip, action.name, keys, packed.error, tuple(action.frame_range), None, said)
 
 
 def _write(
@@ -196,7 +197,8 @@ def _write(
     if target.make_single_user:
         for obj in source.objects:
             own_mesh(obj)
-    moving = [p for p in source.pieces if p is source.pieces[0] or np.abs(displacements[:, p.slice]).max(initial=0.0) > STILL]
+    head = source.pieces[0]
+    moving = [p for p in source.pieces if p is head or np.abs(displacements[:, p.slice]).max(initial=0.0) > STILL]
     members = [obj.data for obj in source.objects]
     free = shape_keys.free_names(names, members, clip)
     retired = {name for mesh in members for name in shape_keys.read_own(mesh).clips.get(clip, ())}

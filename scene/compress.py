@@ -1,4 +1,4 @@
-"""Moving vertices as few shapes times weights: a truncated singular value decomposition with a bound on every vertex."""
+"""A motion as few shapes times weights: a truncated singular value decomposition with a bound on every vertex."""
 
 from __future__ import annotations
 

@@ -39,16 +39,18 @@ def write_sheet(exhibits: Sequence[Exhibit], path: Path) -> Path:
     high, wide, _ = pictures[0].shape
     columns = min(COLUMNS, len(exhibits))
     rows = -(-len(exhibits) // columns)
-    lines = max(-(-len(exhibit.values) // 2) for exhibit in exhibits) + 1
-    cell_height = int(2.2 * TITLE + high + LINE * LETTER * (lines + 0.8)) + MARGIN
+    tops = [MARGIN]
+    for row in range(rows):
+        lines = max(-(-len(exhibit.values) // 2) for exhibit in exhibits[row * columns : (row + 1) * columns]) + 1
+        tops.append(tops[-1] + int(1.6 * TITLE + high + LINE * LETTER * (lines + 0.8)) + MARGIN)
     cell_width = wide + MARGIN
     width = columns * cell_width + MARGIN
-    height = rows * cell_height + MARGIN
+    height = tops.pop()
     texts: list[Text] = []
     corners = []
     for index, exhibit in enumerate(exhibits):
         left = MARGIN + (index % columns) * cell_width
-        top = MARGIN + (index // columns) * cell_height
+        top = tops[index // columns]
         texts += _texts(exhibit, left, top, wide, high)
         corners.append((left, top + int(1.6 * TITLE)))
     with tempfile.TemporaryDirectory(prefix="risorius-") as folder:

@@ -100,7 +100,8 @@ def store_points(obj: Any, points: PointTable) -> None:
     for name, point in points.items():
         if isinstance(point, int) and point >= count:
             raise SceneError(
-                obj.name, f"has {count} vertices, but feature point {name} names vertex {point}: wrong file for this mesh?"
+                obj.name,
+                f"has {count} vertices, but feature point {name} names vertex {point}: wrong file for this mesh?",
             )
     table = {name: point if isinstance(point, int) else list(point) for name, point in points.items()}
     obj[POINTS] = json.dumps({"vertex_count": count, "points": table})
@@ -134,7 +135,8 @@ def stored_points(obj: Any) -> dict[str, int | tuple[float, float, float]]:
     if count != len(obj.data.vertices):
         raise SceneError(
             obj.name,
-            f"has {len(obj.data.vertices)} vertices, but had {count} when its feature points were imported: import them again",
+            f"has {len(obj.data.vertices)} vertices, but had {count} when its feature points were imported: "
+            "import them again",
         )
     return points_of_table(stored["points"], obj.name)
 

@@ -160,10 +160,11 @@ def _engine(name: str) -> Engine:
 def _empty_file(fps: float) -> None:
     """An empty file with this frame rate."""
     if not bpy.app.background:
-        raise SceneError("This job", "starts from an empty file: run it from the command line (blender --command risorius)")
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        remedy = "run it from the command line (blender --command risorius)"
+        raise SceneError("This job", f"starts from an empty file: {remedy}")
     if not (np.isfinite(fps) and 1.0 <= fps <= 240.0):
         raise ParameterError("fps", "must lie between 1 and 240", fps)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     render = bpy.context.scene.render
     render.fps = max(1, round(fps))
     render.fps_base = render.fps / fps

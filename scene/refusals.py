@@ -56,8 +56,8 @@ def refuse_unwritable(obj: Any | None, *, make_single_user: bool = False) -> Non
     if sharers and not make_single_user:
         raise SceneError(
             obj.name,
-            f"shares its mesh with {', '.join(sorted(sharers)[:3])}, which would get the shape keys too: make it single "
-            "user (Object > Relations > Make Single User > Object & Data), or switch on Make Single User",
+            f"shares its mesh with {', '.join(sorted(sharers)[:3])}, which would get the shape keys too: "
+            "make it single user (Object > Relations > Make Single User > Object & Data), or switch on Make Single User",
         )
     keys = obj.data.shape_keys
     if keys is None:

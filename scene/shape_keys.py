@@ -98,7 +98,9 @@ def _ensure_basis(obj: Any) -> OwnKeys:
     return own if own.face else replace(own, face=uuid.uuid4().hex)
 
 
-def write_keys(obj: Any, clip: str, shapes: Mapping[str, Floats], *, slider_min: float = 0.0, face: str = "") -> OwnKeys:
+def write_keys(
+    obj: Any, clip: str, shapes: Mapping[str, Floats], *, slider_min: float = 0.0, face: str = ""
+) -> OwnKeys:
     """Write the shape keys of one clip, in place of those it had before.
 
     Parameters

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from enum import Enum
+from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
@@ -22,12 +22,11 @@ from ..errors import ParameterError, SceneError
 from .framing import Framing
 from .gpu_probe import REMEDY, can_draw
 
-
 #: How much of the background's light falls on the face.
 AMBIENT = 0.35
 
 
-class Engine(str, Enum):
+class Engine(StrEnum):
     """Who draws the picture."""
 
     WORKBENCH = "WORKBENCH"

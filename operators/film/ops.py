@@ -16,7 +16,7 @@ from ..base import WorkOperator
 
 
 class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
-    """Render the face as a film: framed, lit and encoded as MP4. Your own camera, lights and settings stay as they are"""
+    """Render the face as a film: framed, lit and encoded as MP4. Your own camera, lights and settings stay untouched"""
 
     bl_idname = "risorius.render_film"
     bl_label = "Render Film"

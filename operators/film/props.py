@@ -2,12 +2,19 @@
 
 import bpy
 
+#: From 4.5 on Blender wants to be told that "//" is understood.
+_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5) else set()
+
 
 class RISORIUS_PG_film(bpy.types.PropertyGroup):
     """Where to, who draws, how large, which frames."""
 
     path: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="File", description="The film to write, an MP4", default="//risorius.mp4", subtype="FILE_PATH"
+        name="File",
+        description="The film to write, an MP4",
+        default="//risorius.mp4",
+        subtype="FILE_PATH",
+        options=_RELATIVE,
     )
     engine: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Engine",

@@ -12,7 +12,6 @@ if importlib.util.find_spec("bpy") is None:
     collect_ignore_glob = ["test_*.py"]
 else:
     import bpy
-
     import risorius
 
 

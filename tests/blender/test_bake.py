@@ -7,9 +7,8 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from mathutils import Matrix
-
 import risorius.api as api
+from mathutils import Matrix
 from risorius.errors import SolverError
 from risorius.face.face import Face
 from risorius.face.parts import Part
@@ -240,7 +239,8 @@ def test_a_motion_is_baked_within_a_tenth_of_a_millimetre(head: Any) -> None:
     choose(head, "surprise", onset=0.2, apex=0.1, offset=0.2, start=5)
     assert bpy.ops.risorius.bake_motion() == {"FINISHED"}
     profile = api.expression("surprise")
-    cue = api.Cue(profile, onset=head.risorius.bake.onset, apex=head.risorius.bake.apex, offset=head.risorius.bake.offset)
+    chosen = head.risorius.bake
+    cue = api.Cue(profile, onset=chosen.onset, apex=chosen.apex, offset=chosen.offset)
     fps = bake.scene_fps()
     source = faces.read_face(head)
     clip = faces.face_of(source).simulate(

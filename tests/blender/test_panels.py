@@ -7,7 +7,6 @@ from typing import Any
 
 import bpy
 import pytest
-
 from risorius import operators
 from risorius.operators import requirements
 
@@ -73,7 +72,7 @@ def test_a_mesh_without_points_is_told_what_it_needs(cube: Any) -> None:
 
 def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     shown = drawn()
-    assert list(shown) == ["RISORIUS_PT_main", "RISORIUS_PT_face", "RISORIUS_PT_emotion", "RISORIUS_PT_bake", "RISORIUS_PT_film"]
+    assert list(shown) == [f"RISORIUS_PT_{name}" for name in ("main", "face", "emotion", "bake", "film")]
     assert ("label", head.name) in shown["RISORIUS_PT_main"]
     assert [entry for entry in shown["RISORIUS_PT_emotion"] if entry[0] == "prop"][:2] == [
         ("prop", "word"),

@@ -9,7 +9,6 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-
 from risorius.errors import FormatError, SceneError
 from risorius.scene import bake, faces, refusals, shape_keys
 from risorius.scene.points_file import read_points
@@ -176,7 +175,7 @@ def test_a_wrong_file_of_points_names_the_place(tmp_path: Path, cube: Any, text:
     path.write_text(text)
     with pytest.raises(FormatError, match=match):
         read_points(path)
-    with pytest.raises(RuntimeError, match="points.json"):
+    with pytest.raises(RuntimeError, match=r"points\.json"):
         bpy.ops.risorius.import_points(filepath=str(path))
     assert not faces.has_points(cube)
 

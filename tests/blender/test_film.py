@@ -1,0 +1,154 @@
+"""Films and contact sheets: files are written, show the face moving, and leave the user's scene alone."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+from risorius.errors import ParameterError, SceneError
+from risorius.scene import film, gpu_probe, shape_keys
+from risorius.scene import mesh as meshes
+from risorius.scene.contact_sheet import Exhibit, write_sheet
+from risorius.scene.framing import framing_of
+from risorius.scene.lettering import Text, read_picture, write_picture, write_text
+from risorius.scene.progress import run
+from risorius.scene.studio import Engine, Look, usable_engine
+
+SMALL = Look(width=96, height=96)
+
+
+def counted() -> dict[str, int]:
+    """How many datablocks of each kind there are, without the picture that Blender keeps of any render."""
+    names = ("objects", "scenes", "worlds", "cameras", "lights", "images", "curves", "meshes", "actions", "materials")
+    counts = {name: len(getattr(bpy.data, name)) for name in names}
+    counts["images"] -= sum(image.type == "RENDER_RESULT" for image in bpy.data.images)
+    return counts
+
+
+@pytest.fixture
+def nodding(head: Any) -> Any:
+    """A head with a shape key that rises 3 cm from frame 1 to frame 5, without any solver."""
+    up = meshes.rest_vertices(head.data) + np.array([0.0, 0.0, 0.03])
+    shape_keys.write_keys(head, "up", {"up": up})
+    block = head.data.shape_keys.key_blocks["up"]
+    for frame, value in ((1, 0.0), (5, 1.0)):
+        block.value = value
+        block.keyframe_insert("value", frame=frame)
+    return head
+
+
+@pytest.mark.smoke
+def test_a_film_is_written_and_the_scene_is_as_it_was(nodding: Any, tmp_path: Path) -> None:
+    scene = bpy.context.scene
+    scene.render.filepath, scene.render.resolution_x = "//mine", 123
+    before, state = counted(), (scene.render.filepath, scene.render.resolution_x, scene.camera, scene.frame_current)
+    path = tmp_path / "folder" / "film.mp4"
+    result = run(film.render_film([nodding], path, start=1, end=5, look=SMALL, frames=tmp_path / "frames"))
+    assert result.path == path
+    assert path.read_bytes()[4:8] == b"ftyp"
+    assert result.frame_count == 5
+    first, middle, last = (read_picture(tmp_path / "frames" / f"{n:04d}.png") for n in (1, 3, 5))
+    assert first.shape == (96, 96, 3)
+    assert np.abs(first - middle).mean() > 0.002
+    assert np.abs(first - last).mean() > 0.004
+    assert counted() == before
+    assert (scene.render.filepath, scene.render.resolution_x, scene.camera, scene.frame_current) == state
+    movie = bpy.data.movieclips.load(str(path))
+    assert (tuple(movie.size), movie.frame_duration) == ((96, 96), 5)
+
+
+@pytest.mark.smoke
+def test_the_operator_films_the_clip(nodding: Any, tmp_path: Path) -> None:
+    bpy.context.scene.frame_end = 2
+    chosen = bpy.context.scene.risorius.film
+    chosen.path, chosen.size = str(tmp_path / "film"), 64
+    assert bpy.ops.risorius.render_film() == {"FINISHED"}
+    assert (tmp_path / "film.mp4").stat().st_size > 0
+
+
+@pytest.mark.smoke
+def test_unwritable_output_is_refused_before_rendering(
+    head: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    blocked = tmp_path / "a file"
+    blocked.write_text("")
+    monkeypatch.setattr(film, "render_frames", lambda *_, **__: pytest.fail("rendered"))
+    for path in (blocked / "film.mp4", tmp_path):
+        with pytest.raises(SceneError, match=r"cannot be written .*choose a file"):
+            run(film.render_film([head], path, start=1, end=2))
+    bpy.context.scene.risorius.film.path = "//film.mp4"
+    with pytest.raises(RuntimeError, match="save that first"):
+        bpy.ops.risorius.render_film()
+    if os.geteuid() != 0:
+        tmp_path.chmod(0o500)
+        with pytest.raises(SceneError, match="cannot be written"):
+            film.refuse_unwritable_output(tmp_path / "film.mp4")
+
+
+def test_a_cancelled_film_leaves_no_trace_and_the_old_film(nodding: Any, tmp_path: Path) -> None:
+    path = tmp_path / "film.mp4"
+    path.write_text("the old film")
+    before = counted()
+    work = film.render_film([nodding], path, start=1, end=5, look=SMALL)
+    next(work)
+    assert counted() != before
+    work.close()
+    assert counted() == before
+    assert path.read_text() == "the old film"
+    assert [p.name for p in tmp_path.iterdir()] == ["film.mp4"]
+
+
+def test_without_egl_cycles_draws_and_it_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    from risorius.scene import studio
+
+    monkeypatch.setattr(studio, "can_draw", lambda: False)
+    assert usable_engine(Engine.WORKBENCH) == (Engine.CYCLES, gpu_probe.REMEDY)
+    assert usable_engine(Engine.EEVEE)[0] is Engine.CYCLES
+    assert usable_engine(Engine.CYCLES) == (Engine.CYCLES, None)
+
+
+def test_odd_sizes_are_refused() -> None:
+    with pytest.raises(ParameterError, match="even number of pixels"):
+        Look(width=101)
+
+
+def test_the_face_is_framed_whatever_its_pose(head: Any) -> None:
+    upright = framing_of(head)
+    np.testing.assert_allclose(upright.left, [1.0, 0.0, 0.0], atol=0.05)
+    np.testing.assert_allclose(upright.forward, [0.0, -1.0, 0.0], atol=0.05)
+    head.rotation_euler, head.location, head.scale = (0.0, 0.0, np.pi / 2), (3.0, 0.0, 0.0), (2.0, 2.0, 2.0)
+    bpy.context.view_layer.update()
+    turned = framing_of(head)
+    np.testing.assert_allclose(turned.left, [0.0, 1.0, 0.0], atol=0.05)
+    np.testing.assert_allclose(turned.forward, [1.0, 0.0, 0.0], atol=0.05)
+    assert turned.height == pytest.approx(2.0 * upright.height, rel=1e-3)
+    assert abs(turned.centre[0] - 3.0) < 0.3
+
+
+def test_letters_are_black_on_white(tmp_path: Path) -> None:
+    before = counted()
+    texts = [Text(("Joy", "F12"), 10.0, 30.0, 20.0), Text(("7",), 190.0, 30.0, 20.0, right=True)]
+    pixels = write_text(texts, 200, 80, tmp_path)
+    assert pixels.shape == (80, 200, 3)
+    assert pixels[:, 60:150].min() > 0.95
+    assert pixels[10:35, 10:50].min() < 0.1
+    assert pixels[40:70, 10:50].min() < 0.1
+    assert pixels[10:35, 170:190].min() < 0.1
+    assert pixels[40:70, 150:].min() > 0.95
+    assert counted() == before
+
+
+def test_a_sheet_holds_the_pictures(tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    exhibits = []
+    for number in range(4):
+        picture = write_picture(np.full((64, 320, 3), rng.integers(0, 255, 3) / 255.0), tmp_path / f"{number}.png")
+        exhibits.append(Exhibit(f"word {number}", "activation 4.0", picture, {"F3 open_jaw": (10.0 * number, np.nan)}))
+    sheet = read_picture(write_sheet(exhibits, tmp_path / "sheet.png"))
+    for exhibit in exhibits:
+        colour = read_picture(exhibit.picture)[0, 0]
+        assert (np.abs(sheet - colour).max(axis=2) < 0.01).sum() >= 64 * 320
