@@ -35,6 +35,10 @@ def provide_scipy() -> None:
 
 def main(arguments: list[str]) -> int:
     """Run one verb of the command line."""
+    import bpy
+
+    if bpy.app.version < (4, 2, 0):
+        sys.exit(f"This is Blender {bpy.app.version_string}; Risorius needs 4.2 or later")
     sys.path.insert(0, str(Path(__file__).resolve().parent))
     from environments import ensure_link
 

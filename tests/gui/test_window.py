@@ -65,10 +65,10 @@ def provide_opengl(root: Path) -> None:
 
 
 @pytest.fixture(scope="session")
-def seen(blender: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Any]]:
-    """What the script in the window found, after a picture was taken; the window is closed at the end."""
-    folder = tmp_path_factory.mktemp("window")
-    settings, report = folder / "settings", folder / "report.json"
+def settings(blender: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A settings folder in which the built zip is installed and enabled."""
+    folder = tmp_path_factory.mktemp("installed")
+    settings = folder / "settings"
     settings.mkdir()
     build = [sys.executable, str(ROOT / "tools" / "build.py"), "--platform", "linux-x64", "--blender", "5.1"]
     built = subprocess.run([*build, "--output", str(folder)], capture_output=True, text=True, check=False)
@@ -77,6 +77,14 @@ def seen(blender: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[di
     install = ["--command", "extension", "install-file", "-r", "user_default", "--enable", str(path)]
     installed = call(blender, "background", *install, settings=settings)
     assert installed.returncode == 0, installed.stdout + installed.stderr
+    return settings
+
+
+@pytest.fixture(scope="session")
+def seen(blender: Path, settings: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Any]]:
+    """What the script in the window found, after a picture was taken; the window is closed at the end."""
+    folder = tmp_path_factory.mktemp("window")
+    report = folder / "report.json"
     script = str(ROOT / "tests" / "gui" / "in_window.py")
     started = call(blender, "start", "--python", script, "--", str(report), settings=settings)
     try:
@@ -121,6 +129,19 @@ def colours(picture: Path) -> set[bytes]:
     raw = zlib.decompress(body)
     rows = (raw[y * (3 * width + 1) + 1 : (y + 1) * (3 * width + 1)] for y in range(height))
     return {row[x : x + 3] for row in rows for x in range(0, 3 * width, 3)}
+
+
+def test_blender_takes_the_command_line(blender: Path, settings: Path, tmp_path: Path) -> None:
+    command = ("--command", "risorius")
+    said = call(blender, "background", *command, "profile", "joy", "--json", settings=settings)
+    assert said.returncode == 0, said.stdout + said.stderr
+    assert json.loads(said.stdout[said.stdout.index("{") : said.stdout.rindex("}") + 1])["word"] == "joy"
+    assert call(blender, "background", *command, "profile", "joyous-ish", settings=settings).returncode == 1
+    assert call(blender, "background", *command, "dance", settings=settings).returncode == 2
+    blend = tmp_path / "joy.blend"
+    baked = call(blender, "background", *command, "bake", "joy", "--out", str(blend), settings=settings)
+    assert baked.returncode == 0, baked.stdout + baked.stderr
+    assert blend.stat().st_size > 0
 
 
 def test_nothing_went_wrong_in_the_window(seen: dict[str, Any]) -> None:
