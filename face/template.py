@@ -21,8 +21,9 @@ MM = 1e-3
 #: The tables of anatomy.
 ANATOMY = Path(__file__).resolve().parent.parent / "presets" / "anatomy"
 
-#: Groups of feature points on bone or skin that carry the warp (the standard's groups 2-5 and 8-11).
+#: Groups of feature points on skin or eyes that carry the warp (the standard's groups 2-5 and 8-11), but not the teeth.
 WARP_GROUPS = ("2", "3", "4", "5", "8", "9", "10", "11")
+TEETH_POINTS = ("9.8", "9.9", "9.10", "9.11")
 
 #: How much the warp may pass beside feature points, which are placed by hand (scipy's `smoothing`, in millimetres).
 WARP_SMOOTHING = 3.0
@@ -45,7 +46,8 @@ class TemplateWarp:
 
     def __init__(self, points: Mapping[str, Floats]) -> None:
         """Fit to a face's own feature points: name -> (3,) in head space (metres)."""
-        names = [n for n in TEMPLATE_POINTS if n in points and n.split(".")[0] in WARP_GROUPS]
+        carriers = [n for n in TEMPLATE_POINTS if n.split(".")[0] in WARP_GROUPS and n not in TEETH_POINTS]
+        names = [n for n in carriers if n in points]
         source = np.array([TEMPLATE_POINTS[n] for n in names]) / MM
         target = np.array([points[n] for n in names]) / MM
         self._offset = RBFInterpolator(source, target - source, kernel="linear", degree=1, smoothing=WARP_SMOOTHING)
