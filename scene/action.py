@@ -181,12 +181,15 @@ def play(keys: Any, action: Any) -> str | None:
 
 
 def add_strip(track: Any, action: Any) -> Any:
-    """Put a clip on an NLA track, at its own frames; outside them it says nothing."""
+    """Put a clip on an NLA track, at its own frames. Outside them it holds its ends, which are at rest.
+
+    A strip that said nothing there would leave the face as the last frame shown had it.
+    """
     strip = track.strips.new(action.name, int(action.frame_start), action)
     if hasattr(strip, "action_slot"):
         strip.action_slot = slot_of(action)
     strip.frame_start = action.frame_start
-    strip.extrapolation = "NOTHING"
+    strip.extrapolation = "HOLD_FORWARD" if len(track.strips) > 1 else "HOLD"
     return strip
 
 

@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError, SceneError
-from ..face.natural import EmotionShares
 from ..face.parts import Part
 from . import action as actions
 from . import shape_keys
@@ -22,6 +21,9 @@ from .compress import TOLERANCE, compress
 from .faces import FaceSource, face_of, read_face
 from .progress import Progress, Work
 from .refusals import own_mesh, refuse_unwritable, remarks
+
+if TYPE_CHECKING:
+    from ..face.natural import EmotionShares
 
 #: A piece that moves less than this everywhere gets no shape keys, metres.
 STILL = 1e-7

@@ -54,10 +54,12 @@ def refuse_unwritable(obj: Any | None, *, make_single_user: bool = False) -> Non
         raise SceneError(obj.name, "is a library override: make it local (Object > Relations > Make Local > All) first")
     sharers = [other.name for other in bpy.data.objects if other.data == obj.data and other != obj]
     if sharers and not make_single_user:
+        names = ", ".join(sorted(sharers)[:3])
         raise SceneError(
             obj.name,
-            f"shares its mesh with {', '.join(sorted(sharers)[:3])}, which would get the shape keys too: "
-            "make it single user (Object > Relations > Make Single User > Object & Data), or switch on Make Single User",
+            f"shares its mesh with {names}, which would get the shape keys too: "
+            "make it single user (Object > Relations > Make Single User > Object & Data) "
+            "or switch on Make Single User in the panel",
         )
     keys = obj.data.shape_keys
     if keys is None:

@@ -34,11 +34,12 @@ def _described(word: str) -> str:
     entry = WORDS[word]
     if entry.neutral:
         return "No expression: the resting face"
-    where = f"at {entry.angle:g}° on the emotion wheel"
-    if entry.category is not None:
-        where = f"a degree of {entry.category}"
     if entry.category == word:
         where = "one of the six archetypes"
+    elif entry.category is not None:
+        where = f"a degree of {entry.category}"
+    else:
+        where = f"at {entry.angle:g}° on the emotion wheel"
     return f"{where[0].upper()}{where[1:]}; its own activation is {entry.activation:g} of 7"
 
 

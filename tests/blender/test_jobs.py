@@ -54,10 +54,12 @@ def test_a_baked_file_plays_without_risorius(tmp_path: Path) -> None:
     made = dict(jobs.bake_file(blend, words=["joy", "fear"], fps=25.0))
     assert made["shape_keys"] == 2
     cues = jobs.cues_of(["joy", "fear"])
-    shown = played(blend, [1, *(jobs.apex_frame(cue, 25.0) for cue in cues)])
+    between = int(25.0 * (cues[1].start - 0.5 * jobs.PAUSE)) + 1
+    shown = played(blend, [*(jobs.apex_frame(cue, 25.0) for cue in cues), 1, between, 500])
     face = api.default_face()
-    np.testing.assert_allclose(shown[0], face.vertices, atol=1e-6)
-    for positions, cue in zip(shown[1:], cues, strict=True):
+    for resting in shown[2:]:
+        np.testing.assert_allclose(resting, face.vertices, atol=1e-6)
+    for positions, cue in zip(shown[:2], cues, strict=True):
         pose = face.pose(cue.profile.frame(), emotion=cue.profile.weights)
         np.testing.assert_allclose(positions, pose.positions, atol=2e-6)
 
