@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from mathutils import Vector
 
 from ..arrays import Floats
 from ..face.default_head import HeadMesh, Material
@@ -14,9 +15,16 @@ from .faces import store_points
 
 NAME = "Risorius Head"
 
+#: Half of the room that a head takes, metres.
+ROOM = 0.3
 
-def add_default_head(context: Any | None = None) -> Any:
+
+def add_default_head(context: Any | None = None, *, location: Floats | None = None) -> Any:
     """Add the default head to the scene, select it and make it active.
+
+    Parameters
+    ----------
+    location : (3,) where to; by default the world's origin.
 
     Returns
     -------
@@ -26,8 +34,28 @@ def add_default_head(context: Any | None = None) -> Any:
 
     obj = head_object(api.build_default_head(), NAME)
     (context or bpy.context).collection.objects.link(obj)
+    if location is not None:
+        obj.location = location
     select_only(obj, context)
     return obj
+
+
+def free_place(context: Any, wanted: Floats) -> Floats:
+    """(3,) a place for a head near `wanted`: to the right of any visible mesh that would hide it.
+
+    A new file has a cube of two metres at the place where things are added; a head would vanish inside it.
+    """
+    place = np.array(wanted, dtype=np.float64)
+    boxes = [
+        np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
+        for obj in context.visible_objects
+        if obj.type == "MESH"
+    ]
+    for box in sorted(boxes, key=lambda box: float(box[:, 0].min())):
+        low, high = box.min(axis=0) - ROOM, box.max(axis=0) + ROOM
+        if (low < place).all() and (place < high).all():
+            place[0] = high[0]
+    return place
 
 
 def head_object(head: HeadMesh, name: str) -> Any:

@@ -33,6 +33,13 @@ def timing_of(obj: Any, context: Any) -> bake.ClipTiming:
     )
 
 
+def show_apex(context: Any) -> None:
+    """Go to the frame where the expression is full: at its first frame a bake looks like nothing happened."""
+    if not bpy.app.background:
+        timing = timing_of(context.object, context)
+        context.scene.frame_set(int(timing.start + timing.onset * timing.fps) + 1)
+
+
 class BakeOperator(WorkOperator):
     """What both bakes share."""
 
@@ -45,6 +52,7 @@ class BakeOperator(WorkOperator):
         """Name what was written, and remark on what the user should know."""
         for remark in result.remarks:
             self.report({"WARNING"}, remark)
+        show_apex(context)
         first, last = result.frame_range
         keys = f"{len(result.keys)} shape keys" if len(result.keys) > 1 else f"shape key {result.keys[0]}"
         within = f", within {result.error * 1000.0:.2f} mm" if result.error > 0.0 else ""

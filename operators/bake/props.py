@@ -1,10 +1,19 @@
 """When and under what name an expression is baked."""
 
+from typing import Any
+
 import bpy
 
 from ...mpeg4.timing import load_timings
 
 _TIMING = load_timings()["natural"]
+
+
+def _seconds(name: str, description: str, default: float) -> Any:
+    """A duration."""
+    return bpy.props.FloatProperty(
+        name=name, description=description, default=default, min=0.0, soft_max=10.0, step=5, precision=2
+    )
 
 
 class RISORIUS_PG_bake(bpy.types.PropertyGroup):
@@ -18,18 +27,9 @@ class RISORIUS_PG_bake(bpy.types.PropertyGroup):
     start: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Start Frame", description="Frame at which the expression begins to show", default=1
     )
-    onset: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Onset", description="Seconds until the expression is full", default=_TIMING.onset, min=0.0, soft_max=5.0,
-        step=5, subtype="TIME_ABSOLUTE", unit="TIME_ABSOLUTE",
-    )  # fmt: skip
-    apex: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Apex", description="Seconds that the expression is held", default=_TIMING.apex, min=0.0, soft_max=10.0,
-        step=5, subtype="TIME_ABSOLUTE", unit="TIME_ABSOLUTE",
-    )  # fmt: skip
-    offset: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Offset", description="Seconds until the face is at rest again", default=_TIMING.offset, min=0.0,
-        soft_max=5.0, step=5, subtype="TIME_ABSOLUTE", unit="TIME_ABSOLUTE",
-    )  # fmt: skip
+    onset: _seconds("Onset (s)", "Seconds until the expression is full", _TIMING.onset)  # type: ignore[valid-type]
+    apex: _seconds("Apex (s)", "Seconds that the expression is held", _TIMING.apex)  # type: ignore[valid-type]
+    offset: _seconds("Offset (s)", "Seconds until the face is at rest again", _TIMING.offset)  # type: ignore[valid-type]
 
 
 CLASSES = (RISORIUS_PG_bake,)

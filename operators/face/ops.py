@@ -24,9 +24,14 @@ class RISORIUS_OT_add_head(RisoriusOperator, bpy.types.Operator):
 
     def run(self, context: Any) -> str:
         """Add it."""
-        from ...scene.head import add_default_head
+        from ...scene.head import add_default_head, free_place
 
-        obj = add_default_head(context)
+        obj = add_default_head(context, location=free_place(context, context.scene.cursor.location))
+        if context.area is not None and context.area.type == "VIEW_3D":
+            region = next(region for region in context.area.regions if region.type == "WINDOW")
+            with context.temp_override(region=region):
+                bpy.ops.view3d.view_axis(type="FRONT")
+                bpy.ops.view3d.view_selected()
         return f"Added {obj.name}: choose an emotion and bake it"
 
 

@@ -272,3 +272,19 @@ def test_a_motion_baked_again_replaces_only_itself(head: Any) -> None:
     assert set(shape_keys.read_own(head.data).clips) == {"joy", "joy motion"}
     assert set(again) == {"Basis", "mine", *shape_keys.read_own(head.data).names}
     assert len(bpy.data.actions) == 2
+
+
+@pytest.mark.smoke
+def test_a_head_is_added_at_the_cursor_and_not_inside_the_cube() -> None:
+    from risorius.scene.head import ROOM
+
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.risorius.add_head()
+    first = bpy.context.object
+    assert tuple(first.location) == pytest.approx((1.0 + ROOM, 0.0, 0.0))
+    bpy.context.view_layer.update()
+    bpy.ops.risorius.add_head()
+    assert bpy.context.object.location.x > first.location.x + ROOM
+    bpy.context.scene.cursor.location = (5.0, 1.0, 2.0)
+    bpy.ops.risorius.add_head()
+    assert tuple(bpy.context.object.location) == pytest.approx((5.0, 1.0, 2.0))
