@@ -19,6 +19,7 @@ from . import action as actions
 from . import shape_keys
 from .compress import TOLERANCE, compress
 from .faces import FaceSource, face_of, read_face
+from .motion import Motion
 from .progress import Progress, Work
 from .refusals import own_mesh, refuse_unwritable, remarks
 
@@ -137,12 +138,11 @@ def bake_expression(
 
 def bake_motion(
     target: Target,
-    frames: Floats,
+    motion: Motion,
     *,
     clip: str,
     start: float = 1.0,
     fps: float | None = None,
-    emotions: Floats | None = None,
     drive: str = "natural",
     tolerance: float = TOLERANCE,
 ) -> Work[BakeResult]:
@@ -150,35 +150,34 @@ def bake_motion(
 
     Parameters
     ----------
-    frames : (T, 68) FAPs; NaN where the face is silent.
+    motion : expressions in time or a FAP stream (`motion.py`).
     clip : name of the clip, and of its shape keys with a number; a clip of this name is replaced.
     start : first frame in Blender's timeline.
-    fps : frames per second of `frames`; by default the scene's.
-    emotions, drive : as for `Face.simulate`.
+    fps : frames per second of the motion; by default the scene's.
+    drive : as for `Face.simulate`.
     tolerance : metres.
 
     Raises
     ------
     SceneError, ModelError, SolverError : nothing has been changed then.
     """
-    if len(frames) == 0:
-        raise ParameterError("frames", "must hold at least one frame", len(frames))
     rate = fps if fps is not None else scene_fps()
+    count = motion.frame_count(rate)
     yield Progress(0.0, "Reading the face")
     source = target.source()
     yield Progress(0.02, "Placing the muscles")
     face = face_of(source)
-    displacements = np.empty((len(frames), *source.vertices.shape))
-    for index, positions in enumerate(face.simulation(frames, rate, drive=drive, emotions=emotions)):
+    displacements = np.empty((count, *source.vertices.shape))
+    for index, positions in enumerate(motion.positions(face, rate, drive)):
         displacements[index] = positions - source.vertices
-        yield Progress(0.1 + 0.75 * (index + 1) / len(frames), f"Simulating frame {index + 1} of {len(frames)}")
+        yield Progress(0.1 + 0.75 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
     yield Progress(0.87, "Compressing the motion to shape keys")
     packed = compress(displacements, tolerance=tolerance)
     if len(packed.shapes) == 0:
         raise SceneError(source.head.name, "nothing moves in this motion: raise its activation or its duration")
     yield Progress(0.97, "Writing the shape keys")
     names = [f"{clip} {number + 1:02d}" for number in range(len(packed.shapes))]
-    times = start + np.arange(len(frames), dtype=np.float64)
+    times = start + np.arange(count, dtype=np.float64)
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
     action, keys, said = _write(target, source, clip, names, packed.shapes, curves, slider_min=-1.0)
     said = remarks(source.head) + said

@@ -23,6 +23,7 @@ from .contact_sheet import Exhibit, exhibit_values, write_sheet
 from .faces import face_of, read_face
 from .framing import framing_of
 from .mesh import key_vertices
+from .motion import CueMotion
 from .progress import Progress, Work, part_of, run
 from .studio import Engine, Look, furnish, render_frame, studio
 from .subjects import subject
@@ -175,17 +176,10 @@ def _move(obj: Any, words: Sequence[str], fps: float) -> Work[tuple[list[Cue], b
     from .. import api
 
     cues = cues_of(words)
-    frames = api.sequence(cues, fps=fps)
-    rest = np.repeat(frames[-1:], max(1, round(PAUSE * fps)), axis=0)
-    emotions = api.emotion_weights(cues, fps=fps)
-    result = yield from bake.bake_motion(
-        bake.Target(obj),
-        np.concatenate([frames, rest]),
-        clip="performance",
-        start=FIRST_FRAME,
-        fps=fps,
-        emotions=np.concatenate([emotions, np.zeros((len(rest), emotions.shape[1]))]),
-    )
+    end = max(cue.start + cue.duration for cue in cues)
+    rest = api.Cue(api.expression("neutral"), start=end, onset=0.0, apex=PAUSE, offset=0.0)
+    motion = CueMotion([*cues, rest])
+    result = yield from bake.bake_motion(bake.Target(obj), motion, clip="performance", start=FIRST_FRAME, fps=fps)
     bpy.context.scene.frame_start, bpy.context.scene.frame_end = (int(frame) for frame in result.frame_range)
     return cues, result
 

@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 
 from ...scene import bake, shape_keys
+from ...scene.motion import CueMotion
 from ...scene.progress import Work
 from ..active import face_reason, target_of
 from ..base import RisoriusOperator, WorkOperator
@@ -104,11 +105,10 @@ class RISORIUS_OT_bake_motion(BakeOperator, bpy.types.Operator):
         )
         return bake.bake_motion(
             target_of(obj),
-            api.sequence([cue], fps=timing.fps),
+            CueMotion([cue]),
             clip=clip_name(obj, motion=True),
             start=timing.start,
             fps=timing.fps,
-            emotions=api.emotion_weights([cue], fps=timing.fps),
             drive=obj.risorius.emotion.drive,
         )
 

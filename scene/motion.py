@@ -1,0 +1,61 @@
+"""What a motion bake simulates: expressions in time, or a stream of FAPs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from ..arrays import Floats
+from ..errors import ParameterError
+from ..mpeg4 import Cue, strengths
+
+if TYPE_CHECKING:
+    from ..face.face import Face
+
+
+class Motion(Protocol):
+    """Anything that moves a face."""
+
+    def frame_count(self, fps: float) -> int:
+        """Number of frames at a frame rate."""
+        ...
+
+    def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
+        """Positions (V, 3) frame by frame."""
+        ...
+
+
+@dataclass(frozen=True)
+class CueMotion:
+    """Expressions in time, each planned at its apex; see `Face.performance`."""
+
+    cues: Sequence[Cue]
+
+    def frame_count(self, fps: float) -> int:
+        """Frames to the end of the last cue."""
+        return len(strengths(self.cues, fps=fps))
+
+    def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
+        """The performance."""
+        return face.performance(self.cues, fps, drive=drive)
+
+
+@dataclass(frozen=True)
+class FapMotion:
+    """A stream of FAPs (T, 68), NaN where silent, and the emotions (T, 6) behind it where they are known."""
+
+    frames: Floats
+    emotions: Floats | None = None
+
+    def __post_init__(self) -> None:
+        if len(self.frames) == 0:
+            raise ParameterError("frames", "must hold at least one frame", len(self.frames))
+
+    def frame_count(self, fps: float) -> int:
+        """The stream's own frames."""
+        return len(self.frames)
+
+    def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
+        """The stream, each frame planned by itself; see `Face.simulation`."""
+        return face.simulation(self.frames, fps, drive=drive, emotions=self.emotions)
