@@ -20,7 +20,7 @@ build: ## the installable zips in dist/; ARGS="--platform linux-x64 --blender 5.
 	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/build.py $(ARGS)
 
 bench: ## speed and accuracy figures
-	@$(SETUP) dev && for script in tools/bench/*.py; do echo "== $$script"; .venv/bin/python "$$script" || exit 1; done
+	@$(SETUP) bpy-4.5 && for script in tools/bench/*.py; do echo "== $$script"; .venv-bpy-4.5/bin/python "$$script" || exit 1; done
 
 clean: ## remove what the commands above made, downloads included
 	rm -rf .venv .venv-bpy-* .cache .typecheck .mypy_cache .ruff_cache .pytest_cache build dist out *.egg-info
