@@ -8,11 +8,11 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..arrays import Floats, Ints
+from ..arrays import Floats
 from ..errors import FormatError, SceneError
 from ..face.parts import Part
 from . import mesh as meshes
-from .faces import face_of, has_points, read_face, store_points
+from .faces import FaceSource, face_of, has_points, read_face, store_points
 from .head import add_default_head, select_only
 from .points_file import read_points
 
@@ -24,6 +24,7 @@ PLAIN_COLOURS = {
     "Tongue": (0.45, 0.14, 0.13),
     "Other": (0.16, 0.1, 0.08),
     "Iris": (0.1, 0.2, 0.25),
+    "Pupil": (0.01, 0.01, 0.01),
 }
 _COLOUR_OF_PART = {
     Part.SKIN: 0,
@@ -34,8 +35,8 @@ _COLOUR_OF_PART = {
     Part.TONGUE: 3,
     Part.OTHER: 4,
 }
-_IRIS = 5
-IRIS_RADIUS = 0.09  # of the distance between the pupils: 5.7 mm on a face of 63 mm
+#: Colour -> radius as a share of the distance between the pupils: 5.7 and 2.2 mm on a face of 63 mm.
+_DISCS = {5: 0.09, 6: 0.035}
 
 
 def subject(mesh: str | Path | None = None, points: str | Path | None = None) -> Any:
@@ -137,7 +138,10 @@ def paint_parts(obj: Any) -> None:
         lookup[part] = index
     colours = lookup[parts[first]]
     centres = np.add.reduceat(source.vertices[corners], np.cumsum(sizes) - sizes) / sizes[:, None]
-    colours[_iris_faces(obj, source.vertices, centres, colours)] = _IRIS
+    distance = _pupil_distance(source, centres)
+    eyeball = colours == _COLOUR_OF_PART[Part.EYEBALL_L]
+    for index, radius in _DISCS.items():
+        colours[eyeball & (distance < radius)] = index
     for name, colour in PLAIN_COLOURS.items():
         material = bpy.data.materials.new(f"Risorius plain {name.lower()}")
         material.diffuse_color = (*colour, 1.0)
@@ -151,16 +155,12 @@ def paint_parts(obj: Any) -> None:
     obj.data.update()
 
 
-def _iris_faces(obj: Any, vertices: Floats, centres: Floats, colours: Ints) -> Ints:
-    """Faces of the eyeballs that lie round the pupils, where the face has both pupils' points."""
-    points = read_face(obj).points
-    if "3.5" not in points or "3.6" not in points:
-        return np.zeros(0, dtype=np.int64)
-    pupils = []
-    for name in ("3.5", "3.6"):
-        point = points[name]
-        pupils.append(vertices[point] if isinstance(point, int) else np.asarray(point))
-    reach = IRIS_RADIUS * float(np.linalg.norm(pupils[0] - pupils[1]))
+def _pupil_distance(source: FaceSource, centres: Floats) -> Floats:
+    """(F,) distance of polygon centres from the nearer pupil, as a share of the pupils' distance; inf without pupils."""
+    if "3.5" not in source.points or "3.6" not in source.points:
+        return np.full(len(centres), np.inf)
+    points = [source.points[name] for name in ("3.5", "3.6")]
+    pupils = [source.vertices[p] if isinstance(p, int) else np.asarray(p, dtype=np.float64) for p in points]
     nearest = np.minimum(*(np.linalg.norm(centres - pupil, axis=1) for pupil in pupils))
-    found: Ints = np.flatnonzero((nearest < reach) & (colours == _COLOUR_OF_PART[Part.EYEBALL_L]))
-    return found
+    distance: Floats = nearest / np.linalg.norm(pupils[0] - pupils[1])
+    return distance
