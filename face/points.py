@@ -77,8 +77,8 @@ class FeaturePoints(Mapping[str, BoundPoint]):
         return sparse.csr_array((values, (rows, columns)), shape=(len(names), self._vertex_count))
 
 
-def _closest_on_triangles(position: Floats, corners: Floats) -> tuple[Floats, Floats]:
-    """Barycentric weights (n, 3) and distances (n,) of the closest points of triangles (n, 3, 3)."""
+def closest_on_triangles(position: Floats, corners: Floats) -> tuple[Floats, Floats]:
+    """Barycentric weights (n, 3) and distances (n,) of the points of triangles (n, 3, 3) closest to a position (3,)."""
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     ab, ac, ap = b - a, c - a, position - a
     d00, d01, d11 = (ab * ab).sum(1), (ab * ac).sum(1), (ac * ac).sum(1)
@@ -117,7 +117,7 @@ class _Surface:
             return free
         _, nearest = self._near.query(position, k=min(NEAR_VERTICES, len(self._own)))
         corners = self._triangles[np.isin(self._triangles, self._own[nearest]).any(axis=1)]
-        weights, distance = _closest_on_triangles(position, self._vertices[corners])
+        weights, distance = closest_on_triangles(position, self._vertices[corners])
         best = int(np.argmin(distance))
         if distance[best] > self._reach:
             return free

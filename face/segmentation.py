@@ -17,9 +17,9 @@ from .template import MM
 #: An eyeball lies this near to the middle of the eye's corners and has a radius between these.
 EYE_REACH, EYE_RADII = 30 * MM, (6 * MM, 22 * MM)
 
-#: It is round to this share of its radius, at least this many radii thick, and its middle lies this near to its centre:
-#: half a ball is still an eyeball, a strip of lashes on it is none.
-ROUNDNESS, THICKNESS, CENTRED = 0.12, 0.9, 0.62
+#: It is round to this share of its radius, and its middle lies within this many radii of its centre: half a ball is
+#: still an eyeball, a strip of lashes on it is none.
+ROUNDNESS, CENTRED = 0.12, 0.62
 
 #: What lies wholly within this many radii of an eyeball (iris, cornea) belongs to it.
 WITHIN_BALL = 1.1
@@ -48,7 +48,6 @@ def _eye(piece: Floats, points: Mapping[str, Floats]) -> Part | None:
         if (
             EYE_RADII[0] < radius < EYE_RADII[1]
             and np.median(off) < ROUNDNESS * radius
-            and np.ptp(piece, axis=0).min() > THICKNESS * radius
             and np.linalg.norm(piece.mean(axis=0) - centre) < CENTRED * radius
         ):
             return part

@@ -131,10 +131,14 @@ def test_an_opening_jaw_opens_the_lips_and_a_smile_lifts_the_cheeks() -> None:
     assert abs(chin) < 1.0  # raised brows alone do not open the jaw (mm; nearly 10 where silence counts for nothing)
 
 
-def test_a_lowered_lip_alone_does_not_open_the_jaw(face: Face) -> None:
-    pose = face.pose(asked(F5=-150.0))
-    assert pose.achieved[5 - 1] < -80.0
-    assert pose.contractions["jaw_open"] < 0.1
+def test_a_lowered_lip_or_corner_alone_does_not_open_the_jaw(face: Face) -> None:
+    lip = face.pose(asked(F5=-150.0))
+    assert lip.achieved[5 - 1] < -80.0
+    assert lip.contractions["jaw_open"] < 0.1
+    corners = face.pose(asked(F59=-550.0, F60=-550.0))  # 11 mm, as far as an open jaw takes them
+    assert corners.achieved[59 - 1] < -300.0
+    assert corners.achieved[3 - 1] < 250.0
+    assert corners.contractions["jaw_open"] < 0.15
 
 
 def test_smiling_eyes_are_not_torn_open() -> None:

@@ -11,7 +11,7 @@ from risorius.api import Face, Part
 from risorius.errors import ModelError
 from risorius.face.default_head import HeadMesh
 from risorius.face.openings import edge_graph, find_opening, outer_faces
-from risorius.face.points import lies_on_skin
+from risorius.face.points import closest_on_triangles, lies_on_skin
 from risorius.physics import mesh
 
 
@@ -49,6 +49,27 @@ def test_points_given_as_positions_follow_the_surface_at_any_density(
     finer, coarser = fine.measure(vertices + smile), coarse.measure(head.vertices + smile[: len(head.vertices)])
     np.testing.assert_allclose(finer, coarser, atol=8.0)
     assert np.nanmax(coarser) > 300.0
+
+
+def test_the_closest_point_of_a_triangle_may_lie_inside_on_a_side_or_at_a_corner() -> None:
+    """Against a dense set of places in each triangle."""
+    rng = np.random.default_rng(2)
+    a, b = (grid.ravel() for grid in np.meshgrid(np.linspace(0, 1, 81), np.linspace(0, 1, 81)))
+    places = np.column_stack([1 - a - b, a, b])[a + b <= 1 + 1e-12]
+    corners = rng.normal(size=(40, 3, 3))
+    sampled = np.einsum("sk,nkd->nsd", places, corners)
+    kinds = set()
+    for position in 1.5 * rng.normal(size=(10, 3)):
+        weights, distance = closest_on_triangles(position, corners)
+        nearest = np.linalg.norm(sampled - position, axis=2).min(axis=1)
+        assert (distance <= nearest + 1e-12).all()
+        np.testing.assert_allclose(distance, nearest, atol=0.03)
+        np.testing.assert_allclose(weights.sum(axis=1), 1.0)
+        assert weights.min() >= 0.0
+        closest = np.einsum("nk,nkd->nd", weights, corners)
+        np.testing.assert_allclose(np.linalg.norm(closest - position, axis=1), distance, atol=1e-12)
+        kinds |= set((weights > 1e-12).sum(axis=1).tolist())
+    assert kinds == {1, 2, 3}
 
 
 def test_a_point_inside_a_polygon_moves_with_its_corners(head: HeadMesh) -> None:
