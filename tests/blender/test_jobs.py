@@ -23,7 +23,7 @@ from risorius.scene.subjects import subject
 
 REPLAY = """
     import sys
-    assert not [name for name in sys.modules if "risorius" in name]
+    assert not [name for name in sys.modules if name.split(".")[0] == "risorius"]
     import bpy, numpy as np
     bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
     obj = bpy.data.objects["Risorius Head"]
@@ -35,7 +35,7 @@ REPLAY = """
         mesh.vertices.foreach_get("co", flat)
         frames.append(flat)
     np.save(sys.argv[2], np.array(frames))
-    assert not [name for name in sys.modules if "risorius" in name]
+    assert not [name for name in sys.modules if name.split(".")[0] == "risorius"]
 """
 
 
