@@ -115,7 +115,6 @@ def write_keys(
     -------
     The new record of the mesh.
     """
-    pinned = obj.active_shape_key.name if obj.active_shape_key is not None else None
     own = _ensure_basis(obj)
     _remove_blocks(obj, [name for name in own.clips.get(clip, ()) if name not in shapes])
     blocks = obj.data.shape_keys.key_blocks
@@ -126,7 +125,6 @@ def write_keys(
         block.data.foreach_set("co", np.ascontiguousarray(positions, dtype=np.float32).ravel())
     own = replace(own, face=face or own.face, clips={**own.clips, clip: tuple(shapes)})
     _write_own(obj.data, own)
-    _restore_active(obj, pinned)
     obj.data.update_tag()
     return own
 
@@ -140,7 +138,6 @@ def remove_keys(obj: Any, clips: Iterable[str] | None = None) -> tuple[str, ...]
     """
     if obj.data.shape_keys is None:
         return ()
-    pinned = obj.active_shape_key.name if obj.active_shape_key is not None else None
     own = read_own(obj.data)
     going = set(own.clips) if clips is None else set(clips)
     removed = tuple(name for clip, names in own.clips.items() if clip in going for name in names)
@@ -153,7 +150,6 @@ def remove_keys(obj: Any, clips: Iterable[str] | None = None) -> tuple[str, ...]
         _write_own(obj.data, replace(own, clips=left))
     elif RECORD in obj.data.shape_keys:
         del obj.data.shape_keys[RECORD]
-    _restore_active(obj, pinned)
     obj.data.update_tag()
     return removed
 
@@ -164,14 +160,6 @@ def _remove_blocks(obj: Any, names: Iterable[str]) -> None:
         block = obj.data.shape_keys.key_blocks.get(name)
         if block is not None:
             obj.shape_key_remove(block)
-
-
-def _restore_active(obj: Any, name: str | None) -> None:
-    """Make the key active that the user had active."""
-    if obj.data.shape_keys is None or name is None:
-        return
-    index = obj.data.shape_keys.key_blocks.find(name)
-    obj.active_shape_key_index = max(index, 0)
 
 
 def own_face(mesh: Any) -> str:

@@ -156,7 +156,7 @@ def paint_parts(obj: Any) -> None:
 
 
 def _pupil_distance(source: FaceSource, centres: Floats) -> Floats:
-    """(F,) distance of polygon centres from the nearer pupil, as a share of the pupils' distance; inf without pupils."""
+    """(F,) distance of polygons from the nearer pupil, as a share of that between the pupils; inf without pupils."""
     if "3.5" not in source.points or "3.6" not in source.points:
         return np.full(len(centres), np.inf)
     points = [source.points[name] for name in ("3.5", "3.6")]

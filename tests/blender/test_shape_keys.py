@@ -74,6 +74,16 @@ def test_the_users_keys_values_drivers_and_groups_stay(cube: Any) -> None:
     assert cube.data.shape_keys.animation_data.drivers[0].driver.expression == "0.25"
 
 
+def test_the_active_key_stays_active(cube: Any) -> None:
+    write(cube, "joy", 0.5)
+    cube.shape_key_add(name="mine", from_mix=False)
+    cube.active_shape_key_index = 2
+    write(cube, "fear", 0.5)
+    assert cube.active_shape_key.name == "mine"
+    shape_keys.remove_keys(cube, ["joy"])
+    assert cube.active_shape_key.name == "mine"
+
+
 def test_a_clip_written_again_replaces_its_own_keys_only(cube: Any) -> None:
     write(cube, "joy", 0.1, 0.2, 0.3)
     write(cube, "fear", 0.4)
