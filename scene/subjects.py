@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Bools, Floats, Ints
 from ..errors import FormatError, SceneError
 from ..face.parts import Part
 from . import mesh as meshes
 from .faces import FaceSource, face_of, has_points, read_face, store_points
 from .head import add_default_head, select_only
 from .points_file import read_points
+
+if TYPE_CHECKING:
+    from ..face.face import Face
 
 #: Colours (linear RGB) of meshes that bring no materials, by part; the iris is cut out of the eyeballs.
 PLAIN_COLOURS = {
@@ -37,6 +40,9 @@ _COLOUR_OF_PART = {
 }
 #: Colour -> radius as a share of the distance between the pupils: 5.7 and 2.2 mm on a face of 63 mm.
 _DISCS = {5: 0.09, 6: 0.035}
+
+#: From this many pieces on, teeth are modelled one by one.
+MANY_TEETH = 8
 
 
 def subject(mesh: str | Path | None = None, points: str | Path | None = None) -> Any:
@@ -130,7 +136,8 @@ def _largest(objects: list[Any], path: Path) -> Any:
 def paint_parts(obj: Any) -> None:
     """Give a mesh without materials one per part of its face, so that eyes and teeth can be told from skin."""
     source = read_face(obj)
-    parts = np.asarray(face_of(source).parts)
+    face = face_of(source)
+    parts = np.asarray(face.parts)
     corners, sizes = meshes.polygon_arrays(obj.data)
     first = corners[np.cumsum(sizes) - sizes]
     lookup = np.zeros(max(_COLOUR_OF_PART) + 1, dtype=np.int64)
@@ -142,6 +149,7 @@ def paint_parts(obj: Any) -> None:
     eyeball = colours == _COLOUR_OF_PART[Part.EYEBALL_L]
     for index, radius in _DISCS.items():
         colours[eyeball & (distance < radius)] = index
+    colours[_gums(face, parts, first)] = _COLOUR_OF_PART[Part.TONGUE]
     for name, colour in PLAIN_COLOURS.items():
         material = bpy.data.materials.new(f"Risorius plain {name.lower()}")
         material.diffuse_color = (*colour, 1.0)
@@ -153,6 +161,19 @@ def paint_parts(obj: Any) -> None:
         obj.data.materials.append(material)
     obj.data.polygons.foreach_set("material_index", colours.astype(np.int32))
     obj.data.update()
+
+
+def _gums(face: Face, parts: Ints, first: Ints) -> Bools:
+    """(F,) polygons of gums, by their first corners (F,): where every tooth is a piece, the large pieces are gums."""
+    from ..face.segmentation import pieces
+
+    label = pieces(face.polygons, len(parts))
+    teeth = np.isin(parts, (Part.TEETH_UPPER, Part.TEETH_LOWER))
+    found, counts = np.unique(label[teeth], return_counts=True)
+    if len(found) < MANY_TEETH:
+        return np.zeros(len(first), dtype=bool)
+    large = found[counts > 4 * np.median(counts)]
+    return np.isin(label[first], large)
 
 
 def _pupil_distance(source: FaceSource, centres: Floats) -> Floats:
