@@ -8,17 +8,18 @@ from __future__ import annotations
 
 import csv
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import FormatError, ParameterError
 from ..mpeg4 import FAPS, Unit
-from .template import ANATOMY
+from .template import ANATOMY, MM
 
 #: Millimetres per FAP unit on the template face.
 TEMPLATE_UNITS: Mapping[Unit, float] = {
@@ -83,21 +84,102 @@ class Synergies:
         return np.array([template_millimetres(int(n)) for n in self.numbers])
 
 
+def _number(path: Path, key: str, value: object) -> float:
+    """A finite number of a table."""
+    try:
+        number = float(value) if isinstance(value, int | float | str) and not isinstance(value, bool) else np.nan
+    except ValueError:
+        number = np.nan
+    if not np.isfinite(number):
+        raise FormatError(path, f"must be a number, not {value!r}", key=key)
+    return number
+
+
 def _ranges(path: Path) -> tuple[Ints, Floats, Floats]:
     """Numbers, lows and highs of the range table."""
     with path.open(encoding="utf-8") as stream:
         rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    numbers = np.array([int(row["fap"]) for row in rows], dtype=np.int64)
-    low = np.array([float(row["low_mm"]) for row in rows])
-    high = np.array([float(row["high_mm"]) for row in rows])
-    if (low >= 0).any() or (high <= 0).any():
-        raise FormatError(path, "every range must reach below and above 0")
-    return numbers, low, high
+    for column in ("fap", "low_mm", "high_mm"):
+        if not rows or column not in rows[0]:
+            raise FormatError(path, "needs the columns fap, low_mm, high_mm and source", key=column)
+    faps, low, high = (
+        np.array([_number(path, f"FAP {row['fap']}, {column}", row[column]) for row in rows])
+        for column in ("fap", "low_mm", "high_mm")
+    )
+    for number, below, above in zip(faps, low, high, strict=True):
+        if number not in FAPS:
+            raise FormatError(path, "names a FAP that does not exist", key=f"FAP {number:g}")
+        if not below < 0.0 < above:
+            raise FormatError(path, "must reach below and above 0", key=f"FAP {number:g}")
+    return faps.astype(np.int64), low, high
+
+
+def _table(path: Path, raw: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    """A table under a dotted key."""
+    found: Any = raw
+    for part in key.split("."):
+        found = found.get(part) if isinstance(found, dict) else None
+    if not isinstance(found, dict):
+        raise FormatError(path, "must be a table", key=key)
+    return found
 
 
 def _halves(paired: bool) -> tuple[str, ...]:
     """Suffixes of a unit's halves."""
     return ("_l", "_r") if paired else ("",)
+
+
+def _units(path: Path, raw: Mapping[str, Any], row_of: Mapping[int, int]) -> dict[str, Floats]:
+    """Half unit -> (m,) mm per amount."""
+    columns: dict[str, Floats] = {}
+    for unit, entry in _table(path, raw, "units").items():
+        key = f"units.{unit}"
+        if not isinstance(entry, dict) or not isinstance(entry.get("paired"), bool):
+            raise FormatError(path, "needs paired = true or false", key=key)
+        for half in _halves(entry["paired"]):
+            column = np.zeros(len(row_of))
+            for name, value in _table(path, raw, f"{key}.faps").items():
+                fap = int(name) if name.isdigit() else 0
+                target = mirror_fap(fap) if half == "_r" and fap in FAPS else fap
+                if target not in row_of:
+                    raise FormatError(path, f"names FAP {name}, which has no range", key=key)
+                sign = -1.0 if half == "_r" and fap in SIDEWAYS else 1.0
+                column[row_of[target]] += (
+                    sign * _number(path, f"{key}.faps.{name}", value) * template_millimetres(target)
+                )
+            columns[unit + half] = column
+    return columns
+
+
+def _sums(path: Path, raw: Mapping[str, Any], units: Sequence[str]) -> dict[str, Floats]:
+    """Half sum -> (k,) amounts of half units; a unit in the middle gives half of itself to either half."""
+    at = {name: i for i, name in enumerate(units)}
+    columns: dict[str, Floats] = {}
+    for emotion in _table(path, raw, "sums"):
+        key = f"sums.{emotion}"
+        for half in ("_l", "_r"):
+            column = np.zeros(len(units))
+            for unit, value in _table(path, raw, key).items():
+                amount = _number(path, f"{key}.{unit}", value)
+                if unit + half in at:
+                    column[at[unit + half]] = amount
+                elif unit in at:
+                    column[at[unit]] = amount / 2.0
+                else:
+                    raise FormatError(path, f"names unit {unit}, which is not in units", key=key)
+            columns[emotion + half] = column
+    return columns
+
+
+def _hidden(path: Path, raw: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+    """Unit -> muscle -> metres per amount."""
+    return {
+        unit: {
+            muscle: MM * _number(path, f"hidden.{unit}.{muscle}", value)
+            for muscle, value in _table(path, raw, f"hidden.{unit}").items()
+        }
+        for unit in _table(path, raw, "hidden")
+    }
 
 
 @lru_cache(maxsize=1)
@@ -110,45 +192,20 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
     """
     numbers, low, high = _ranges(folder / "ranges.csv")
     path = folder / "synergies.toml"
-    raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    row_of = {int(n): i for i, n in enumerate(numbers)}
-    names, columns = [], []
-    for unit, entry in raw["units"].items():
-        for half in _halves(entry["paired"]):
-            column = np.zeros(len(numbers))
-            for key, value in entry["faps"].items():
-                fap = int(key)
-                target = mirror_fap(fap) if half == "_r" else fap
-                if target not in row_of:
-                    raise FormatError(path, f"names FAP {fap}, which has no range", key=f"units.{unit}")
-                sign = -1.0 if half == "_r" and fap in SIDEWAYS else 1.0
-                column[row_of[target]] += sign * float(value) * template_millimetres(target)
-            names.append(unit + half)
-            columns.append(column)
-    at = {name: i for i, name in enumerate(names)}
-    sum_names, sums = [], []
-    for emotion, parts in raw["sums"].items():
-        for half in ("_l", "_r"):
-            column = np.zeros(len(names))
-            for unit, amount in parts.items():
-                if unit not in raw["units"]:
-                    raise FormatError(path, f"names unit {unit}, which is not in units", key=f"sums.{emotion}")
-                if raw["units"][unit]["paired"]:
-                    column[at[unit + half]] = amount
-                else:
-                    column[at[unit]] = amount / 2.0
-            sum_names.append(emotion + half)
-            sums.append(column)
-    spread = np.array([UNIT_PRIORS.get(name.split("_")[0], UNIT_PRIOR) for name in names])
-    hidden = {unit: {m: float(v) * 1e-3 for m, v in entry.items()} for unit, entry in raw["hidden"].items()}
+    try:
+        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, tomllib.TOMLDecodeError) as error:
+        raise FormatError(path, f"is not a readable TOML table: {error}") from error
+    units = _units(path, raw, {int(n): i for i, n in enumerate(numbers)})
+    sums = _sums(path, raw, tuple(units))
     return Synergies(
         numbers=numbers,
         low=low,
         high=high,
-        units=np.column_stack(columns),
-        unit_names=tuple(names),
-        unit_spread=spread,
-        sums=np.column_stack(sums),
-        sum_names=tuple(sum_names),
-        hidden=hidden,
+        units=np.column_stack(list(units.values())),
+        unit_names=tuple(units),
+        unit_spread=np.array([UNIT_PRIORS.get(name.split("_")[0], UNIT_PRIOR) for name in units]),
+        sums=np.column_stack(list(sums.values())),
+        sum_names=tuple(sums),
+        hidden=_hidden(path, raw),
     )
