@@ -25,9 +25,6 @@ EmotionShares: TypeAlias = Mapping[Archetype, float] | Mapping[str, float]
 #: A difference of left and right below these is no wish: units, and share of the larger.
 SYMMETRY_UNITS, SYMMETRY_SHARE = 12.0, 0.12
 
-#: Requests pass unchanged up to this share of the range and then saturate.
-LINEAR_SHARE = 0.35
-
 LID_FAPS = (19, 20, 21, 22)
 BROW_CHEEK_FAPS = (*range(31, 43), 61, 62, 63, 64)
 PSI_MOUTH, PSI_BROW, PSI_LID = 1.0, 0.8, 0.4
@@ -124,11 +121,11 @@ def symmetric(frame: Floats) -> tuple[Floats, bool]:
     return result, asymmetric
 
 
-def saturate(value: Floats, low: Floats, high: Floats) -> Floats:
-    """Values softly held within ranges: unchanged up to 35 % of the range, then approaching it exponentially."""
+def saturate(value: Floats, low: Floats, high: Floats, low_linear: Floats, high_linear: Floats) -> Floats:
+    """Values softly held within ranges: unchanged up to a share of the range, then approaching it exponentially."""
     limit = np.where(value < 0, -low, high)
     size = np.abs(value)
-    knee = LINEAR_SHARE * limit
+    knee = np.where(value < 0, low_linear, high_linear) * limit
     rest = limit - knee
     beyond = knee + rest * (1.0 - np.exp(-np.maximum(size - knee, 0.0) / rest))
     held: Floats = np.sign(value) * np.where(size <= knee, size, beyond)
@@ -158,7 +155,8 @@ class Natural:
         request, asymmetric = symmetric(frame)
         y = request[data.numbers - 1] * data.per_fap
         asked = ~np.isnan(y)
-        limited = np.where(asked, saturate(np.nan_to_num(y), data.low, data.high), np.nan)
+        held = saturate(np.nan_to_num(y), data.low, data.high, data.low_linear, data.high_linear)
+        limited = np.where(asked, held, np.nan)
         noise = self._conflicts(np.nan_to_num(y), limited, asked)
         self._spare_smiling_eyes(limited, asked)
         known = {str(name): share for name, share in (emotion or {}).items() if share > 0.0}

@@ -30,6 +30,8 @@ TEMPLATE_UNITS: Mapping[Unit, float] = {
     Unit.MW: 50.698 / 1024,
 }
 
+RANGE_COLUMNS = ("fap", "low_mm", "high_mm", "low_linear", "high_linear")
+
 #: FAPs that point to one side and so change sign in the mirror.
 SIDEWAYS = (15, 64)
 
@@ -58,6 +60,7 @@ class Synergies:
     Attributes
     ----------
     numbers : (m,) FAP numbers. low, high : (m,) anatomical range, mm on the template.
+    low_linear, high_linear : (m,) share of the range up to which a request passes unchanged.
     units : (m, k) mm per amount of each half unit; `unit_names` (k,) as "AU12_l", "AU27".
     sums : (k, s) amounts of half units per strength of each half sum; `sum_names` (s,) as "joy_l".
     hidden : unit -> muscle -> metres of muscle amount per amount of the unit.
@@ -66,6 +69,8 @@ class Synergies:
     numbers: Ints
     low: Floats
     high: Floats
+    low_linear: Floats
+    high_linear: Floats
     units: Floats
     unit_names: tuple[str, ...]
     unit_spread: Floats
@@ -95,23 +100,25 @@ def _number(path: Path, key: str, value: object) -> float:
     return number
 
 
-def _ranges(path: Path) -> tuple[Ints, Floats, Floats]:
-    """Numbers, lows and highs of the range table."""
+def _ranges(path: Path) -> dict[str, Floats]:
+    """Columns of the range table by name."""
     with path.open(encoding="utf-8") as stream:
         rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    for column in ("fap", "low_mm", "high_mm"):
+    for column in RANGE_COLUMNS:
         if not rows or column not in rows[0]:
-            raise FormatError(path, "needs the columns fap, low_mm, high_mm and source", key=column)
-    faps, low, high = (
-        np.array([_number(path, f"FAP {row['fap']}, {column}", row[column]) for row in rows])
-        for column in ("fap", "low_mm", "high_mm")
-    )
-    for number, below, above in zip(faps, low, high, strict=True):
+            raise FormatError(path, f"needs the columns {', '.join(RANGE_COLUMNS)} and source", key=column)
+    columns = {
+        column: np.array([_number(path, f"FAP {row['fap']}, {column}", row[column]) for row in rows])
+        for column in RANGE_COLUMNS
+    }
+    for number, below, above, low, high in zip(*columns.values(), strict=True):
         if number not in FAPS:
             raise FormatError(path, "names a FAP that does not exist", key=f"FAP {number:g}")
         if not below < 0.0 < above:
             raise FormatError(path, "must reach below and above 0", key=f"FAP {number:g}")
-    return faps.astype(np.int64), low, high
+        if not (0.0 < low < 1.0 and 0.0 < high < 1.0):
+            raise FormatError(path, "low_linear and high_linear must lie between 0 and 1", key=f"FAP {number:g}")
+    return columns
 
 
 def _table(path: Path, raw: Mapping[str, Any], key: str) -> Mapping[str, Any]:
@@ -190,7 +197,8 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
     ------
     FormatError : names the file, key and rule.
     """
-    numbers, low, high = _ranges(folder / "ranges.csv")
+    ranges = _ranges(folder / "ranges.csv")
+    numbers = ranges["fap"].astype(np.int64)
     path = folder / "synergies.toml"
     try:
         raw = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -200,8 +208,10 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
     sums = _sums(path, raw, tuple(units))
     return Synergies(
         numbers=numbers,
-        low=low,
-        high=high,
+        low=ranges["low_mm"],
+        high=ranges["high_mm"],
+        low_linear=ranges["low_linear"],
+        high_linear=ranges["high_linear"],
         units=np.column_stack(list(units.values())),
         unit_names=tuple(units),
         unit_spread=np.array([UNIT_PRIORS.get(name.split("_")[0], UNIT_PRIOR) for name in units]),
