@@ -28,6 +28,7 @@ from .fap_stream import FapStream
 from .features import FEATURES, Feature, faps_from_features
 from .high_level import (
     EXPRESSIONS,
+    VISEME_SHAPES,
     VISEMES,
     Expression,
     ExpressionField,
@@ -81,6 +82,7 @@ __all__ = [
     "TABLE_WORDS",
     "VARIANTS",
     "VISEMES",
+    "VISEME_SHAPES",
     "VOCABULARIES",
     "VOCABULARY_EXCEPTIONS",
     "WORDS",

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import Bools, Floats
 from ..errors import ParameterError
-from .high_level import ExpressionField, VisemeField, expand, expression_frame, viseme_frame
+from .high_level import VISEME_SHAPES, ExpressionField, VisemeField, expand, expression_frame, viseme_frame
 from .standard import FAP_COUNT
 
 
@@ -74,12 +74,12 @@ class FapStream:
         object.__setattr__(self, "frames", frames)
         object.__setattr__(self, "mask", stated)
 
-    def expanded(self, viseme_shapes: Mapping[int, Floats] | None = None) -> Floats:
+    def expanded(self, viseme_shapes: Mapping[int, Floats] = VISEME_SHAPES) -> Floats:
         """Frames with FAP 1 and 2 turned into low-level FAPs; explicit low-level values override.
 
         Parameters
         ----------
-        viseme_shapes : viseme number -> (68,) FAPs. None leaves visemes out.
+        viseme_shapes : viseme number -> (68,) FAPs, NaN where silent; by default those of the table.
 
         Returns
         -------
@@ -95,7 +95,7 @@ class FapStream:
             parts = []
             if index in self.expressions:
                 parts.append(expression_frame(self.expressions[index]))
-            if index in self.visemes and viseme_shapes is not None:
+            if index in self.visemes:
                 parts.append(viseme_frame(self.visemes[index], viseme_shapes))
             frames[index] = expand(frames[index], *parts)
         return frames

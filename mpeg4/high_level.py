@@ -1,5 +1,8 @@
 """The high-level FAPs: 1 (viseme) and 2 (expression), their sub-fields, and what they expand to.
 
+The standard leaves both to the decoder. An expression is the default variant of its archetype; a viseme's shape is a
+row of ``data/viseme_shapes.csv``.
+
 Source: ISO/IEC 14496-2 by way of public readers (Xface, Visage): a viseme cross-fades to a second one, an expression
 adds a second one, and an explicit low-level FAP overrides both.
 """
@@ -59,6 +62,23 @@ EXPRESSIONS: Mapping[int, Expression] = MappingProxyType(
     }
 )
 """Expressions by code: 0 for none and the standard's 6."""
+
+
+def _viseme_shapes() -> Mapping[int, Floats]:
+    """The rows of viseme_shapes.csv as frames; a heading of two numbers gives both FAPs the same value."""
+    shapes = {}
+    for row in read_table("viseme_shapes"):
+        frame = np.full(FAP_COUNT, np.nan)
+        for heading, value in row.items():
+            if heading not in ("viseme", "reason") and value:
+                frame[[int(number) - 1 for number in heading.split()]] = float(value)
+        frame.flags.writeable = False
+        shapes[int(row["viseme"])] = frame
+    return MappingProxyType(shapes)
+
+
+VISEME_SHAPES: Mapping[int, Floats] = _viseme_shapes()
+"""Viseme number 1..14 -> (68,) FAPs of its mouth, NaN where silent; read-only."""
 
 
 def _check(name: str, value: int, top: int) -> None:
@@ -153,15 +173,14 @@ def expression_frame(field: ExpressionField) -> Floats:
     return _sum(frames)
 
 
-def viseme_frame(field: VisemeField, shapes: Mapping[int, Floats]) -> Floats:
+def viseme_frame(field: VisemeField, shapes: Mapping[int, Floats] = VISEME_SHAPES) -> Floats:
     """The FAPs a viseme value stands for: v1 * blend/63 + v2 * (1 - blend/63).
-
-    The standard leaves the visemes' shapes to the decoder, so they are given.
 
     Parameters
     ----------
     field : the value of FAP 1.
-    shapes : viseme number -> (68,) FAPs, NaN where silent; viseme 0 is the neutral mouth and needs none.
+    shapes : viseme number -> (68,) FAPs, NaN where silent; viseme 0 is the neutral mouth and needs none. Give your own
+        to replace those of the table.
 
     Returns
     -------
