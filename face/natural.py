@@ -15,7 +15,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ..arrays import Bools, Floats
-from ..mpeg4 import FAP_COUNT, Archetype
+from ..mpeg4 import FAP_COUNT, Archetype, recognise
 from .nonnegative import bounded_least_squares
 from .synergies import Synergies, load_synergies, mirror_fap
 
@@ -35,6 +35,9 @@ OWN_SPREAD = 0.17
 OWN_GAIN = 1.15
 OWN_LIMIT = 1.3
 SILENCE_MM = 3.0
+
+#: A belief of the recogniser that counts as half a certainty that the face shows that emotion.
+SIGHT_DOUBT = 0.05
 L1_UNIT, L1_UNIT_MIDLINE, L1_SUM, L1_OTHER_SUM = 1.0, 2.0, 2.0, 6.0
 
 #: The sums that are emotions; the others are habits of any face.
@@ -132,6 +135,35 @@ def saturate(value: Floats, low: Floats, high: Floats, low_linear: Floats, high_
     return held
 
 
+@dataclass(frozen=True)
+class Known:
+    """Which emotions a request shows, and how certain that is.
+
+    Attributes
+    ----------
+    shares : archetype -> share, summing to 1 (or empty). certainty : 0..1; 1 where the word was given.
+    """
+
+    shares: Mapping[str, float]
+    certainty: float
+
+    @classmethod
+    def of_word(cls, emotion: EmotionShares) -> Known:
+        """A given word's shares."""
+        shares = {str(name): float(share) for name, share in emotion.items() if share > 0.0}
+        return cls(shares, 1.0 if shares else 0.0)
+
+    @classmethod
+    def by_sight(cls, request: Floats) -> Known:
+        """What the paper's recogniser (section 5) makes of a request (68,) whose word is not known."""
+        evidence = {str(name): float(belief) ** 2 for name, belief in recognise(request).items()}
+        total = sum(evidence.values())
+        if total <= 0.0:
+            return cls({}, 0.0)
+        shares = {name: value / total for name, value in evidence.items() if value > 0.01 * total}
+        return cls(shares, total / (total + SIGHT_DOUBT**2))
+
+
 class Natural:
     """Plans for frames of FAPs; the same for every face."""
 
@@ -149,7 +181,7 @@ class Natural:
         Parameters
         ----------
         frame : (68,) FAP units, NaN where silent.
-        emotion : archetype -> share of the expression, where its word is known.
+        emotion : archetype -> share of the expression, where its word is known; else the request is recognised.
         """
         data = self.data
         request, asymmetric = symmetric(frame)
@@ -159,7 +191,7 @@ class Natural:
         limited = np.where(asked, held, np.nan)
         noise = self._conflicts(np.nan_to_num(y), limited, asked)
         self._spare_smiling_eyes(limited, asked)
-        known = {str(name): share for name, share in (emotion or {}).items() if share > 0.0}
+        known = Known.of_word(emotion) if emotion else Known.by_sight(request)
         amounts = self._mixture(limited, asked, noise, known, asymmetric)
         explained = data.units @ amounts
         trust = self._psi**2 / (self._psi**2 + noise**2)
@@ -200,11 +232,11 @@ class Natural:
             if asked[row[number]] and limited[row[number]] < 0:
                 limited[row[number]] *= 1.0 - 0.9 * smile
 
-    def _own_strengths(self, y: Floats, asked: Bools, weight: Floats, known: Mapping[str, float]) -> dict[str, float]:
+    def _own_strengths(self, y: Floats, asked: Bools, weight: Floats, known: Known) -> dict[str, float]:
         """Emotion -> strength at which its sum explains the request best."""
         data = self.data
         strengths = {}
-        for emotion, share in known.items():
+        for emotion, share in known.shares.items():
             both = [data.sum_names.index(emotion + half) for half in ("_l", "_r")]
             prediction = data.units @ data.sums[:, both].sum(axis=1)
             p, t = prediction[asked] * weight[asked], np.nan_to_num(y)[asked] * weight[asked]
@@ -212,7 +244,7 @@ class Natural:
             strengths[emotion] = share * float(np.clip(fit, 0.0, OWN_LIMIT))
         return strengths
 
-    def _mixture(self, y: Floats, asked: Bools, noise: Floats, known: Mapping[str, float], asymmetric: bool) -> Floats:
+    def _mixture(self, y: Floats, asked: Bools, noise: Floats, known: Known, asymmetric: bool) -> Floats:
         """Amounts (k,) of the half units that explain the request."""
         data = self.data
         unit_count, sum_count = data.units.shape[1], data.sums.shape[1]
@@ -221,16 +253,15 @@ class Natural:
         through = np.column_stack([data.units, data.units @ data.sums])
         rows = [through[asked] * weight[asked, None]]
         right = [np.nan_to_num(y)[asked] * weight[asked]]
-        spread, mean, l1 = self._priors(own, bool(known))
+        spread, mean, l1 = self._priors(own, known.certainty)
         self._limit_jaw(spread, asked)
         whiten = self._prior_factor(spread, asymmetric)
         rows.append(whiten)
         right.append(whiten @ mean)
         for column, name in enumerate(data.sum_names):
-            if name[:-2] in own:
-                continue
+            doubt = 1.0 - known.certainty if name[:-2] in own else 1.0
             silent = np.zeros((int((~asked).sum()), unit_count + sum_count))
-            silent[:, unit_count + column] = through[~asked, unit_count + column] / SILENCE_MM
+            silent[:, unit_count + column] = doubt * through[~asked, unit_count + column] / SILENCE_MM
             rows.append(silent)
             right.append(np.zeros(len(silent)))
         matrix, target = np.concatenate(rows), np.concatenate(right)
@@ -241,17 +272,19 @@ class Natural:
         solution = bounded_least_squares(factor, shifted, zero, zero + 10.0)
         return np.asarray(solution[:unit_count] + data.sums @ solution[unit_count:])
 
-    def _priors(self, own: Mapping[str, float], word_known: bool) -> tuple[Floats, Floats, Floats]:
+    def _priors(self, own: Mapping[str, float], certainty: float) -> tuple[Floats, Floats, Floats]:
         """Spread, mean and L1 weight of every unit and sum."""
         data = self.data
         spread = np.concatenate([data.unit_spread, np.full(len(data.sum_names), SUM_SPREAD)])
         mean = np.zeros(len(spread))
         paired = np.array([name.endswith(("_l", "_r")) for name in data.unit_names])
-        other = [L1_OTHER_SUM if word_known and name[:-2] in EMOTIONS else L1_SUM for name in data.sum_names]
+        rival = L1_SUM + certainty * (L1_OTHER_SUM - L1_SUM)
+        other = [rival if name[:-2] in EMOTIONS else L1_SUM for name in data.sum_names]
         l1 = np.concatenate([np.where(paired, L1_UNIT, L1_UNIT_MIDLINE), other])
         for column, name in enumerate(data.sum_names, start=len(data.unit_names)):
             if name[:-2] in own:
-                spread[column], mean[column], l1[column] = OWN_SPREAD, own[name[:-2]], 0.0
+                spread[column] = SUM_SPREAD * (OWN_SPREAD / SUM_SPREAD) ** certainty
+                mean[column], l1[column] = certainty * own[name[:-2]], (1.0 - certainty) * L1_SUM
         return spread, mean, l1
 
     def _limit_jaw(self, spread: Floats, asked: Bools) -> None:
