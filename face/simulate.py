@@ -18,9 +18,8 @@ from ..errors import ParameterError, SolverError
 from ..mpeg4 import ARCHETYPES, Cue, sequence, strengths
 from ..physics.implicit import ImplicitSolver
 from ..physics.rk2 import Rk2Solver
-from ..physics.skin import Skin, State
-from ..physics.tissue import tissue as tissue_of
-from . import regions
+from ..physics.skin import State
+from .living_skin import living_skin
 from .natural import Plan, blend
 from .pose import Poser, SkinState
 from .wishes import Drive
@@ -66,14 +65,7 @@ class Simulation:
         if integrator not in list(Integrator):
             raise ParameterError("integrator", f"must be one of {', '.join(Integrator)}", integrator)
         self.poser = poser
-        sheet = poser.anatomy.skin
-        self.skin = Skin.from_mesh(
-            sheet.positions,
-            sheet.polygons,
-            tissue_of(tissue),
-            anchor=regions.anchor(sheet),
-            bending=regions.bending(sheet),
-        )
+        self.skin = living_skin(poser.anatomy.skin, tissue)
         self.substeps = substeps if integrator == Integrator.IMPLICIT else 1
         step = 1.0 / fps / self.substeps
         solver = ImplicitSolver if integrator == Integrator.IMPLICIT else Rk2Solver
