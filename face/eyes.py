@@ -22,8 +22,17 @@ CENTRE_FROM_CORNERS = np.array([0.9, 1.5, -9.5]) * MM
 #: Distance of lid skin over the eyeball that a closing lid keeps at least.
 LID_CLEARANCE = 0.1 * MM
 
-NASAL_SLIDE_LOWER = 0.42
+#: Metres towards the nose per metre of closing: orbicularis fibres spring from the inner corner, so that closing the
+#: upper lid draws the lower one along, which hardly rises (scanned blink: 2 to 3 mm); and the lower lid as it rises.
+NASAL_SLIDE_LOWER = 0.5
+NASAL_SLIDE_RISING = 0.42
 NASAL_SLIDE_UPPER = 0.12
+
+#: Where the motion of the upper lid ends, along the eye from the inner corner (0) to the outer one (1), and over which
+#: length it fades: the outer corner's hood goes along, further when the lid opens.
+CLOSING_END = (1.15, 0.14)
+OPENING_END = (1.3, 0.3)
+LOWER_END = (1.03, 0.14)
 
 
 class LidMove(StrEnum):
@@ -105,9 +114,9 @@ def _fissure_position(skin: OuterSkin, side: str) -> Floats:
     return along
 
 
-def _taper(along: Floats) -> Floats:
-    """(n,) full in the middle of the lid, 0 at its corners."""
-    return smoothstep((along + 0.04) / 0.26) * smoothstep((1.03 - along) / 0.14)
+def _taper(along: Floats, end: tuple[float, float]) -> Floats:
+    """(n,) full in the middle of the lid, 0 at its inner corner and at its `end` (place, length of fading)."""
+    return smoothstep((along + 0.04) / 0.26) * smoothstep((end[0] - along) / end[1])
 
 
 def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
@@ -122,19 +131,22 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
         radius = float(min(np.linalg.norm(top - centre), np.linalg.norm(bottom - centre))) - 0.3 * MM
     upper, lower = skin.lid_distances(side)
     along = _fissure_position(skin, side)
-    taper = _taper(along)
+    lower_taper = _taper(along, LOWER_END)
     on_upper = smoothstep(((lower - upper) / (2 * MM) + 1.0) / 2.0)
     on_lower = 1.0 - on_upper
     weights = {
-        LidMove.UPPER_CLOSE: taper * on_upper * (1.0 - smoothstep(upper / (8.0 * MM))),
-        LidMove.UPPER_OPEN: taper * on_upper * (1.0 - smoothstep((upper - 3 * MM) / (9 * MM))),
-        LidMove.LOWER_UP: taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
-        LidMove.LOWER_DOWN: taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
+        LidMove.UPPER_CLOSE: _taper(along, CLOSING_END) * on_upper * (1.0 - smoothstep(upper / (8.0 * MM))),
+        LidMove.UPPER_OPEN: _taper(along, OPENING_END) * on_upper * (1.0 - smoothstep((upper - 3 * MM) / (9 * MM))),
+        LidMove.LOWER_UP: lower_taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
+        LidMove.LOWER_DOWN: lower_taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
     }
-    middle = np.exp(-(((along - 0.5) / 0.35) ** 2))
+    middle = np.exp(-(((along - 0.5) / 0.5) ** 2))
+    drawn = on_lower * (1.0 - smoothstep(lower / (14 * MM))) * _taper(along - 0.1, (1.03, 0.2))
     slides: dict[LidMove, Floats] = {move: np.zeros(skin.vertex_count) for move in LidMove}
-    slides[LidMove.UPPER_CLOSE] = NASAL_SLIDE_UPPER * radius * weights[LidMove.UPPER_CLOSE] * middle
-    slides[LidMove.LOWER_UP] = NASAL_SLIDE_LOWER * radius * weights[LidMove.LOWER_UP] * middle
+    slides[LidMove.UPPER_CLOSE] = (
+        radius * middle * (NASAL_SLIDE_UPPER * weights[LidMove.UPPER_CLOSE] + NASAL_SLIDE_LOWER * drawn)
+    )
+    slides[LidMove.LOWER_UP] = NASAL_SLIDE_RISING * radius * weights[LidMove.LOWER_UP] * middle
     per_metre = {}
     for move in LidMove:
         point = top if _MOVES[move][0] == "upper" else bottom
