@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ..arrays import Floats
 from ..errors import ParameterError
 from .actuators import LID_AMPLITUDES, LID_NAMES, Amounts
 from .anatomy import Anatomy
+from .contact import Contact, lip_share
 from .eyes import LidMove
 from .inverse import EXACT_NOISE
 from .jaw import JawMotion
@@ -58,6 +60,11 @@ class Poser:
     def __init__(self, anatomy: Anatomy) -> None:
         self.anatomy = anatomy
         self.natural = Natural()
+
+    @cached_property
+    def contact(self) -> Contact:
+        """Lips and lids of the face where they meet."""
+        return Contact(self.anatomy.skin, self.anatomy.eyes)
 
     def pose(
         self, frame: Floats, drive: Drive, emotion: EmotionShares | None, contractions: Mapping[str, float] | None
@@ -110,25 +117,28 @@ class Poser:
         return Amounts(muscles, lids, jaw)
 
     def skin_state(self, frame: Floats, drive: Drive, plan: Plan | None, amounts: Amounts) -> SkinState:
-        """The outer skin under given amounts, corrected as the drive asks."""
+        """The outer skin under given amounts, corrected as the drive asks.
+
+        In the natural mode contact has the last word; where FAPs are met exactly, their correction has.
+        """
         anatomy = self.anatomy
         actuators, inverse = anatomy.actuators, anatomy.inverse
         kinematic = actuators.kinematic(amounts)
         elastic = actuators.muscular(amounts)
         if drive is Drive.MUSCLES:
-            return SkinState(self._contact(kinematic + elastic), elastic, amounts.jaw)
+            return SkinState(self.contact.settle(kinematic + elastic), elastic, amounts.jaw)
         target, doubts = self._targets(frame, plan)
-        shown = kinematic + elastic
-        for _ in range(CORRECTION_ROUNDS):
-            shown = self._contact(kinematic + elastic)
-            residual = target - np.asarray(inverse.matrix @ shown.ravel())
-            change = inverse.correction(residual, doubts)
+        share = lip_share(frame if plan is None else plan.asked)
+        shown = self.contact.settle(kinematic + elastic, share)
+        for number in range(1, CORRECTION_ROUNDS + 1):
+            change = inverse.correction(target - np.asarray(inverse.matrix @ shown.ravel()), doubts)
             elastic = elastic + change
+            shown = shown + change
             if plan is not None:
-                break
-        return SkinState(
-            kinematic + elastic if plan is None else self._contact(kinematic + elastic), elastic, amounts.jaw
-        )
+                return SkinState(self.contact.settle(shown, share), elastic, amounts.jaw)
+            if number < CORRECTION_ROUNDS:
+                shown = self.contact.clear_eyes(shown)
+        return SkinState(shown, elastic, amounts.jaw)
 
     def _targets(self, frame: Floats, plan: Plan | None) -> tuple[Floats, Floats]:
         """Row targets and doubts (m,) of the elastic correction."""
@@ -140,15 +150,6 @@ class Poser:
         doubts = np.where(asked, ASKED_DOUBT, SILENT_DOUBT)
         doubts = np.where(np.isin(rows.numbers, LIP_FAPS), LIP_DOUBT, doubts)
         return wish.targets, np.where(wish.doubts == EXACT_NOISE, 0.0, doubts)
-
-    def _contact(self, displacement: Floats) -> Floats:
-        """Lids kept off the eyeballs."""
-        skin = self.anatomy.skin
-        positions = skin.positions + displacement
-        for side, eye in self.anatomy.eyes.items():
-            near = 1.0 - np.clip((np.min(skin.lid_distances(side), axis=0) - 4e-3) / 4e-3, 0.0, 1.0)
-            positions = eye.clear(positions, skin.positions, near)
-        return positions - skin.positions
 
     def assemble(self, state: SkinState, frame: Floats) -> Floats:
         """(V, 3) positions in the face's coordinates from the outer skin's displacement and the direct FAPs."""
