@@ -11,6 +11,7 @@ from ..errors import ModelError
 from ..physics.muscles import LinearMuscle, Muscle, SheetMuscle, SphincterMuscle
 from .muscle_table import Kind, MuscleRow, Region, Sides
 from .outer_skin import OuterSkin, smoothstep
+from .regions import sliding
 from .template import MM, TemplateWarp
 
 #: No muscle of expression inserts in skin behind the ears: depth from which it may, metres of head space.
@@ -208,9 +209,14 @@ def _band(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
 
 
 def _pressure(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
-    """Air pressure in the cheek pouch along the skin's normal: outwards for bulge 1, inwards for bulge -1."""
+    """Air pressure in the cheek pouch along the skin's normal: outwards for bulge 1, inwards for bulge -1.
+
+    No bone lies under the pouch, so the pressure makes up for what the skull takes from motion along the normal
+    elsewhere; without that the mouth's corner, where nothing is taken, would swell more than the cheek.
+    """
     radius, depth = _elliptic_radius(skin, muscle)
-    return np.asarray(muscle.row.bulge * np.exp(-(radius**2) - depth**4)[:, None] * skin.normals)
+    strength = muscle.row.bulge * np.exp(-(radius**2) - depth**4) / (1.0 - sliding(skin))
+    return np.asarray(strength[:, None] * skin.normals)
 
 
 _FIELDS = {
