@@ -8,6 +8,7 @@ from ..arrays import Floats
 from ..errors import ModelError, ParameterError
 from ..mpeg4 import FAP_COUNT, FEATURES
 from .anatomy import Anatomy
+from .organs import ANGLE_UNIT
 from .rows import unit_length
 
 
@@ -38,10 +39,25 @@ def measure(anatomy: Anatomy, positions: Floats) -> Floats:
     reader = anatomy.mesh.points.matrix(rows.names)
     shift = np.asarray(reader @ (head - rest))
     frame[rows.numbers - 1] = (shift * rows.directions).sum(axis=1) / rows.units
+    roll = _tongue_roll(anatomy, head, rest)
+    if roll is not None:
+        frame[47 - 1] = roll
     for ball in anatomy.eyeballs:
         for number, value in ball.measure(head[ball.index]).items():
             frame[number - 1] = value
     return frame
+
+
+def _tongue_roll(anatomy: Anatomy, head: Floats, rest: Floats) -> float | None:
+    """FAP 47 of vertices (V, 3) in head space: how far both borders 6.3 and 6.4 turned up about the middle 6.2."""
+    points, names = anatomy.mesh.points, ("6.2", "6.3", "6.4")
+    if anatomy.tongue is None or any(name not in points or not points[name].is_bound for name in names):
+        return None
+    reader = points.matrix(names)
+    before, after = np.asarray(reader @ rest), np.asarray(reader @ head)
+    rise = (after - before)[1:, 1] - (after - before)[0, 1]
+    aside = np.abs(after[1:, 0] - after[0, 0])
+    return float(np.arctan2(rise, aside).mean()) / ANGLE_UNIT
 
 
 def features(anatomy: Anatomy, positions: Floats) -> Floats:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
@@ -25,6 +25,10 @@ ARCH_MIDDLE, ARCH_DEPTH = 0.15, (0.25, 0.7)
 
 #: Gum within this distance of a tooth belongs to its jaw.
 GUM_REACH = 2 * MM
+
+#: A tongue's tip lies within this of the point 6.1; the tongue reaches this far above its body's point 6.2, is as wide
+#: as its borders 6.3 and 6.4 lie apart times this, and as long behind its body's point as before it.
+TIP_REACH, TONGUE_ABOVE, TONGUE_BESIDE = 4 * MM, 4 * MM, 1.05
 
 
 def mouth_part(piece: Floats, lips: Floats) -> Part | None:
@@ -56,8 +60,7 @@ def _is_arch(piece: Floats) -> bool:
 def split_gums(parts: Ints, gums: Bools, positions: Floats, polygons: Sequence[Ints]) -> None:
     """Give each vertex of `gums` (V,) to the jaw whose teeth are nearer along the surface, in place.
 
-    A tongue that is one surface with the gums is not told apart: it goes with the mandible. Without teeth of both jaws
-    nothing is known and `parts` stays as it is.
+    Without teeth of both jaws nothing is known and `parts` stays as it is.
 
     Parameters
     ----------
@@ -76,3 +79,46 @@ def split_gums(parts: Ints, gums: Bools, positions: Floats, polygons: Sequence[I
     graph = edge_graph(mesh.unique_edges(own), positions)
     far = [dijkstra(graph, directed=False, indices=seed, min_only=True)[index] for seed in seeds]
     parts[index] = np.where(far[0] <= far[1], int(Part.TEETH_UPPER), int(Part.TEETH_LOWER))
+
+
+def split_tongue(
+    parts: Ints, labels: Ints, positions: Floats, polygons: Sequence[Ints], points: Mapping[str, Floats]
+) -> None:
+    """Tell a tongue from the lower gums that it is one surface with, by its feature points 6.1 to 6.4, in place.
+
+    It is what lies between the borders, from the tip to as far behind the body, below the borders off the teeth, and
+    hangs together with the tip. A mesh that has a tongue of its own, or a face without these points, stays as it is.
+
+    Parameters
+    ----------
+    parts : (V,) numbers of `Part` with teeth and gums filled in.
+    labels : (V,) number of each vertex's connected piece.
+    positions : (V, 3) head space, metres.
+    points : feature point -> (3,) in head space.
+    """
+    if (parts == Part.TONGUE).any() or any(name not in points for name in ("6.1", "6.2", "6.3", "6.4")):
+        return
+    tip, body, left, right = (points[name] for name in ("6.1", "6.2", "6.3", "6.4"))
+    lower = np.flatnonzero(parts == Part.TEETH_LOWER)
+    if len(lower) == 0:
+        return
+    distance, nearest = cKDTree(positions[lower]).query(tip)
+    foremost = int(lower[nearest])
+    teeth = positions[np.isin(parts, (Part.TEETH_LOWER, Part.TEETH_UPPER)) & (labels != labels[foremost])]
+    if distance > TIP_REACH or len(teeth) == 0:
+        return
+    across, along = positions[:, 0] - (left[0] + right[0]) / 2.0, positions[:, 2] - body[2]
+    length = tip[2] - body[2]
+    inside = (labels == labels[foremost]) & (parts == Part.TEETH_LOWER)
+    inside &= np.abs(across) <= TONGUE_BESIDE * abs(left[0] - right[0]) / 2.0
+    inside &= (along <= length + GUM_REACH) & (along >= -length - GUM_REACH)
+    inside &= positions[:, 1] <= body[1] + TONGUE_ABOVE
+    index = np.flatnonzero(inside)
+    above_borders = positions[index, 1] >= min(left[1], right[1]) - GUM_REACH
+    off_teeth = cKDTree(teeth).query(positions[index])[0] >= GUM_REACH
+    inside[index] = off_teeth | above_borders
+    inside[foremost] = True
+    own = [polygon for polygon in polygons if inside[polygon].all()]
+    if own:
+        graph = edge_graph(mesh.unique_edges(own), positions)
+        parts[np.isfinite(dijkstra(graph, directed=False, indices=foremost))] = int(Part.TONGUE)

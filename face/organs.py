@@ -128,7 +128,7 @@ class Tongue:
         moved[:, 0] = -self.tip * right * wide
         moved[:, 1] = self.tip * up * high + self.body * raised * high
         moved[:, 2] = self.tip * forward * wide
-        moved += self._rolled(roll * ANGLE_UNIT) * np.maximum(self.tip, 0.3 * self.body)[:, None]
+        moved += self._rolled(roll * ANGLE_UNIT) * (self.tip + self.body)[:, None]
         return moved
 
     def _rolled(self, angle: float) -> Floats:

@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Floats, Ints
 from .eyes import fit_sphere
-from .mouth_parts import mouth_part, split_gums
+from .mouth_parts import mouth_part, split_gums, split_tongue
 from .parts import Part
 from .template import MM
 
@@ -106,4 +106,5 @@ def derive_parts(positions: Floats, polygons: Sequence[Ints], points: Mapping[st
             gums[member] = found is None
     _add_inner_pieces(parts, labels, positions)
     split_gums(parts, gums, positions, polygons)
+    split_tongue(parts, labels, positions, polygons, points)
     return parts

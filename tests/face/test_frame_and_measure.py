@@ -11,8 +11,8 @@ from risorius.api import Face
 from risorius.face.default_head import HeadMesh
 from scipy.spatial.transform import Rotation
 
-#: FAPs 1 and 2 are visemes and expressions, 47 rolls the tongue's borders: no feature point measures them.
-NOT_MEASURED = {1, 2, 47}
+#: FAPs 1 and 2 are visemes and expressions: no feature point measures them.
+NOT_MEASURED = {1, 2}
 
 
 @pytest.mark.parametrize("name", ["ict", "makehuman", "mediapipe"])
