@@ -1,9 +1,9 @@
 """Contact: lips and lids that meet without passing through each other, and lids that stay off the eyeballs.
 
 Projections of the posed skin. Where the upper margin of an opening has come below the lower one, both halves of the
-skin are moved back to where they touch, fading with distance along the skin. Overlap that the neutral face has already is
-left alone. Lids that are all but shut are shut along their whole length. What is not modelled: one lip over the other,
-and lips against teeth.
+skin are moved back to where they touch, fading with distance along the skin. Overlap that the neutral face has already
+is left alone. Lids that are all but shut are shut along their whole length. What is not modelled: one lip over the
+other, and lips against teeth.
 """
 
 from __future__ import annotations
@@ -127,7 +127,9 @@ def _meeting(skin: OuterSkin, opening: Opening, distances: tuple[Floats, Floats]
     rest = skin.positions
     spread = tuple(
         _spread(rest, arc, side * (1.0 - smoothstep(distance / reach)))
-        for arc, side, distance in zip((opening.upper, opening.lower), (on_upper, 1.0 - on_upper), distances, strict=True)
+        for arc, side, distance in zip(
+            (opening.upper, opening.lower), (on_upper, 1.0 - on_upper), distances, strict=True
+        )
     )
     return Meeting(
         upper=opening.upper,
@@ -139,7 +141,7 @@ def _meeting(skin: OuterSkin, opening: Opening, distances: tuple[Floats, Floats]
 
 
 def lip_share(asked: Floats) -> float:
-    """The upper lip's part of the way back, 0..1, for a frame (68,) of requests: a lip that is moved pushes the other."""
+    """The upper lip's part of the way back, 0..1, for requests (68,): a lip that is asked to move pushes the other."""
     wanted = np.abs(np.nan_to_num(asked))
     upper, lower = (UNFELT + float(wanted[np.array(faps) - 1].sum()) for faps in (UPPER_LIP_FAPS, LOWER_LIP_FAPS))
     return lower / (upper + lower)

@@ -14,6 +14,7 @@ from .actuators import LID_AMPLITUDES, LID_NAMES, Amounts
 from .anatomy import Anatomy
 from .contact import Contact, lip_share
 from .eyes import LidMove
+from .folds import Folds
 from .inverse import EXACT_NOISE
 from .jaw import JawMotion
 from .measure import measure
@@ -55,16 +56,23 @@ class SkinState:
 
 
 class Poser:
-    """Poses one face."""
+    """Poses one face; in the natural mode with folds, unless told otherwise."""
 
-    def __init__(self, anatomy: Anatomy) -> None:
+    def __init__(self, anatomy: Anatomy, *, folds: bool = True) -> None:
         self.anatomy = anatomy
         self.natural = Natural()
+        self.with_folds = folds
 
     @cached_property
     def contact(self) -> Contact:
         """Lips and lids of the face where they meet."""
         return Contact(self.anatomy.skin, self.anatomy.eyes)
+
+    @cached_property
+    def folds(self) -> Folds:
+        """Where the skin folds; no FAP's point moves with it."""
+        fixed = np.unique(self.anatomy.inverse.matrix.indices // 3).astype(np.int64)
+        return Folds(self.anatomy.skin, self.anatomy.warp, fixed)
 
     def pose(
         self, frame: Floats, drive: Drive, emotion: EmotionShares | None, contractions: Mapping[str, float] | None
@@ -135,10 +143,15 @@ class Poser:
             elastic = elastic + change
             shown = shown + change
             if plan is not None:
-                return SkinState(self.contact.settle(shown, share), elastic, amounts.jaw)
+                shown = self.contact.settle(shown, share)
+                return SkinState(shown + self._folded(shown), elastic, amounts.jaw)
             if number < CORRECTION_ROUNDS:
                 shown = self.contact.clear_eyes(shown)
         return SkinState(shown, elastic, amounts.jaw)
+
+    def _folded(self, displacement: Floats) -> Floats:
+        """What folds add to a displacement (n, 3)."""
+        return self.folds.displacement(displacement) if self.with_folds else np.zeros_like(displacement)
 
     def _targets(self, frame: Floats, plan: Plan | None) -> tuple[Floats, Floats]:
         """Row targets and doubts (m,) of the elastic correction."""
