@@ -121,4 +121,5 @@ def split_tongue(
     own = [polygon for polygon in polygons if inside[polygon].all()]
     if own:
         graph = edge_graph(mesh.unique_edges(own), positions)
-        parts[np.isfinite(dijkstra(graph, directed=False, indices=foremost))] = int(Part.TONGUE)
+        far = dijkstra(graph, directed=False, indices=np.array([foremost]), min_only=True)
+        parts[np.isfinite(far)] = int(Part.TONGUE)
