@@ -26,7 +26,7 @@ LID_CLEARANCE = 0.1 * MM
 #: upper lid draws the lower one along, which hardly rises (scanned blink: 2 to 3 mm); and the lower lid as it rises.
 NASAL_SLIDE_LOWER = 0.5
 NASAL_SLIDE_RISING = 0.42
-NASAL_SLIDE_UPPER = 0.12
+NASAL_SLIDE_UPPER = 0.2
 
 #: Where the motion of the upper lid ends, along the eye from the inner corner (0) to the outer one (1), and over which
 #: length it fades: the outer corner's hood goes along, further when the lid opens.
@@ -140,8 +140,8 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
         LidMove.LOWER_UP: lower_taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
         LidMove.LOWER_DOWN: lower_taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
     }
-    middle = np.exp(-(((along - 0.5) / 0.5) ** 2))
-    drawn = on_lower * (1.0 - smoothstep(lower / (14 * MM))) * _taper(along - 0.1, (1.03, 0.2))
+    middle = np.exp(-(((along - 0.4) / 0.5) ** 2))
+    drawn = on_lower * (1.0 - smoothstep(lower / (14 * MM))) * _taper(along + 0.05, (1.18, 0.2))
     slides: dict[LidMove, Floats] = {move: np.zeros(skin.vertex_count) for move in LidMove}
     slides[LidMove.UPPER_CLOSE] = (
         radius * middle * (NASAL_SLIDE_UPPER * weights[LidMove.UPPER_CLOSE] + NASAL_SLIDE_LOWER * drawn)

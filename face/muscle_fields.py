@@ -11,7 +11,7 @@ from ..errors import ModelError
 from ..physics.muscles import LinearMuscle, Muscle, SheetMuscle, SphincterMuscle
 from .muscle_table import Kind, MuscleRow, Region, Sides
 from .outer_skin import OuterSkin, smoothstep
-from .regions import sliding
+from .regions import off_lips, sliding
 from .template import MM, TemplateWarp
 
 #: No muscle of expression inserts in skin behind the ears: depth from which it may, metres of head space.
@@ -208,14 +208,26 @@ def _band(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     return np.asarray(np.exp(-(radius**2) - depth**4)[:, None] * muscle.pull)
 
 
+def _arch(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
+    """A band drawn to the muscle's own side along the dental arch, a circle about a vertical axis behind the lips.
+
+    The side that leads goes back round the teeth, the side that follows comes forward.
+    """
+    radius, depth = _elliptic_radius(skin, muscle)
+    turn = (skin.positions[:, 0] - skin.points["8.1"][0]) / muscle.row.arch
+    along = np.stack([np.ones_like(turn), np.zeros_like(turn), -turn], axis=1)
+    along *= muscle.side / np.linalg.norm(along, axis=1, keepdims=True)
+    return np.asarray(np.exp(-(radius**2) - depth**4)[:, None] * along)
+
+
 def _pressure(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     """Air pressure in the cheek pouch along the skin's normal: outwards for bulge 1, inwards for bulge -1.
 
     No bone lies under the pouch, so the pressure makes up for what the skull takes from motion along the normal
-    elsewhere; without that the mouth's corner, where nothing is taken, would swell more than the cheek.
+    elsewhere, and closed lips hold the mouth's corner; otherwise the corner would swell more than the cheek.
     """
     radius, depth = _elliptic_radius(skin, muscle)
-    strength = muscle.row.bulge * np.exp(-(radius**2) - depth**4) / (1.0 - sliding(skin))
+    strength = muscle.row.bulge * np.exp(-(radius**2) - depth**4) * off_lips(skin) / (1.0 - sliding(skin))
     return np.asarray(strength[:, None] * skin.normals)
 
 
@@ -226,5 +238,6 @@ _FIELDS = {
     Kind.SPHINCTER_SKIN: _sphincter_skin,
     Kind.WINDOW: _window,
     Kind.BAND: _band,
+    Kind.ARCH: _arch,
     Kind.PRESSURE: _pressure,
 }

@@ -28,6 +28,7 @@ class Kind(StrEnum):
     SPHINCTER_SKIN = "sphincter_skin"
     WINDOW = "window"
     BAND = "band"
+    ARCH = "arch"
     PRESSURE = "pressure"
 
 
@@ -74,6 +75,7 @@ class MuscleRow:
     reach: float
     fall: float
     power: float
+    arch: float
     reaction: float
     reaction_at: float
     bulge: float
@@ -89,6 +91,7 @@ NEEDS: Mapping[Kind, tuple[str, ...]] = {
     Kind.SPHINCTER_SKIN: ("centre", "radii_mm", "fall"),
     Kind.WINDOW: ("centre", "radii_mm", "power", "direction"),
     Kind.BAND: ("centre", "radii_mm", "direction"),
+    Kind.ARCH: ("centre", "radii_mm", "arch_mm"),
     Kind.PRESSURE: ("centre", "radii_mm", "bulge"),
 }
 COMMON = ("title", "kind", "au", "sides", "region", "prior_mm", "amplitude_mm")
@@ -121,8 +124,8 @@ def _row(path: Path, name: str, raw: Mapping[str, Any]) -> MuscleRow:
     extra = set(raw) - {*COMMON, *NEEDS[kind], *OPTIONAL}
     if extra:
         raise FormatError(path, f"a {kind} muscle has no {', '.join(sorted(extra))}", key=key)
-    for figure in ("prior_mm", "amplitude_mm"):
-        if not raw[figure] > 0:
+    for figure in ("prior_mm", "amplitude_mm", "arch_mm"):
+        if figure in raw and not raw[figure] > 0:
             raise FormatError(path, f"{figure} must be positive, not {raw[figure]!r}", key=key)
     places = {
         p: _place(path, f"{key}.{p}", raw[p]) if p in raw else None for p in ("attachment", "insertion", "centre")
@@ -142,6 +145,7 @@ def _row(path: Path, name: str, raw: Mapping[str, Any]) -> MuscleRow:
         reach=float(raw.get("reach", 0.0)),
         fall=float(raw.get("fall", 0.0)),
         power=float(raw.get("power", 0.0)),
+        arch=MM * float(raw.get("arch_mm", 0.0)),
         reaction=float(raw.get("reaction", 0.0)),
         reaction_at=float(raw.get("reaction_at", 0.0)),
         bulge=float(raw.get("bulge", 0.0)),

@@ -72,5 +72,5 @@ def test_scanned_expressions_come_back_from_their_faps(shared: Path, shared_face
         moved = (face.pose(frame, drive="exact").positions - face.vertices)[:SKIN_VERTICES]
         explained[name] = 1.0 - float(((moved - displacement) ** 2).sum() / (displacement**2).sum())
     assert len(explained) >= 12
-    assert np.median(list(explained.values())) >= 0.85, explained
-    assert min(explained.values()) >= 0.5, explained
+    assert np.median(list(explained.values())) >= 0.87, explained
+    assert min(explained.values()) >= 0.65, explained
