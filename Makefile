@@ -1,11 +1,11 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint build bench clean
+.PHONY: help demo test lint build bench docs-faps clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## /  make \1	/p' Makefile | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
 
 demo: ## six emotions on the default head: film, .blend and picture in out/
 	@sh tools/demo.sh $(ARGS)
@@ -21,6 +21,9 @@ build: ## the installable zips in dist/; ARGS="--platform linux-x64 --blender 5.
 
 bench: ## speed and accuracy figures
 	@$(SETUP) bpy-4.5 && for script in tools/bench/*.py; do echo "== $$script"; .venv-bpy-4.5/bin/python "$$script" || exit 1; done
+
+docs-faps: ## docs/faps.md: what moves each FAP, measured on the faces
+	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/fap_table.py $(ARGS)
 
 clean: ## remove what the commands above made, downloads included
 	rm -rf .venv .venv-bpy-* .cache .typecheck .mypy_cache .ruff_cache .pytest_cache build dist out *.egg-info

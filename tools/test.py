@@ -53,7 +53,7 @@ class Step:
 
 def command(*arguments: str, folder: Path = ROOT) -> Count:
     """One command that either passes or fails."""
-    environment = {**os.environ, "MYPYPATH": "."}
+    environment = {**os.environ, "MYPYPATH": os.pathsep.join((".", str(ROOT / ".typecheck")))}
     done = subprocess.run(arguments, cwd=folder, env=environment, timeout=TIME_LIMIT, check=False)
     return Count(failed=1) if done.returncode else Count(passed=1)
 
@@ -64,7 +64,7 @@ def lint() -> Count:
 
 
 def types() -> Count:
-    """Mypy over the package (through the link, so that the checkout may have any name) and over the tools."""
+    """Mypy over the package (through the link, so that the checkout may have any name) and the tools beside it."""
     mypy = (tool("mypy"), "--config-file", "../pyproject.toml")
     scripts = sorted(path.name for path in (ROOT / "tools").glob("*.py"))
     package = command(*mypy, "-p", "risorius", folder=ensure_link())
