@@ -18,6 +18,7 @@ from .followers import InnerSkin, LooseParts
 from .frame import Fapu, HeadFrame
 from .inverse import Inverse
 from .jaw import Jaw, build_jaw
+from .living_skin import Relaxation
 from .muscle_fields import PlacedMuscle, place_muscles
 from .muscle_table import read_muscles
 from .openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, edge_graph, find_opening, outer_faces
@@ -134,6 +135,11 @@ class Anatomy:
     def actuators(self) -> Actuators:
         """Muscles, lids and jaw with their fields."""
         return Actuators(self.skin, self.tissue, self.jaw, self.eyes, self.muscles)
+
+    @cached_property
+    def relaxation(self) -> Relaxation:
+        """The skin's equilibrium under the muscles."""
+        return Relaxation(self.skin, self.tissue, self.actuators)
 
     @cached_property
     def rows(self) -> FapRows:

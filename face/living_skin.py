@@ -54,18 +54,25 @@ class Relaxation:
     def _membrane(self) -> float:
         return tissue_of().membrane
 
-    def muscular(self, amounts: Amounts) -> Floats:
-        """(n, 3) displacement of the outer skin by muscles, metres: what `Actuators.muscular` is at low strain.
+    def settle(self, amounts: Amounts) -> Floats:
+        """(n, 3) positions of the sheet in balance with the muscles' forces, before sliding and bulging.
 
         Raises
         ------
         SolverError : contractions beyond what the skin can bear.
         """
         low_strain = np.tensordot(amounts.muscles, self.actuators.sheets, axes=1)
-        if not amounts.muscles.any():
-            return np.zeros_like(low_strain)
         force = self._membrane * np.asarray(self.tissue.stiffness @ low_strain)
-        rest = self.sheet.positions
-        settled: Floats = self._solver.solve(force, start=rest + low_strain).positions
-        shown: Floats = self.tissue.show((settled - rest)[None])[0]
+        return self._solver.solve(force, start=self.sheet.positions + low_strain).positions
+
+    def muscular(self, amounts: Amounts) -> Floats:
+        """(n, 3) displacement of the outer skin by muscles, metres: what `Actuators.muscular` is at low strain.
+
+        Raises
+        ------
+        SolverError : as `settle`.
+        """
+        if not amounts.muscles.any():
+            return np.zeros_like(self.sheet.positions)
+        shown: Floats = self.tissue.show((self.settle(amounts) - self.sheet.positions)[None])[0]
         return shown

@@ -132,7 +132,7 @@ class Poser:
         anatomy = self.anatomy
         actuators, inverse = anatomy.actuators, anatomy.inverse
         kinematic = actuators.kinematic(amounts)
-        elastic = actuators.muscular(amounts)
+        elastic = anatomy.relaxation.muscular(amounts)
         if drive is Drive.MUSCLES:
             return SkinState(self.contact.settle(kinematic + elastic), elastic, amounts.jaw)
         target, doubts = self._targets(frame, plan)
