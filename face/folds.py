@@ -29,7 +29,7 @@ COURSE, GAUGES = 49, 9
 
 #: Half a valley is at least this many edges wide; made so many times wider by that, a fold begins to fade and is gone.
 EDGES = 1.3
-FADES_FROM, FADES_TO = 1.4, 2.0
+FADES_FROM, FADES_TO = 1.4, 1.75
 
 #: A fold that would be shallower than this at its fullest is left out, metres.
 SHALLOWEST = 0.1 * MM
