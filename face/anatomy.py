@@ -162,8 +162,9 @@ class Anatomy:
     @cached_property
     def inverse(self) -> Inverse:
         """FAP rows to amounts."""
-        reader = self.mesh.points.matrix(self.skin_rows.names)[:, self.skin.index]
-        return Inverse(self.skin_rows, reader, self.actuators, self.tissue)
+        rows = self.skin_rows.with_lip_middles()
+        reader = self.mesh.points.matrix(rows.names)[:, self.skin.index]
+        return Inverse(rows, reader, self.actuators, self.tissue)
 
     @cached_property
     def inner_skin(self) -> InnerSkin:

@@ -19,7 +19,7 @@ from .inverse import EXACT_NOISE
 from .jaw import JawMotion
 from .measure import measure
 from .natural import EmotionShares, Natural, Plan
-from .wishes import ASKED_DOUBT, LIP_DOUBT, LIP_FAPS, SILENT_DOUBT, Drive, exact_wish, natural_wish
+from .wishes import ASKED_DOUBT, LIP_DOUBT, LIP_FAPS, SILENT_DOUBT, Drive, exact_wish, fill, lip_middles, natural_wish
 
 #: Rounds of elastic correction: what contact with the eyeball disturbs is corrected again.
 CORRECTION_ROUNDS = 2
@@ -96,7 +96,7 @@ class Poser:
         self, frame: Floats, drive: Drive, plan: Plan | None, contractions: Mapping[str, float] | None
     ) -> Amounts:
         """Contractions that explain the frame, with those set by hand put in their place."""
-        actuators, rows = self.anatomy.actuators, self.anatomy.skin_rows
+        actuators, rows = self.anatomy.actuators, self.anatomy.inverse.rows
         if drive is Drive.POINTS:
             amounts = actuators.amounts(np.zeros(len(actuators.prior)))
         else:
@@ -155,13 +155,16 @@ class Poser:
 
     def _targets(self, frame: Floats, plan: Plan | None) -> tuple[Floats, Floats]:
         """Row targets and doubts (m,) of the elastic correction."""
-        rows = self.anatomy.skin_rows
+        rows = self.anatomy.inverse.rows
+        hidden = rows.numbers == 0
         if plan is None:
-            return rows.select(frame), np.zeros(len(rows))
+            middles, loose = lip_middles(rows, fill(frame))
+            return np.where(hidden, middles, rows.select(frame)), np.where(hidden, loose, 0.0)
         wish = natural_wish(rows, plan)
         asked = ~np.isnan(rows.select(plan.asked))
         doubts = np.where(asked, ASKED_DOUBT, SILENT_DOUBT)
         doubts = np.where(np.isin(rows.numbers, LIP_FAPS), LIP_DOUBT, doubts)
+        doubts = np.where(hidden, wish.doubts, doubts)
         return wish.targets, np.where(wish.doubts == EXACT_NOISE, 0.0, doubts)
 
     def assemble(self, state: SkinState, frame: Floats) -> Floats:

@@ -31,13 +31,17 @@ def unit_length(unit: Unit | None, units: Fapu) -> float:
     return lengths[unit] / 1024.0
 
 
+#: Middles of the inner and outer lips; FAPs move them up, down and forward only.
+LIP_MIDDLES = ("2.2", "2.3", "8.1", "8.2")
+
+
 @dataclass(frozen=True)
 class FapRows:
     """The displacement FAPs that a face's points can show.
 
     Attributes
     ----------
-    numbers : (m,) FAP numbers, ascending.
+    numbers : (m,) FAP numbers, ascending; last, as 0, the sideways motion of the lips' middles, which no FAP names.
     names : the feature point of each.
     directions : (m, 3) unit vectors in head space, along which a positive value moves the point.
     units : (m,) metres of head space per FAP unit.
@@ -54,11 +58,21 @@ class FapRows:
     @cached_property
     def position(self) -> dict[int, int]:
         """FAP number -> row."""
-        return {int(number): row for row, number in enumerate(self.numbers)}
+        return {int(number): row for row, number in enumerate(self.numbers) if number}
 
     def select(self, frame: Floats) -> Floats:
         """(m,) the rows' displacements in metres asked for by a frame (68,) in FAP units; NaN where silent."""
-        return frame[self.numbers - 1] * self.units
+        return np.where(self.numbers > 0, frame[self.numbers - 1], np.nan) * self.units
+
+    def with_lip_middles(self) -> FapRows:
+        """These rows and a sideways row for every lip middle among their points."""
+        names = [name for name in LIP_MIDDLES if name in self.names]
+        return FapRows(
+            numbers=np.concatenate([self.numbers, np.zeros(len(names), dtype=np.int64)]),
+            names=(*self.names, *names),
+            directions=np.concatenate([self.directions, np.tile([1.0, 0.0, 0.0], (len(names), 1))]),
+            units=np.concatenate([self.units, np.ones(len(names))]),
+        )
 
     def matrix(self, reader: Sparse) -> Sparse:
         """(m, 3n) matrix reading the rows off flattened displacements, from a (m, n) point reader."""

@@ -36,6 +36,31 @@ FILLED_DOUBT, CARRIED_DOUBT = 1.0 * MM, 6.0 * MM
 SLIDE_ASKED, SLIDE_SILENT = 16.0 * MM, 2.0 * MM
 JAW_ASKED, JAW_SILENT = 60.0 * MM, 3.0 * MM
 
+#: One corner drawn aside leaves the lips' middle where it is, as firmly as this; the more both corners or the jaw go
+#: one way the less, and from this much on not at all.
+MIDDLE_DOUBT, MIDDLE_FREE = 0.5 * MM, 3.0 * MM
+
+
+def lip_middles(rows: FapRows, frame: Floats) -> tuple[Floats, Floats]:
+    """Targets and doubts (m,) in metres of the lips' middles, sideways; NaN on other rows and where corners are silent.
+
+    The other half of the orbicularis holds the philtrum: in scanned one-sided actions it does not move aside.
+    """
+    targets, doubts = np.full(len(rows), np.nan), np.full(len(rows), MIDDLE_DOUBT)
+    place = rows.position
+    pairs = {"2.2": (6, 7), "2.3": (6, 7), "8.1": (53, 54), "8.2": (53, 54)}
+    jaw_aside = abs(float(np.nan_to_num(frame[15 - 1]))) * (rows.units[place[15]] if 15 in place else 0.0)
+    for row in np.flatnonzero(rows.numbers == 0):
+        left, right = pairs[rows.names[row]]
+        if left not in place or right not in place or np.isnan(frame[[left - 1, right - 1]]).any():
+            continue
+        aside = frame[left - 1] * rows.units[place[left]], -frame[right - 1] * rows.units[place[right]]
+        together = min(abs(aside[0]), abs(aside[1])) if aside[0] * aside[1] > 0.0 else 0.0
+        if together + jaw_aside < MIDDLE_FREE:
+            targets[row] = 0.0
+            doubts[row] = MIDDLE_DOUBT / (1.0 - (together + jaw_aside) / MIDDLE_FREE)
+    return targets, doubts
+
 
 def natural_wish(rows: FapRows, plan: Plan) -> Wish:
     """The wish of the natural mode: every planned row, asked ones more firmly."""
@@ -46,6 +71,8 @@ def natural_wish(rows: FapRows, plan: Plan) -> Wish:
     doubts = np.where(np.isnan(request), SILENT_DOUBT, ASKED_DOUBT)
     doubts = np.where(np.isin(rows.numbers, LIP_FAPS), LIP_DOUBT, doubts)
     doubts = np.where(beyond, EXACT_NOISE, doubts)
+    middles, loose = lip_middles(rows, plan.goal)
+    targets, doubts = np.where(rows.numbers > 0, targets, middles), np.where(rows.numbers > 0, doubts, loose)
     slides = SLIDE_ASKED if _asks(plan.asked, 14, 15) else SLIDE_SILENT
     return Wish(targets, doubts, dict(plan.muscles), JAW_PRIOR, slides)
 
@@ -53,10 +80,12 @@ def natural_wish(rows: FapRows, plan: Plan) -> Wish:
 def exact_wish(rows: FapRows, frame: Floats) -> Wish:
     """The wish of the exact mode: requests firmly, what must go with them softly, the rest where the jaw carries it."""
     asked = rows.select(frame)
-    filled = rows.select(fill(frame))
-    carried: Bools = np.isnan(filled)
+    full = fill(frame)
+    middles, loose = lip_middles(rows, full)
+    filled = np.where(rows.numbers > 0, rows.select(full), middles)
+    carried: Bools = np.isnan(filled) & (rows.numbers > 0)
     targets = np.where(carried, 0.0, filled)
-    doubts = np.where(np.isnan(asked), FILLED_DOUBT, EXACT_NOISE)
+    doubts = np.where(np.isnan(asked), np.where(rows.numbers > 0, FILLED_DOUBT, loose), EXACT_NOISE)
     doubts = np.where(carried, CARRIED_DOUBT, doubts)
     return Wish(
         targets,

@@ -104,7 +104,7 @@ def mechanisms(face: api.Face, frame: Floats, number: int) -> dict[str, float]:
     if number in range(23, 31) or group in (6, 7):
         return {"eyeball" if group == 3 else "tongue" if group == 6 else "head turn": 1.0}
     anatomy = face.anatomy
-    rows, actuators = anatomy.skin_rows, anatomy.actuators
+    rows, actuators = anatomy.inverse.rows, anatomy.actuators
     poser = Poser(anatomy)
     amounts = poser.amounts(frame, api.Drive.NATURAL, poser.natural.plan(frame), None)
     row = rows.position[number]
