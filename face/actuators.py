@@ -61,8 +61,8 @@ class Actuators:
         alive = peak > 0.0
         self.muscles = [muscle for muscle, moves in zip(muscles, alive, strict=True) if moves]
         scale = (1.0 / peak[alive])[:, None, None]
-        self.sheets: Floats = sheets[alive] * scale
-        self.fields: Floats = shown[alive] * scale
+        self.sheets: Floats = np.ascontiguousarray(sheets[alive] * scale)
+        self.fields: Floats = np.ascontiguousarray(shown[alive] * scale)
         self.lid_moves = [(side, move) for side in "lr" for move in LidMove]
 
     @property

@@ -62,7 +62,7 @@ class Inverse:
         self.matrix = rows.matrix(reader)
         count = actuators.skin.vertex_count
         loads = np.asarray(self.matrix.todense()).reshape(len(rows), count, 3)
-        self.kernel: Floats = tissue.point_responses(loads)
+        self.kernel: Floats = np.ascontiguousarray(tissue.point_responses(loads))
         self.compliance: Floats = np.asarray(self.matrix @ self.kernel.reshape(len(rows), -1).T)
         self.compliance = (self.compliance + self.compliance.T) / 2.0
         self._scale = len(rows) / np.trace(self.compliance)
