@@ -129,7 +129,7 @@ def _recognise(arguments: argparse.Namespace) -> Result:
     from . import api
 
     if arguments.file.suffix.lower() == ".fap":
-        frames = api.read_fap(arguments.file).frames
+        frames = api.read_fap(arguments.file).expanded()
         strongest = int(np.nansum(np.abs(frames), axis=1).argmax())
         index = strongest if arguments.frame is None else arguments.frame
         if not 0 <= index < len(frames):

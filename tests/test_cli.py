@@ -76,6 +76,14 @@ def test_fap_writes_an_expression_that_is_read_back_and_recognised(run_json: Run
     assert beliefs["surprise"] == pytest.approx(max(beliefs.values()))
 
 
+def test_recognise_sees_a_stream_that_names_its_expression(run_json: Run, tmp_path: Path) -> None:
+    """FAP 2 alone: expression 4 (fear) at full intensity."""
+    path = tmp_path / "fear.fap"
+    mask = " ".join("1" if number == 2 else "0" for number in range(1, 69))
+    path.write_text(f"2.1 fear 25 1\n{mask}\n0 4 63 0 0 0 0\n", encoding="ascii")
+    assert next(iter(run_json("recognise", path))) == "fear"
+
+
 def test_fap_converts_a_file(run_json: Run, tmp_path: Path) -> None:
     run_json("fap", "anger", "--out", tmp_path / "a.fap")
     run_json("fap", tmp_path / "a.fap", "--out", tmp_path / "b.fap")
