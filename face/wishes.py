@@ -50,7 +50,7 @@ def lip_middles(rows: FapRows, frame: Floats) -> tuple[Floats, Floats]:
     place = rows.position
     pairs = {"2.2": (6, 7), "2.3": (6, 7), "8.1": (53, 54), "8.2": (53, 54)}
     jaw_aside = abs(float(np.nan_to_num(frame[15 - 1]))) * (rows.units[place[15]] if 15 in place else 0.0)
-    for row in np.flatnonzero(rows.numbers == 0):
+    for row in np.flatnonzero(rows.numbers == 0).tolist():
         left, right = pairs[rows.names[row]]
         if left not in place or right not in place or np.isnan(frame[[left - 1, right - 1]]).any():
             continue
