@@ -8,7 +8,6 @@ their places.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +21,7 @@ from ..arrays import Floats, Ints
 from ..errors import FormatError
 from ..physics.mesh import Sparse
 from .outer_skin import OuterSkin, smoothstep
+from .tables import read_toml
 from .template import ANATOMY, MM, TemplateWarp
 
 #: Points along a line: for its course, and where compression is taken.
@@ -96,10 +96,7 @@ def read_folds(path: Path = ANATOMY / "folds.toml") -> list[FoldRow]:
     ------
     FormatError : names the file, the key and the rule that is broken.
     """
-    try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, tomllib.TOMLDecodeError) as error:
-        raise FormatError(path, f"is not a readable TOML table: {error}") from error
+    raw = read_toml(path)
     return [fold for name, entry in raw.get("folds", {}).items() for fold in _rows(path, name, entry)]
 
 

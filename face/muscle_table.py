@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -13,6 +12,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import FormatError
+from .tables import read_toml
 from .template import ANATOMY, MM, TEMPLATE_POINTS
 
 #: Offsets in the table are given in these units of the template: ES0, ENS0, ENS0 (metres).
@@ -161,8 +161,5 @@ def read_muscles(path: Path = ANATOMY / "muscles.toml") -> dict[str, MuscleRow]:
     ------
     FormatError : names the file, the key and the rule that is broken.
     """
-    try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, tomllib.TOMLDecodeError) as error:
-        raise FormatError(path, f"is not a readable TOML table: {error}") from error
+    raw = read_toml(path)
     return {name: _row(path, name, row) for name, row in raw.get("muscles", {}).items()}

@@ -7,7 +7,6 @@ own FAP units, so nothing is tuned again. Source of the figures: presets/anatomy
 from __future__ import annotations
 
 import csv
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -19,6 +18,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..errors import FormatError, ParameterError
 from ..mpeg4 import FAPS, Unit
+from .tables import read_toml
 from .template import ANATOMY, MM
 
 #: Millimetres per FAP unit on the template face.
@@ -200,10 +200,7 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
     ranges = _ranges(folder / "ranges.csv")
     numbers = ranges["fap"].astype(np.int64)
     path = folder / "synergies.toml"
-    try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, tomllib.TOMLDecodeError) as error:
-        raise FormatError(path, f"is not a readable TOML table: {error}") from error
+    raw = read_toml(path)
     units = _units(path, raw, {int(n): i for i, n in enumerate(numbers)})
     sums = _sums(path, raw, tuple(units))
     return Synergies(
