@@ -5,7 +5,7 @@
                                                  explains of kinds left out, and of all, per damping
     python tools/calibrate.py fit --save DIR     and the figures it moves, as DIR/<damping>.txt
 
-Only a step whose held-out figures are better than the start's deserves to go into presets/anatomy/muscles.toml.
+Only a step whose held-out figures are better than the start's deserves to go into presets/anatomy/muscles/.
 
 The heads are looked for where RISORIUS_SHARED says (default: ../shared). A shape's explained variance is
 1 - sum |posed - scanned|^2 / sum |scanned|^2 over the skin, the face being posed (exact drive) from the FAPs
@@ -15,27 +15,21 @@ measured on the scan. Figures move within anatomical bounds (`STEPS`, `FARTHEST`
 from __future__ import annotations
 
 import argparse
-import json
-import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from risorius.api import Face, Part
+from faithful.heads import ICT_SKIN, IDENTITIES, load_face
+from faithful.scans import Shape, scanned_shapes
+from risorius.api import Face
 from risorius.arrays import Floats
 from risorius.face.muscle_fields import force_density, place_muscles
 from risorius.face.muscle_table import Kind, MuscleRow
 from risorius.face.pose import Poser
-from risorius.face.segmentation import pieces
 from risorius.face.template import MM
 from risorius.face.wishes import Drive
-
-ROOT = Path(__file__).resolve().parents[1]
-SKIN_VERTICES = 11248
-UNSEEN = ("eyeLook", "PupilDilate", "mouthClose", "mouthRoll")
-PARTS = {0: Part.SKIN, 5: Part.SKIN, 7: Part.SKIN, 1: Part.EYEBALL_L, 2: Part.EYEBALL_R, 4: Part.TONGUE}
 
 #: Figure -> one step of a fit, its least and largest value; places may go `FARTHEST` from where anatomy has them.
 STEPS = {
@@ -56,59 +50,6 @@ FARTHEST = 8 * MM
 
 #: A fit looks at every so many-th vertex.
 THINNING = 3
-
-
-def shared() -> Path:
-    """The folder of the heads."""
-    return Path(os.environ.get("RISORIUS_SHARED", ROOT.parent / "shared")) / "heads"
-
-
-def scanned_face(identity: int | None = None) -> Face:
-    """The face that the expressions were scanned on, or another identity of the same topology."""
-    data = np.load(shared() / "ict.npz")
-    facts = json.loads((shared() / "ict.fp.json").read_text())
-    vertices, labels = data["vertices"].astype(np.float64), data["labels"].astype(int)
-    if identity is not None:
-        vertices[:SKIN_VERTICES] = np.load(shared() / "ict_identities.npz")["vertices"][identity]
-        inner = np.load(shared() / "ict_identities_inner.npz")
-        name = next(k for k in inner.files if inner[k].ndim == 3)
-        vertices[SKIN_VERTICES:] += inner[name][identity].astype(np.float64)
-    polygons = np.split(data["loops"].astype(np.int64), np.cumsum(data["face_sizes"])[:-1])
-    points = {n: v for n, v in facts["points"].items() if n != "7.1"}
-    if identity is None:
-        points |= {n: np.array(facts["xyz"][n]) for n in facts["no_vertex"] if n != "7.1"}
-    parts = np.array([int(PARTS.get(label, Part.OTHER)) for label in labels.tolist()])
-    piece = pieces(polygons, len(vertices))
-    between = vertices[facts["points"]["2.3"], 2] - 3 * MM
-    for tooth in np.unique(piece[labels == 3]):
-        member = piece == tooth
-        parts[member] = int(Part.TEETH_UPPER if vertices[member, 2].mean() > between else Part.TEETH_LOWER)
-    return Face.from_arrays(vertices, polygons, points, parts)
-
-
-@dataclass(frozen=True)
-class Shape:
-    """A scanned expression: its FAPs (68,) and its displacement (SKIN_VERTICES, 3) in head space, metres."""
-
-    name: str
-    frame: Floats
-    moved: Floats
-
-
-def scanned_shapes(face: Face) -> list[Shape]:
-    """Every shape that FAPs speak of, one of each mirrored pair."""
-    data = np.load(shared() / "ict_expressions.npz")
-    shapes = []
-    for name, displacement in zip(data["names"].tolist(), data["displacement"].astype(np.float64), strict=True):
-        if name.startswith(UNSEEN) or name.endswith("_R"):
-            continue
-        posed = face.vertices.copy()
-        posed[:SKIN_VERTICES] += displacement
-        frame = face.measure(posed)
-        frame[22:30] = frame[42:50] = np.nan
-        at_rest = face.anatomy.mesh.positions[:SKIN_VERTICES]
-        shapes.append(Shape(name, frame, face.anatomy.mesh.frame.to_head(posed)[:SKIN_VERTICES] - at_rest))
-    return shapes
 
 
 class Bench:
@@ -146,7 +87,7 @@ class Bench:
     def explained(self, names: Iterable[str] | None = None) -> dict[str, float]:
         """Explained variance of each shape."""
         wanted = None if names is None else set(names)
-        return {s.name: self._explained(s) for s in self.shapes if wanted is None or s.name in wanted}
+        return {s.name: s.explained_by(self.moved(s)) for s in self.shapes if wanted is None or s.name in wanted}
 
     def residuals(self) -> Floats:
         """(shapes, r) what is left, thinned out, as shares whose squares sum up to 1 - explained variance."""
@@ -156,18 +97,14 @@ class Bench:
             rest.append(left.ravel() / np.sqrt((shape.moved**2).sum() / THINNING))
         return np.array(rest)
 
-    def _explained(self, shape: Shape) -> float:
-        moved = self.moved(shape)
-        return 1.0 - float(((moved - shape.moved) ** 2).sum() / (shape.moved**2).sum())
-
     def moved(self, shape: Shape) -> Floats:
-        """Displacement (SKIN_VERTICES, 3) that the shape's FAPs alone give."""
+        """Displacement (ICT_SKIN, 3) that the shape's FAPs alone give."""
         amounts = self.poser.amounts(shape.frame, Drive.EXACT, None, None)
         state = self.poser.skin_state(shape.frame, Drive.EXACT, None, amounts)
         moved = np.zeros_like(self.anatomy.mesh.positions)
         moved[self.anatomy.skin.index] = state.displacement
         self.anatomy.inner_skin.follow(moved)
-        return moved[:SKIN_VERTICES]
+        return moved[:ICT_SKIN]
 
 
 def _same_field(a: MuscleRow, b: MuscleRow) -> bool:
@@ -309,12 +246,12 @@ def summary(explained: dict[str, float]) -> str:
 
 def report(identities: int) -> None:
     """Print explained variances."""
-    explained = Bench(scanned_face()).explained()
+    explained = Bench(load_face("ict")).explained()
     for name, value in explained.items():
         print(f"{name:20s} {value:.3f}")
     print(f"{'scanned face':20s} {summary(explained)}")
-    for i in range(identities):
-        print(f"{f'identity {i}':20s} {summary(Bench(scanned_face(i)).explained())}")
+    for name in IDENTITIES[:identities]:
+        print(f"{name:20s} {summary(Bench(load_face(name)).explained())}")
 
 
 def main() -> None:
@@ -329,7 +266,7 @@ def main() -> None:
     if given.what == "report":
         report(given.identities)
     else:
-        held_out(Fit(Bench(scanned_face())), given.folds, given.damping, given.save)
+        held_out(Fit(Bench(load_face("ict"))), given.folds, given.damping, given.save)
 
 
 if __name__ == "__main__":
