@@ -11,6 +11,7 @@ from functools import lru_cache
 from .face.default_head import HeadMesh, build_default_head
 from .face.face import Clip, Face
 from .face.frame import Fapu
+from .face.mechanisms import ADDITIONS, MUSCLE_GROUPS, Mechanism
 from .face.parts import Part
 from .face.points import REQUIRED as REQUIRED_POINTS
 from .face.pose import Pose
@@ -50,10 +51,12 @@ from .mpeg4 import (
 )
 
 __all__ = [
+    "ADDITIONS",
     "ARCHETYPES",
     "FAPS",
     "FEATURES",
     "FEATURE_POINTS",
+    "MUSCLE_GROUPS",
     "REQUIRED_POINTS",
     "VISEMES",
     "WORDS",
@@ -68,6 +71,7 @@ __all__ = [
     "FapStream",
     "Fapu",
     "HeadMesh",
+    "Mechanism",
     "Part",
     "Pose",
     "Profile",

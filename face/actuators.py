@@ -15,10 +15,11 @@ from ..arrays import Floats
 from ..physics.mesh import Sparse
 from .eyes import Eye, LidMove
 from .jaw import Jaw, JawMotion
+from .mechanisms import Mechanism
 from .muscle_fields import PlacedMuscle, force_density
 from .outer_skin import OuterSkin
 from .template import MM
-from .tissue import Tissue, stack
+from .tissue import Tissue
 
 LID_PRIOR = 12 * MM
 JAW_PRIOR = 25 * MM
@@ -54,7 +55,8 @@ class Actuators:
         self, skin: OuterSkin, tissue: Tissue, jaw: Jaw, eyes: Mapping[str, Eye], muscles: Sequence[PlacedMuscle]
     ) -> None:
         self.skin, self.jaw, self.eyes = skin, jaw, eyes
-        forces = stack([force_density(skin, muscle) * skin.areas[:, None] for muscle in muscles])
+        densities = [force_density(skin, muscle) for muscle in muscles]
+        forces = skin.areas[:, None] * np.array(densities).reshape(-1, skin.vertex_count, 3)
         sheets = tissue.relax(forces)
         shown = tissue.show(sheets)
         peak = np.linalg.norm(shown, axis=2).max(axis=1)
@@ -63,11 +65,15 @@ class Actuators:
         scale = (1.0 / peak[alive])[:, None, None]
         self.sheets: Floats = np.ascontiguousarray(sheets[alive] * scale)
         self.fields: Floats = np.ascontiguousarray(shown[alive] * scale)
-        self.lid_moves = [(side, move) for side in "lr" for move in LidMove]
+        lids = skin.has(Mechanism.LIDS)
+        self.lid_moves = [(side, move) for side in "lr" for move in LidMove] if lids else []
 
     @property
     def prior(self) -> Floats:
-        """(k + 8 + 3,) usual amounts, metres: muscles, lids, jaw at the chin, its slides left and forward."""
+        """(k + 8 + 3,) usual amounts, metres: muscles, lids, jaw at the chin, its slides left and forward.
+
+        Without lids there are no 8.
+        """
         muscles = [muscle.row.prior for muscle in self.muscles]
         return np.array([*muscles, *[LID_PRIOR] * len(self.lid_moves), JAW_PRIOR, *SLIDE_PRIOR.values()])
 
@@ -101,7 +107,7 @@ class Actuators:
     def amounts(self, solution: Floats) -> Amounts:
         """Name the entries of a solution vector (k + 8 + 3,)."""
         count = len(self.muscles)
-        lids = dict(zip(self.lid_moves, solution[count : count + 8].tolist(), strict=True))
+        lids = dict(zip(self.lid_moves, solution[count:-3].tolist(), strict=True))
         angle, left, forward = solution[-3] / self.chin_lever, solution[-2], solution[-1]
         return Amounts(solution[:count].copy(), lids, JawMotion(float(angle), float(left), float(forward)))
 
@@ -121,5 +127,6 @@ class Actuators:
         named = {muscle.name: a / muscle.amplitude for muscle, a in zip(self.muscles, amounts.muscles, strict=True)}
         for (side, move), amount in amounts.lids.items():
             named[f"{LID_NAMES[move]}_{side}"] = amount / LID_AMPLITUDES[move]
-        named["jaw_open"] = amounts.jaw.angle * self.chin_lever / self.upper[-3]
+        if self.skin.has(Mechanism.JAW):
+            named["jaw_open"] = amounts.jaw.angle * self.chin_lever / self.upper[-3]
         return {name: float(np.clip(value, 0.0, 1.0)) for name, value in named.items()}

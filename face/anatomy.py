@@ -19,8 +19,9 @@ from .frame import Fapu, HeadFrame
 from .inverse import Inverse
 from .jaw import Jaw, build_jaw
 from .living_skin import Relaxation
+from .mechanisms import EVERY, Mechanism
 from .muscle_fields import PlacedMuscle, place_muscles
-from .muscle_table import read_muscles
+from .muscle_table import muscles_of
 from .openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, edge_graph, find_opening, outer_faces
 from .organs import PUPIL_SHARE, Eyeball, HeadTurn, Tongue, build_head_turn, build_tongue
 from .outer_skin import OuterSkin
@@ -60,8 +61,9 @@ def _vertex_of(points: FeaturePoints) -> dict[str, int]:
 class Anatomy:
     """The moving parts of one face; each is built when first asked for."""
 
-    def __init__(self, face_mesh: Mesh) -> None:
-        self.mesh = face_mesh
+    def __init__(self, face_mesh: Mesh, mechanisms: frozenset[Mechanism] = EVERY) -> None:
+        """Prepare a face with some mechanisms, all of them unless told otherwise."""
+        self.mesh, self.mechanisms = face_mesh, mechanisms
 
     @cached_property
     def warp(self) -> TemplateWarp:
@@ -102,6 +104,7 @@ class Anatomy:
             points=dict(face_mesh.landmarks),
             mouth=inside(openings[0]),
             eyes={"l": inside(openings[1]), "r": inside(openings[2])},
+            mechanisms=self.mechanisms,
         )
 
     @cached_property
@@ -128,8 +131,8 @@ class Anatomy:
 
     @cached_property
     def muscles(self) -> list[PlacedMuscle]:
-        """Every muscle of the table, placed on this face."""
-        return place_muscles(read_muscles(), self.warp)
+        """The muscles of the table whose mechanisms this face has, placed on it."""
+        return place_muscles(muscles_of(self.mechanisms), self.warp)
 
     @cached_property
     def actuators(self) -> Actuators:
@@ -162,7 +165,9 @@ class Anatomy:
     @cached_property
     def inverse(self) -> Inverse:
         """FAP rows to amounts."""
-        rows = self.skin_rows.with_lip_middles()
+        rows = self.skin_rows
+        if Mechanism.LIP_MIDDLE in self.mechanisms:
+            rows = rows.with_lip_middles()
         reader = self.mesh.points.matrix(rows.names)[:, self.skin.index]
         return Inverse(rows, reader, self.actuators, self.tissue)
 

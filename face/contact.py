@@ -18,6 +18,7 @@ from scipy.spatial import cKDTree
 from ..arrays import Floats, Ints
 from ..physics.mesh import Sparse
 from .eyes import Eye
+from .mechanisms import Mechanism
 from .openings import Opening
 from .outer_skin import OuterSkin, smoothstep
 from .template import MM
@@ -165,6 +166,8 @@ class Contact:
 
         `lip_share` is the upper lip's part of the way back (`lip_share`).
         """
+        if not self.skin.has(Mechanism.CONTACT):
+            return displacement
         rest = self.skin.positions
         positions = self.lips.settle(rest + displacement, lip_share)
         for lids in self.lids.values():
@@ -173,6 +176,8 @@ class Contact:
 
     def clear_eyes(self, displacement: Floats) -> Floats:
         """The displacement (n, 3) with lid skin kept off the eyeballs, as far as at rest or nearly."""
+        if not self.skin.has(Mechanism.CONTACT):
+            return displacement
         rest = self.skin.positions
         positions = rest + displacement
         for side, eye in self._eyes.items():

@@ -13,6 +13,7 @@ from enum import StrEnum
 import numpy as np
 
 from ..arrays import Floats
+from .mechanisms import Mechanism
 from .outer_skin import OuterSkin, smoothstep
 from .template import MM
 
@@ -143,10 +144,11 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
     middle = np.exp(-(((along - 0.4) / 0.5) ** 2))
     drawn = on_lower * (1.0 - smoothstep(lower / (14 * MM))) * _taper(along + 0.05, (1.18, 0.2))
     slides: dict[LidMove, Floats] = {move: np.zeros(skin.vertex_count) for move in LidMove}
-    slides[LidMove.UPPER_CLOSE] = (
-        radius * middle * (NASAL_SLIDE_UPPER * weights[LidMove.UPPER_CLOSE] + NASAL_SLIDE_LOWER * drawn)
-    )
-    slides[LidMove.LOWER_UP] = NASAL_SLIDE_RISING * radius * weights[LidMove.LOWER_UP] * middle
+    if skin.has(Mechanism.LID_SLIDE):
+        slides[LidMove.UPPER_CLOSE] = (
+            radius * middle * (NASAL_SLIDE_UPPER * weights[LidMove.UPPER_CLOSE] + NASAL_SLIDE_LOWER * drawn)
+        )
+        slides[LidMove.LOWER_UP] = NASAL_SLIDE_RISING * radius * weights[LidMove.LOWER_UP] * middle
     per_metre = {}
     for move in LidMove:
         point = top if _MOVES[move][0] == "upper" else bottom

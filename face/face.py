@@ -26,6 +26,7 @@ from .checks import (
 )
 from .frame import Fapu, fapu, head_frame
 from .measure import features, measure
+from .mechanisms import EVERY, Mechanism, named
 from .muscle_fields import PlacedMuscle
 from .natural import EmotionShares
 from .parts import Part
@@ -46,9 +47,9 @@ class Clip:
 class Face:
     """One face. Make it with `from_arrays`; nothing in it changes afterwards."""
 
-    def __init__(self, vertices: Floats, face_mesh: Mesh) -> None:
+    def __init__(self, vertices: Floats, face_mesh: Mesh, mechanisms: frozenset[Mechanism] = EVERY) -> None:
         self._vertices = vertices
-        self.anatomy = Anatomy(face_mesh)
+        self.anatomy = Anatomy(face_mesh, mechanisms)
 
     @classmethod
     def from_arrays(
@@ -88,6 +89,23 @@ class Face:
             bound = bind_points(sources, array, triangles, given == Part.SKIN)
         face_mesh = Mesh(head, faces, given, bound, landmarks, frame, units)
         return cls(array, face_mesh)
+
+    def without(self, *mechanisms: str | Mechanism) -> Face:
+        """The same face with some mechanisms left out, to show what each is worth.
+
+        `face.without(*ADDITIONS)` is the second paper's model alone: biphasic membrane springs and its three classes of
+        muscles, tied evenly to the bone.
+
+        Raises
+        ------
+        ParameterError : an unknown mechanism; lists the known ones.
+        """
+        return Face(self._vertices, self.anatomy.mesh, self.mechanisms - named(mechanisms))
+
+    @property
+    def mechanisms(self) -> frozenset[Mechanism]:
+        """What this face has and has not been left out by `without`."""
+        return self.anatomy.mechanisms
 
     @property
     def vertices(self) -> Floats:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..physics.elastic import Factor, elastic_matrix
+from .mechanisms import Mechanism
 from .outer_skin import OuterSkin, smoothstep
 from .template import MM, TEMPLATE_POINTS, TemplateWarp
 
@@ -115,6 +116,8 @@ def build_jaw(skin: OuterSkin, warp: TemplateWarp) -> Jaw:
     ears = [points[n] if n in points else warp(TEMPLATE_POINTS[n]) for n in ("10.7", "10.8")]
     hinge = (ears[0] + ears[1]) / 2.0 + HINGE_FROM_EAR
     hinge[0] = (points["8.3"][0] + points["8.4"][0]) / 2.0
+    if not skin.has(Mechanism.JAW):
+        return Jaw(hinge, np.zeros(skin.vertex_count), np.zeros((skin.vertex_count, 3)))
     mask = mandible_mask(skin)
     y = skin.positions[:, 1]
     held = 0.02 * smoothstep((y + 5 * MM) / (20 * MM)) + 0.02 * smoothstep((-y - 105 * MM) / (20 * MM))
@@ -130,6 +133,8 @@ def build_jaw(skin: OuterSkin, warp: TemplateWarp) -> Jaw:
 
 def _floor_bulge(skin: OuterSkin, warp: TemplateWarp) -> Floats:
     """(n, 3) bulge of the floor of the mouth per squared sine of the opening angle."""
+    if not skin.has(Mechanism.FLOOR):
+        return np.zeros_like(skin.positions)
     away = (skin.positions - warp(FLOOR_CENTRE)) / FLOOR_EXTENT
     window = np.exp(-(away[:, 0] ** 4) - away[:, 1] ** 2 - away[:, 2] ** 2)
     below = smoothstep((skin.points["2.3"][1] - 12 * MM - skin.positions[:, 1]) / (15 * MM))

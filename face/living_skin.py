@@ -7,6 +7,7 @@ of this skin under the muscles' forces, whose springs stiffen where they are str
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +18,7 @@ from ..physics.skin import Skin
 from ..physics.tissue import tissue as tissue_of
 from . import regions
 from .actuators import Actuators, Amounts
+from .mechanisms import Mechanism
 from .outer_skin import OuterSkin
 from .tissue import Tissue
 
@@ -31,10 +33,11 @@ def living_skin(sheet: OuterSkin, tissue: str = "default") -> Skin:
     ------
     ParameterError : an unknown tissue.
     """
+    figures = tissue_of(tissue)
     return Skin.from_mesh(
         sheet.positions,
         sheet.polygons,
-        tissue_of(tissue),
+        figures if sheet.has(Mechanism.BIPHASIC) else replace(figures, stiffening=1.0),
         anchor=regions.anchor(sheet),
         bending=regions.bending(sheet),
     )
@@ -74,5 +77,7 @@ class Relaxation:
         """
         if not amounts.muscles.any():
             return np.zeros_like(self.sheet.positions)
+        if not self.sheet.has(Mechanism.BIPHASIC):
+            return self.actuators.muscular(amounts)
         shown: Floats = self.tissue.show((self.settle(amounts) - self.sheet.positions)[None])[0]
         return shown

@@ -9,6 +9,7 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ModelError
 from ..physics.muscles import LinearMuscle, Muscle, SheetMuscle, SphincterMuscle
+from .mechanisms import Mechanism
 from .muscle_table import Kind, MuscleRow, Region, Sides
 from .outer_skin import OuterSkin, smoothstep
 from .regions import off_lips, sliding
@@ -150,11 +151,14 @@ def _sheet(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     across = across - axis * (across @ axis)
     width = float(np.linalg.norm(across))
     paper: Muscle = SheetMuscle(attachment, insertion, length=row.reach * length, exponent=row.exponent)
+    if not skin.has(Mechanism.FADING):
+        return paper.force(skin.positions)
     away = skin.positions - origin
     latitude = np.abs(away @ (across / width)) / (width / 2.0)
     window = np.cos(np.minimum(latitude, 1.0) ** 4 * np.pi / 2.0)
     along = away @ axis / length
-    back = row.reaction * np.exp(-(((along - row.reaction_at) / 0.3) ** 2))
+    reaction = row.reaction if skin.has(Mechanism.SCALP) else 0.0
+    back = reaction * np.exp(-(((along - row.reaction_at) / 0.3) ** 2))
     deep = np.exp(-((np.abs(away @ np.cross(axis, across / width)) / (40 * MM)) ** 4))
     force = paper.force(skin.positions) + back[:, None] * axis
     return _tangential(skin, force * (window * deep)[:, None])
@@ -178,6 +182,8 @@ def _sphincter(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     paper: Muscle = SphincterMuscle(
         muscle.middle, np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), semi_major=wide, semi_minor=high
     )
+    if not skin.has(Mechanism.FADING):
+        return paper.force(skin.positions)
     radius, _ = _elliptic_radius(skin, muscle)
     toward = muscle.middle - skin.positions
     toward = toward / np.maximum(np.linalg.norm(toward, axis=1, keepdims=True), 1e-9)

@@ -1,4 +1,4 @@
-"""The table of muscles: presets/anatomy/muscles.toml as frozen rows, checked once."""
+"""The table of muscles: presets/anatomy/muscles/, a file per group, as frozen rows, checked once."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import FormatError
+from .mechanisms import MUSCLE_GROUPS, Mechanism
 from .tables import read_toml
 from .template import ANATOMY, MM, TEMPLATE_POINTS
 
@@ -30,6 +31,10 @@ class Kind(StrEnum):
     BAND = "band"
     ARCH = "arch"
     PRESSURE = "pressure"
+
+
+#: The classes of Zhang, Sung, Prakash 2001.
+PAPER_KINDS = (Kind.LINEAR, Kind.SHEET, Kind.SPHINCTER)
 
 
 class Sides(StrEnum):
@@ -53,13 +58,14 @@ class Region(StrEnum):
 
 @dataclass(frozen=True)
 class MuscleRow:
-    """One row: left side, template head space, metres and radians.
+    """One row: left side, template head space, metres and radians; `mechanism` is the group that it belongs to.
 
     `attachment` and `insertion` are (3,) for a linear muscle and (2, 3) for a sheet; the other kinds have a `centre`.
     Figures that a kind does not use are 0.
     """
 
     name: str
+    mechanism: Mechanism
     title: str
     kind: Kind
     au: str
@@ -111,7 +117,7 @@ def _place(path: Path, key: str, entry: Any) -> Floats:
     return TEMPLATE_POINTS[point] + np.array(offset, dtype=np.float64) * OFFSET_UNITS
 
 
-def _row(path: Path, name: str, raw: Mapping[str, Any]) -> MuscleRow:
+def _row(path: Path, mechanism: Mechanism, name: str, raw: Mapping[str, Any]) -> MuscleRow:
     """One checked row."""
     key = f"muscles.{name}"
     try:
@@ -132,6 +138,7 @@ def _row(path: Path, name: str, raw: Mapping[str, Any]) -> MuscleRow:
     }
     return MuscleRow(
         name=name,
+        mechanism=mechanism,
         title=str(raw["title"]),
         kind=kind,
         au=str(raw["au"]),
@@ -154,12 +161,37 @@ def _row(path: Path, name: str, raw: Mapping[str, Any]) -> MuscleRow:
     )
 
 
-def read_muscles(path: Path = ANATOMY / "muscles.toml") -> dict[str, MuscleRow]:
-    """The rows of a muscle table by name.
+def _group(path: Path, raw: Mapping[str, Any]) -> Mechanism:
+    """The group that a table says it is."""
+    name = raw.get("mechanism")
+    if name not in MUSCLE_GROUPS:
+        raise FormatError(path, f"must be one of {', '.join(MUSCLE_GROUPS)}, not {name!r}", key="mechanism")
+    return Mechanism(name)
+
+
+def read_muscles(path: Path = ANATOMY / "muscles") -> dict[str, MuscleRow]:
+    """The rows of a table of muscles by name; `path` is a file, or a folder of them.
 
     Raises
     ------
     FormatError : names the file, the key and the rule that is broken.
     """
-    raw = read_toml(path)
-    return {name: _row(path, name, row) for name, row in raw.get("muscles", {}).items()}
+    rows: dict[str, MuscleRow] = {}
+    for file in sorted(path.glob("*.toml")) if path.is_dir() else [path]:
+        raw = read_toml(file)
+        mechanism = _group(file, raw)
+        for name, row in raw.get("muscles", {}).items():
+            if name in rows:
+                raise FormatError(file, f"is also a muscle of the group {rows[name].mechanism}", key=f"muscles.{name}")
+            rows[name] = _row(file, mechanism, name, row)
+    return rows
+
+
+def muscles_of(mechanisms: frozenset[Mechanism]) -> dict[str, MuscleRow]:
+    """The built-in rows whose group, and whose kind where it is not the paper's, is among some mechanisms."""
+    flat = Mechanism.FLAT_PULLS in mechanisms
+    return {
+        name: row
+        for name, row in read_muscles().items()
+        if row.mechanism in mechanisms and (flat or row.kind in PAPER_KINDS)
+    }

@@ -13,11 +13,13 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import cKDTree
 
 from ..arrays import Floats, Ints
 from ..physics import mesh
 from ..physics.elastic import Factor, diagonal_matrix, laplacian
 from ..physics.mesh import Sparse
+from .mechanisms import EVERY, Mechanism
 from .openings import Opening
 
 
@@ -39,6 +41,7 @@ class OuterSkin:
     polygons : sequence of local vertex index arrays.
     points : feature point -> (3,) position in head space.
     mouth, eyes : the openings, in local vertex numbers; eyes by "l" and "r".
+    mechanisms : those that this skin has; what is built on it leaves the others out.
     """
 
     index: Ints
@@ -47,7 +50,12 @@ class OuterSkin:
     points: Mapping[str, Floats]
     mouth: Opening
     eyes: Mapping[str, Opening]
+    mechanisms: frozenset[Mechanism] = EVERY
     _cache: dict[str, Floats] = field(default_factory=dict, repr=False)
+
+    def has(self, mechanism: Mechanism) -> bool:
+        """Whether a mechanism has not been left out."""
+        return mechanism in self.mechanisms
 
     @property
     def vertex_count(self) -> int:
@@ -79,7 +87,13 @@ class OuterSkin:
         return sparse.csr_array(half + half.T)
 
     def distance_from(self, sources: Ints) -> Floats:
-        """(n,) distance along the skin from the nearest of some vertices, metres; far pieces count as 1 m away."""
+        """(n,) distance along the skin from the nearest of some vertices, metres; far pieces count as 1 m away.
+
+        Without `Mechanism.SEPARATION` it goes through the air, where one lip is as near as the other.
+        """
+        if not self.has(Mechanism.SEPARATION):
+            through_the_air, _ = cKDTree(self.positions[sources]).query(self.positions)
+            return np.minimum(np.asarray(through_the_air, dtype=np.float64), 1.0)
         distance = dijkstra(self.graph, directed=False, indices=np.unique(sources), min_only=True)
         return np.minimum(distance, 1.0)
 

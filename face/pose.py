@@ -13,11 +13,11 @@ from ..errors import ParameterError
 from .actuators import LID_AMPLITUDES, LID_NAMES, Amounts
 from .anatomy import Anatomy
 from .contact import Contact, lip_share
-from .eyes import LidMove
 from .folds import Folds
 from .inverse import EXACT_NOISE
 from .jaw import JawMotion
 from .measure import measure
+from .mechanisms import Mechanism
 from .natural import EmotionShares, Natural, Plan
 from .wishes import ASKED_DOUBT, LIP_DOUBT, LIP_FAPS, SILENT_DOUBT, Drive, exact_wish, fill, lip_middles, natural_wish
 
@@ -61,7 +61,7 @@ class Poser:
     def __init__(self, anatomy: Anatomy, *, folds: bool = True) -> None:
         self.anatomy = anatomy
         self.natural = Natural()
-        self.with_folds = folds
+        self.with_folds = folds and Mechanism.FOLDS in anatomy.mechanisms
 
     @cached_property
     def contact(self) -> Contact:
@@ -109,7 +109,8 @@ class Poser:
         actuators = self.anatomy.actuators
         muscles, lids, jaw = amounts.muscles.copy(), dict(amounts.lids), amounts.jaw
         index = {muscle.name: i for i, muscle in enumerate(actuators.muscles)}
-        lid_index = {f"{LID_NAMES[move]}_{side}": (side, move) for side in "lr" for move in LidMove}
+        lid_index = {f"{LID_NAMES[move]}_{side}": (side, move) for side, move in actuators.lid_moves}
+        hinge = ["jaw_open"] if Mechanism.JAW in self.anatomy.mechanisms else []
         for name, value in contractions.items():
             if not 0.0 <= value <= 1.0:
                 raise ParameterError(f"contraction of {name}", "must lie in 0..1", value)
@@ -117,10 +118,10 @@ class Poser:
                 muscles[index[name]] = value * actuators.muscles[index[name]].amplitude
             elif name in lid_index:
                 lids[lid_index[name]] = value * LID_AMPLITUDES[lid_index[name][1]]
-            elif name == "jaw_open":
+            elif name in hinge:
                 jaw = JawMotion(value * float(actuators.upper[-3]) / actuators.chin_lever, jaw.left, jaw.forward)
             else:
-                known = ", ".join(sorted([*index, *lid_index, "jaw_open"]))
+                known = ", ".join(sorted([*index, *lid_index, *hinge]))
                 raise ParameterError("muscle", f"must be one of {known}", name)
         return Amounts(muscles, lids, jaw)
 
@@ -135,23 +136,27 @@ class Poser:
         elastic = anatomy.relaxation.muscular(amounts)
         if drive is Drive.MUSCLES:
             return SkinState(self.contact.settle(kinematic + elastic), elastic, amounts.jaw)
-        target, doubts = self._targets(frame, plan)
         share = lip_share(frame if plan is None else plan.asked)
         shown = self.contact.settle(kinematic + elastic, share)
+        if Mechanism.CORRECTION not in anatomy.mechanisms:
+            return SkinState(shown + self._folded(shown, plan), elastic, amounts.jaw)
+        target, doubts = self._targets(frame, plan)
         for number in range(1, CORRECTION_ROUNDS + 1):
             change = inverse.correction(target - np.asarray(inverse.matrix @ shown.ravel()), doubts)
             elastic = elastic + change
             shown = shown + change
             if plan is not None:
                 shown = self.contact.settle(shown, share)
-                return SkinState(shown + self._folded(shown), elastic, amounts.jaw)
+                return SkinState(shown + self._folded(shown, plan), elastic, amounts.jaw)
             if number < CORRECTION_ROUNDS:
                 shown = self.contact.clear_eyes(shown)
         return SkinState(shown, elastic, amounts.jaw)
 
-    def _folded(self, displacement: Floats) -> Floats:
-        """What folds add to a displacement (n, 3)."""
-        return self.folds.displacement(displacement) if self.with_folds else np.zeros_like(displacement)
+    def _folded(self, displacement: Floats, plan: Plan | None) -> Floats:
+        """What folds add to a displacement (n, 3); in the natural mode only."""
+        if plan is None or not self.with_folds:
+            return np.zeros_like(displacement)
+        return self.folds.displacement(displacement)
 
     def _targets(self, frame: Floats, plan: Plan | None) -> tuple[Floats, Floats]:
         """Row targets and doubts (m,) of the elastic correction."""

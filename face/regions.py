@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats
+from .mechanisms import Mechanism
 from .outer_skin import OuterSkin, smoothstep
 
 MM = 1e-3
@@ -51,6 +52,8 @@ def chin_pad(skin: OuterSkin) -> Floats:
 
 def bending(skin: OuterSkin) -> Floats:
     """(n,) squared bending length, m^2: how far a pull at one point spreads; lids are thin."""
+    if not skin.has(Mechanism.BENDING):
+        return np.zeros(skin.vertex_count)
     return BENDING_LENGTH**2 * (1.0 - (1.0 - LID_BENDING) * near_lids(skin))
 
 
@@ -68,6 +71,8 @@ def anchor(skin: OuterSkin) -> Floats:
 
     Zhang et al. 2001 name the skull as future work; a bare membrane has nothing to hold it.
     """
+    if not skin.has(Mechanism.FIRMNESS):
+        return np.full(skin.vertex_count, 1.0 / ANCHOR_LENGTH**2)
     y = skin.positions[:, 1]
     brow = (skin.points["4.3"][1] + skin.points["4.4"][1]) / 2.0
     held = 0.02 * smoothstep((y - brow) / (20 * MM))
@@ -81,11 +86,15 @@ def anchor(skin: OuterSkin) -> Floats:
 
 def sliding(skin: OuterSkin) -> Floats:
     """(n,) share of motion along the normal that the bone takes away: skin slides over the skull."""
+    if not skin.has(Mechanism.SLIDING):
+        return np.zeros(skin.vertex_count)
     free = off_lips(skin) * (1.0 - gaussian(skin.positions, skin.points["9.3"], 16 * MM))
     return SLIDE * free * (1.0 - 0.7 * chin_pad(skin))
 
 
 def bulging(skin: OuterSkin) -> Floats:
     """(n,) bulge height per unit of surface compression, metres: tissue keeps its volume."""
+    if not skin.has(Mechanism.BULGE):
+        return np.zeros(skin.vertex_count)
     free = off_lips(skin) * (1.0 - gaussian(skin.positions, skin.points["9.3"], 16 * MM))
     return BULGE * free * (1.0 - near_lids(skin))

@@ -7,7 +7,6 @@ it is squeezed. Every muscle field and every correction goes through W.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -88,6 +87,8 @@ class Tissue:
 
     def show(self, fields: Floats) -> Floats:
         """W v: sheet fields (n, 3) or (k, n, 3) as what the face shows, same shape, metres."""
+        if not fields.size:
+            return fields
         flat = fields.reshape(-1, self.skin.vertex_count, 3)
         normals = self.skin.normals
         slid = flat - (self._slide * normals) * (flat * normals).sum(axis=2, keepdims=True)
@@ -116,10 +117,7 @@ class Tissue:
 def _solve_fields(factor: Factor, forces: Floats) -> Floats:
     """Solve for k vector fields (k, n, 3) at once."""
     k, n, _ = forces.shape
+    if k == 0:
+        return forces
     columns = forces.transpose(1, 0, 2).reshape(n, 3 * k)
     return factor.solve(np.ascontiguousarray(columns)).reshape(n, k, 3).transpose(1, 0, 2)
-
-
-def stack(fields: Sequence[Floats]) -> Floats:
-    """(k, n, 3) from k fields (n, 3)."""
-    return np.stack(list(fields)) if fields else np.zeros((0, 0, 3))
