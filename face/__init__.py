@@ -3,7 +3,8 @@
 checks, frame, points, parts, segmentation       what is given, where the face is, what its vertices are
 openings, outer_skin, regions, tissue, followers the skin as an elastic sheet, and what follows it
 template, tables, muscle_table, muscle_fields    the muscles, written on the template, placed on the face
-jaw, eyes, organs, actuators, anatomy            what else moves, and all of it together
+mechanisms                                       what moves a face, one file each, and the switch
+organs, actuators, anatomy                       what else moves, and all of it together
 rows, inverse, nonnegative                       from FAPs to contractions
 natural, synergies, wishes                       what a face does when asked for a few FAPs
 measure, pose, simulate, face                    the public `Face`

@@ -13,9 +13,9 @@ import numpy as np
 
 from ..arrays import Floats
 from ..physics.mesh import Sparse
-from .eyes import Eye, LidMove
-from .jaw import Jaw, JawMotion
 from .mechanisms import Mechanism
+from .mechanisms.jaw import Jaw, JawMotion
+from .mechanisms.lids import Eye, LidMove
 from .muscle_fields import PlacedMuscle, force_density
 from .outer_skin import OuterSkin
 from .template import MM

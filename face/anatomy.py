@@ -13,13 +13,13 @@ from ..errors import ModelError
 from ..physics import mesh
 from ..physics.elastic import laplacian
 from .actuators import Actuators
-from .eyes import Eye, build_eye
 from .followers import InnerSkin, LooseParts
 from .frame import Fapu, HeadFrame
 from .inverse import Inverse
-from .jaw import Jaw, build_jaw
 from .living_skin import Relaxation
 from .mechanisms import EVERY, Mechanism
+from .mechanisms.jaw import Jaw, build_jaw
+from .mechanisms.lids import Eye, build_eye
 from .muscle_fields import PlacedMuscle, place_muscles
 from .muscle_table import muscles_of
 from .openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, edge_graph, find_opening, outer_faces

@@ -17,8 +17,8 @@ from scipy.spatial import cKDTree
 
 from ..arrays import Floats, Ints
 from ..physics.mesh import Sparse
-from .eyes import Eye
 from .mechanisms import Mechanism
+from .mechanisms.lids import Eye
 from .openings import Opening
 from .outer_skin import OuterSkin, smoothstep
 from .template import MM

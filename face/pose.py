@@ -15,9 +15,9 @@ from .anatomy import Anatomy
 from .contact import Contact, lip_share
 from .folds import Folds
 from .inverse import EXACT_NOISE
-from .jaw import JawMotion
 from .measure import measure
 from .mechanisms import Mechanism
+from .mechanisms.jaw import JawMotion
 from .natural import EmotionShares, Natural, Plan
 from .wishes import ASKED_DOUBT, LIP_DOUBT, LIP_FAPS, SILENT_DOUBT, Drive, exact_wish, fill, lip_middles, natural_wish
 

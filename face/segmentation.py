@@ -9,7 +9,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Floats, Ints
-from .eyes import fit_sphere
+from .mechanisms.lids import fit_sphere
 from .mouth_parts import mouth_part, split_gums, split_tongue
 from .parts import Part
 from .template import MM

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from risorius.api import Face
-from risorius.face.eyes import LidMove
+from risorius.face.mechanisms.lids import LidMove
 
 FACES = ["default", "ict", "makehuman"]
 

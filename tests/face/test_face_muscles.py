@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from risorius.api import Face, Part
 from risorius.errors import ModelError
-from risorius.face.eyes import LidMove
+from risorius.face.mechanisms.lids import LidMove
 from risorius.face.muscle_fields import force_density, place_muscles
 from risorius.face.muscle_table import Kind, Region, read_muscles
 from scipy.spatial.transform import Rotation

@@ -12,10 +12,10 @@ from enum import StrEnum
 
 import numpy as np
 
-from ..arrays import Floats
-from .mechanisms import Mechanism
-from .outer_skin import OuterSkin, smoothstep
-from .template import MM
+from ...arrays import Floats
+from ..outer_skin import OuterSkin, smoothstep
+from ..template import MM
+from .switch import Mechanism
 
 #: Centre of the eyeball behind the middle of the two eye corners, template head space: inwards, up, forward (metres).
 CENTRE_FROM_CORNERS = np.array([0.9, 1.5, -9.5]) * MM

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Floats
-from ..physics.elastic import Factor, elastic_matrix
-from .mechanisms import Mechanism
-from .outer_skin import OuterSkin, smoothstep
-from .template import MM, TEMPLATE_POINTS, TemplateWarp
+from ...arrays import Floats
+from ...physics.elastic import Factor, elastic_matrix
+from ..outer_skin import OuterSkin, smoothstep
+from ..template import MM, TEMPLATE_POINTS, TemplateWarp
+from .switch import Mechanism
 
 #: The axis lies this far from the ear's lower contact 10.7, head space, metres.
 HINGE_FROM_EAR = np.array([0.0, 10.0, -1.0]) * MM
