@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import risorius.api as api
 from risorius.api import Face, Part
-from risorius.arrays import Floats, Ints
+from risorius.arrays import Bools, Floats, Ints
 from risorius.errors import FormatError, ParameterError
 from risorius.face.points import PointSource
 from risorius.face.segmentation import pieces
@@ -22,7 +22,7 @@ ICT_SKIN = 11248
 IDENTITIES = tuple(f"identity-{number}" for number in range(6))
 HEADS = ("default", "ict", "makehuman", *IDENTITIES)
 
-_TEETH = 3
+_TEETH, _LASHES = 3, 6
 _PARTS = {0: Part.SKIN, 5: Part.SKIN, 7: Part.SKIN, 1: Part.EYEBALL_L, 2: Part.EYEBALL_R, 4: Part.TONGUE}
 
 
@@ -55,7 +55,7 @@ def _labelled_face(name: str) -> Face:
     """The face of a shared head, parts by its labels."""
     folder = heads_folder()
     identity = IDENTITIES.index(name) if name in IDENTITIES else None
-    mesh = "ict" if identity is not None else name
+    mesh = _mesh(name)
     data = np.load(folder / f"{mesh}.npz")
     facts = json.loads((folder / f"{mesh}.fp.json").read_text(encoding="utf-8"))
     vertices, labels = data["vertices"].astype(np.float64), data["labels"].astype(np.int64)
@@ -68,6 +68,17 @@ def _labelled_face(name: str) -> Face:
     polygons = np.split(data["loops"].astype(np.int64), np.cumsum(data["face_sizes"])[:-1])
     between_teeth = float(vertices[facts["points"]["2.3"], 2]) - 3 * MM
     return Face.from_arrays(vertices, polygons, points, _parts(vertices, polygons, labels, between_teeth))
+
+
+def _mesh(name: str) -> str:
+    """The file of a shared head: identities are other shapes of the ICT mesh."""
+    return "ict" if name in IDENTITIES else name
+
+
+def lash_vertices(name: str) -> Bools:
+    """(V,) which vertices of a shared head are lashes: strips that need a texture to look like hair."""
+    lashes: Bools = np.load(heads_folder() / f"{_mesh(name)}.npz")["labels"] == _LASHES
+    return lashes
 
 
 def _parts(vertices: Floats, polygons: list[Ints], labels: Ints, between_teeth: float) -> Ints:

@@ -1,0 +1,120 @@
+"""The figures as a page of Markdown tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .baselines import ZONE_RADIUS
+from .figures import Requests
+
+Explained = Mapping[str, float]
+
+#: A shape falls by at least this much to be named in the table of mechanisms.
+FALL = 0.01
+
+HEADING = f"""# How faithful the faces are
+
+Written by `make bench-faithful ARGS="--page docs/faithful.md"` (`tools/bench_faithful.py`); do not edit.
+
+**Explained variance**: the FAPs of an expression are measured on it, the neutral face is posed from these alone (exact
+drive), and 1 − Σ|posed − expression|² / Σ|expression|² over the skin says what came back. The expressions are the
+scanned shapes of the ICT FaceKit that FAPs speak of, one of each mirrored pair; other identities bear the same motions.
+The muscle table was calibrated on these very shapes, so new actions fare worse ([muscles](muscles.md)).
+
+Beside it stand ways of moving a face that know its feature points only: *zones*, raised-cosine zones of
+{ZONE_RADIUS * 1e3:.0f} mm round each point, overlaps shared, as players of FAP streams have them; *spline*, the
+biharmonic (thin-plate) spline through all points, those without FAP at rest; *points*, this skin without muscles, jaw
+and lids (`drive="points"`).
+"""
+
+
+@dataclass(frozen=True)
+class Results:
+    """All that was measured; what was not is empty. Explained variances are by shape."""
+
+    scans: Mapping[str, Explained]
+    baselines: Mapping[str, Explained]
+    drives: Mapping[str, Explained]
+    without: Mapping[str, Explained]
+    drawings: Explained
+    requests: Mapping[str, Requests]
+
+
+def page(results: Results) -> str:
+    """The whole page."""
+    parts = [HEADING]
+    if results.scans:
+        parts.append("## Per shape and head\n\n" + _per_shape({**results.scans, **results.baselines}))
+    if results.without:
+        parts.append(_mechanisms(results))
+    if results.drawings:
+        parts.append(_drawings(results.drawings))
+    if results.requests:
+        parts.append(_requests(results.requests))
+    return "\n".join(parts)
+
+
+def summary(explained: Explained) -> tuple[float, float, float]:
+    """Median, mean and least."""
+    values = np.array(list(explained.values()))
+    return float(np.median(values)), float(values.mean()), float(values.min())
+
+
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A Markdown table."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _per_shape(columns: Mapping[str, Explained]) -> str:
+    """One row per shape, one column per head or way of moving it."""
+    shapes = list(next(iter(columns.values())))
+    rows = [[shape, *(f"{explained[shape]:.2f}" for explained in columns.values())] for shape in shapes]
+    for place, name in enumerate(("median", "mean", "least")):
+        rows.append([f"**{name}**", *(f"{summary(explained)[place]:.3f}" for explained in columns.values())])
+    return _table(["", *(name.replace("identity-", "id ") for name in columns)], rows)
+
+
+def _mechanisms(results: Results) -> str:
+    """One row per mechanism left out, nothing refitted."""
+    whole = results.scans["ict"]
+    rows = []
+    for name, explained in {"nothing": whole, **results.without, **results.drives}.items():
+        median, mean, least = summary(explained)
+        changes = sorted((explained[shape] - whole[shape], shape) for shape in whole)
+        falls = ", ".join(f"{shape} {change:+.2f}" for change, shape in changes[:3] if change <= -FALL)
+        rows.append([name, f"{median:.3f}", f"{mean:.3f}", f"{least:.2f}", falls.replace("-", "−")])
+    introduction = "## Per mechanism left out\n\nOn the scanned head; nothing is refitted in a row.\n\n"
+    return introduction + _table(["left out", "median", "mean", "least", "falls most"], rows)
+
+
+def _drawings(explained: Explained) -> str:
+    """MakeHuman's face units."""
+    median, mean, _ = summary(explained)
+    rows = [[name, f"{value:.2f}"] for name, value in explained.items()]
+    introduction = (
+        "## MakeHuman's face units\n\nDrawn by hand, without the neighbours that scans show going along (lids, inner"
+        " brow): a check of\ntransfer, not of truth. One of each mirrored pair, those that move a feature point.\n"
+        f"Median {median:.3f}, mean {mean:.3f}.\n\n"
+    )
+    return introduction + _table(["unit", "explained"], rows)
+
+
+def _requests(requests: Mapping[str, Requests]) -> str:
+    """Exact and natural errors per head."""
+    kinds = list(next(iter(requests.values())).natural)
+    exact = [[head, *(f"{100 * share:.2f} %" for share in found.exact)] for head, found in requests.items()]
+    natural = [
+        [head, *(f"{100 * found.natural[kind][0]:.0f} %, {100 * found.natural[kind][1]:.0f} %" for kind in kinds)]
+        for head, found in requests.items()
+    ]
+    return (
+        "## Requests\n\nErrors are shares of the request, or of 100 units where less is asked. Exact drive, the 25"
+        " profiles of Table 5:\n\n" + _table(["head", "median", "95 %", "largest"], exact) + "\nNatural drive, the 25"
+        " profiles of Table 5 and the fourteen words of Table 6 (their emotion is known): median error,\nand the share"
+        " of requests met within 10 %. *In the range*: inside the FAP's anatomical range (`ranges.csv`); *its\n"
+        "unchanged part*: where the range lets a request pass as it is.\n\n" + _table(["head", *kinds], natural)
+    )

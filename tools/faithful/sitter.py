@@ -1,0 +1,102 @@
+"""A face as a Blender object that takes any positions and is pictured in them."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from dataclasses import replace
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+import risorius.api as api
+from risorius.api import Face
+from risorius.arrays import Floats
+from risorius.scene import mesh as meshes
+from risorius.scene.faces import store_points
+from risorius.scene.framing import Framing, framing_of
+from risorius.scene.head import head_object
+from risorius.scene.lettering import read_picture
+from risorius.scene.studio import Look, render_frame, studio
+from risorius.scene.subjects import paint_parts
+
+from .heads import lash_vertices
+
+#: The face fills the picture: of the height that a portrait shows, this much, about a centre so much lower and deeper.
+CLOSENESS, LOWER, DEEPER = 0.76, 0.045, 0.14
+
+_COLOUR = "faithful"
+
+
+class View(StrEnum):
+    """Where the camera stands."""
+
+    FRONT = "front"
+    THREE_QUARTER = "three-quarter"
+
+    @property
+    def yaw(self) -> float:
+        """How far to the subject's left, radians."""
+        return 0.0 if self is View.FRONT else float(np.radians(38.0))
+
+
+class Sitter:
+    """One face in an otherwise empty Blender file."""
+
+    def __init__(self, name: str, face: Face, *, width: int = 360, height: int = 432, fine: bool = False) -> None:
+        """`name` as in `HEADS`; `width` and `height` of its pictures in pixels, even; `fine` as in `Look`."""
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        if name == "default":
+            self._object = head_object(api.build_default_head(), name)
+            bpy.context.collection.objects.link(self._object)
+        else:
+            self._object = _plain_object(name, face)
+        self._look = Look(width=width, height=height, fine=fine)
+        framing = framing_of(self._object)
+        centre = framing.point(0.0, -LOWER, -DEEPER)
+        self._framing: Framing = replace(framing, centre=centre, height=CLOSENESS * framing.height)
+
+    def shots(self, poses: Sequence[Floats], view: View, colours: Sequence[Floats] | None = None) -> list[Floats]:
+        """Pictures (height, width, 3) of poses (V, 3) in the face's coordinates.
+
+        `colours`, one (V, 3) linear RGB per pose, take the place of the materials.
+        """
+        mesh = self._object.data
+        pictures = []
+        look = replace(self._look, yaw=view.yaw)
+        with (
+            tempfile.TemporaryDirectory(prefix="risorius-") as folder,
+            studio([self._object], self._framing, look) as scene,
+        ):
+            if colours is not None:
+                scene.display.shading.color_type = "VERTEX"
+            for number, positions in enumerate(poses, 1):
+                mesh.vertices.foreach_set("co", np.ascontiguousarray(positions, dtype=np.float32).ravel())
+                if colours is not None:
+                    _paint(mesh, colours[number - 1])
+                mesh.update()
+                pictures.append(read_picture(render_frame(scene, number, Path(folder))))
+        return pictures
+
+
+def _plain_object(name: str, face: Face) -> Any:
+    """An object for a face that brings no materials, coloured by its parts, in the scene; lash strips are not drawn."""
+    lashes = lash_vertices(name)
+    drawn = [polygon for polygon in face.polygons if not lashes[polygon[0]]]
+    mesh = meshes.new_mesh(name, face.vertices, *meshes.flatten_polygons(drawn))
+    meshes.write_parts(mesh, face.parts)
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.collection.objects.link(obj)
+    store_points(obj, {n: tuple(point.position.tolist()) for n, point in face.points.items()})
+    paint_parts(obj)
+    return obj
+
+
+def _paint(mesh: Any, colours: Floats) -> None:
+    """Store (V, 3) linear RGB as the mesh's active colours."""
+    layer = mesh.color_attributes.get(_COLOUR) or mesh.color_attributes.new(_COLOUR, "FLOAT_COLOR", "POINT")
+    mesh.color_attributes.active_color = layer
+    rgba = np.concatenate([colours, np.ones((len(colours), 1))], axis=1)
+    layer.data.foreach_set("color", np.ascontiguousarray(rgba, dtype=np.float32).ravel())
