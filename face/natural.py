@@ -17,7 +17,7 @@ import numpy as np
 from ..arrays import Bools, Floats
 from ..mpeg4 import FAP_COUNT, Archetype, recognise
 from .nonnegative import bounded_least_squares
-from .synergies import Synergies, load_synergies, mirror_fap
+from .synergies import Synergies, load_synergies, mirror_fap, mirror_frame
 
 #: Archetype -> share of an expression, 0..1; an `Archetype` is its own name (a StrEnum).
 EmotionShares: TypeAlias = Mapping[Archetype, float] | Mapping[str, float]
@@ -155,8 +155,13 @@ class Known:
 
     @classmethod
     def by_sight(cls, request: Floats) -> Known:
-        """What the paper's recogniser (section 5) makes of a request (68,) whose word is not known."""
-        evidence = {str(name): float(belief) ** 2 for name, belief in recognise(request).items()}
+        """What the paper's recogniser (section 5) makes of a request (68,) whose word is not known.
+
+        Some of the paper's profiles differ a little from left to right. A face and its mirror image show the same
+        emotion, so both are looked at.
+        """
+        seen, mirrored = recognise(request), recognise(mirror_frame(request))
+        evidence = {str(name): (float(belief) ** 2 + float(mirrored[name]) ** 2) / 2.0 for name, belief in seen.items()}
         total = sum(evidence.values())
         if total <= 0.0:
             return cls({}, 0.0)

@@ -22,6 +22,9 @@ from ..physics.mesh import Sparse
 from .mechanisms import EVERY, Mechanism
 from .openings import Opening
 
+#: So far behind the pupils lies the middle of any head, from which its skin faces away, metres.
+BEHIND_THE_EYES = 0.06
+
 
 def smoothstep(t: Floats) -> Floats:
     """3t^2 - 2t^3 on [0, 1], clamped outside."""
@@ -78,6 +81,11 @@ class OuterSkin:
         return mesh.triangulate(self.polygons)
 
     @cached_property
+    def fans(self) -> tuple[Ints, Floats]:
+        """(t, 3) local vertex numbers of every split of every polygon, and (t,) how much each one counts."""
+        return mesh.fans(self.polygons)
+
+    @cached_property
     def graph(self) -> Sparse:
         """(n, n) lengths of edges and face diagonals: distances along it are distances along the skin."""
         pairs = np.concatenate([mesh.unique_edges(self.polygons), mesh.face_diagonals(self.polygons)])
@@ -103,8 +111,11 @@ class OuterSkin:
 
     @cached_property
     def raw_normals(self) -> Floats:
-        """(n, 3) outward unit normals of the sheet."""
-        return mesh.vertex_normals(self.positions, self.polygons)
+        """(n, 3) outward unit normals of the sheet, whichever way its polygons wind."""
+        normals = mesh.vertex_normals(self.positions, self.polygons)
+        inside = (self.points["3.5"] + self.points["3.6"]) / 2.0 - np.array([0.0, 0.0, BEHIND_THE_EYES])
+        outwards = self.areas @ (normals * (self.positions - inside)).sum(axis=1)
+        return normals * (1.0 if outwards >= 0.0 else -1.0)
 
     @cached_property
     def normals(self) -> Floats:

@@ -30,6 +30,10 @@ FREE_DISTANCE = 0.02
 #: Polygons round this many nearest vertices are tried when a position is bound.
 NEAR_VERTICES = 24
 
+#: Triangles whose distances differ by less than this share of that are equally near: a position on a flat quad belongs
+#: to both of its splits, and is bound to their mean.
+SAME_DISTANCE = 1e-9
+
 
 @dataclass(frozen=True)
 class BoundPoint:
@@ -118,10 +122,12 @@ class _Surface:
         _, nearest = self._near.query(position, k=min(NEAR_VERTICES, len(self._own)))
         corners = self._triangles[np.isin(self._triangles, self._own[nearest]).any(axis=1)]
         weights, distance = closest_on_triangles(position, self._vertices[corners])
-        best = int(np.argmin(distance))
-        if distance[best] > self._reach:
+        if distance.min() > self._reach:
             return free
-        return BoundPoint(name, position, corners[best].astype(np.int64), weights[best])
+        closest = distance <= distance.min() + SAME_DISTANCE * self._reach
+        shares = np.bincount(corners[closest].ravel(), weights[closest].ravel()) / closest.sum()
+        held = np.flatnonzero(shares > SAME_DISTANCE)
+        return BoundPoint(name, position, held, shares[held] / shares[held].sum())
 
 
 def lies_on_skin(name: str) -> bool:

@@ -33,7 +33,7 @@ TEMPLATE_UNITS: Mapping[Unit, float] = {
 RANGE_COLUMNS = ("fap", "low_mm", "high_mm", "low_linear", "high_linear")
 
 #: FAPs that point to one side and so change sign in the mirror.
-SIDEWAYS = (15, 64)
+SIDEWAYS = (15, 23, 24, 43, 49, 50, 64)
 
 #: Spread of the prior amount of a unit, and of units that need a reason (nose wrinkler).
 UNIT_PRIOR = 0.4
@@ -51,6 +51,13 @@ def template_millimetres(number: int) -> float:
 def mirror_fap(number: int) -> int:
     """The FAP of the other side, or the same in the middle."""
     return FAPS[number].mirror or number
+
+
+def mirror_frame(frame: Floats) -> Floats:
+    """A frame (68,) as seen in the mirror."""
+    mirrored: Floats = frame[[mirror_fap(number) - 1 for number in range(1, len(frame) + 1)]]
+    mirrored[np.array(SIDEWAYS) - 1] *= -1.0
+    return mirrored
 
 
 @dataclass(frozen=True)

@@ -87,6 +87,26 @@ def triangulate(polygons: Polygons) -> Ints:
     return np.stack([loops[first], loops[first + step + 1], loops[first + step + 2]], axis=1)
 
 
+def fans(polygons: Polygons) -> tuple[Ints, Floats]:
+    """Triangles of every way to fan each polygon out from a corner, so that no corner is preferred.
+
+    Returns
+    -------
+    triangles : (T, 3) int64, winding kept; a quad's two splits give four.
+    shares : (T,) how much of its polygon each one counts for: 1 for a triangle, half for a quad's.
+    """
+    triangles, shares = [np.empty((0, 3), dtype=np.int64)], [np.empty(0)]
+    for _, index in by_size(polygons):
+        size = index.shape[1]
+        starts = size if size > 4 else size - 2  # a triangle has one fan, a quad two
+        for start in range(starts):
+            fan = np.roll(index, -start, axis=1)
+            for k in range(1, size - 1):
+                triangles.append(fan[:, [0, k, k + 1]])
+                shares.append(np.full(len(fan), 1.0 / starts))
+    return np.concatenate(triangles), np.concatenate(shares)
+
+
 def polygon_areas(vertices: Floats, polygons: Polygons) -> Floats:
     """Area of each polygon, (F,) m^2: the triangles between its sides and the mean of its corners."""
     areas = np.zeros(len(polygons))
