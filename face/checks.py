@@ -97,6 +97,17 @@ def checked_parts(
     return array
 
 
+def checked_axes(axes: ArrayLike) -> Floats:
+    """(3, 3) float64, a rotation: left, up and forward of a head."""
+    array = np.array(axes, dtype=np.float64)
+    if array.shape != (3, 3) or not np.allclose(array @ array.T, np.eye(3), atol=1e-6) or np.linalg.det(array) < 0.0:
+        raise ModelError(
+            "axes must be three unit vectors at right angles, to the subject's left, up and forward; "
+            "left x up must point forward"
+        )
+    return array
+
+
 def checked_frame(frame: ArrayLike) -> Floats:
     """(68,) float64, finite or NaN."""
     array = np.array(frame, dtype=np.float64)

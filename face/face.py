@@ -14,6 +14,7 @@ from ..mpeg4 import Cue
 from ..physics import mesh
 from .anatomy import Anatomy, Mesh
 from .checks import (
+    checked_axes,
     checked_drive,
     checked_emotion,
     checked_emotions,
@@ -58,6 +59,8 @@ class Face:
         polygons: Sequence[Sequence[int]] | ArrayLike,
         points: Mapping[str, PointSource],
         parts: ArrayLike | None = None,
+        *,
+        axes: ArrayLike | None = None,
     ) -> Face:
         """A face from a neutral mesh.
 
@@ -68,6 +71,8 @@ class Face:
         points : feature point -> vertex index, or position (3,) on the surface (bound by barycentric weights). 3.5 and
             3.6 may be left out; they are then placed in the middle of each eye's opening.
         parts : (V,) numbers of `Part`, derived from connected pieces when None.
+        axes : (3, 3) unit vectors to the subject's left, up and forward, along which FAPs are measured. None: the
+            mesh's own axes where the face lies along them within 10 degrees, else as its feature points tell.
 
         Raises
         ------
@@ -75,11 +80,11 @@ class Face:
         """
         array = checked_vertices(vertices)
         faces = checked_polygons(polygons, len(array))
-        sources, triangles = with_pupils(points, array), mesh.triangulate(faces)
+        sources, triangles = with_pupils(points, array), mesh.fans(faces)[0]
         skin = None if parts is None or np.shape(parts) != (len(array),) else np.asarray(parts) == Part.SKIN
         bound = bind_points(sources, array, triangles, skin)
         positions = bound.positions()
-        frame = head_frame(positions)
+        frame = head_frame(positions, None if axes is None else checked_axes(axes))
         landmarks = {name: frame.to_head(position) for name, position in positions.items()}
         check_sides(landmarks)
         units = fapu(positions, frame)

@@ -20,11 +20,9 @@ from .template import TEMPLATE_POINTS
 TEMPLATE_ES0 = 0.06563
 TEMPLATE_ENS0 = 0.04801
 
-#: Blender's own axes for an upright face: rows are left, up and forward in world coordinates.
-UPRIGHT: Floats = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-
-#: A face within this angle of Blender's upright pose is measured along Blender's axes, as it was modelled.
-UPRIGHT_TOLERANCE = np.radians(10.0)
+#: A face is modelled along its mesh's axes, Z up in Blender and Y up elsewhere. Within this angle it is measured along
+#: them: whoever made it decided what is upright, and no points tell it so well.
+MODELLED_TOLERANCE = np.radians(10.0)
 
 #: Points that hardly move with expression and hardly depend on the person: they carry the frame.
 FRAME_POINTS = (
@@ -96,17 +94,31 @@ def _rotation_between(source: Floats, target: Floats) -> Floats:
     return rotation
 
 
-def head_frame(points: Mapping[str, Floats]) -> HeadFrame:
+def head_frame(points: Mapping[str, Floats], axes: Floats | None = None) -> HeadFrame:
     """The head frame of a neutral face from its feature points.
 
     Parameters
     ----------
     points : name -> (3,) position in the face's coordinates; needs 9.15, 3.5, 3.6 and most of `FRAME_POINTS`.
+    axes : (3, 3) rows left, up and forward in the face's coordinates; None: derived from the points.
 
     Raises
     ------
     ModelError : when fewer than six of the frame's points are known, or they do not form a face.
     """
+    axes = _axes(points) if axes is None else axes
+    origin = np.asarray(points["9.15"], dtype=np.float64)
+    eyes = (np.array([points["3.5"], points["3.6"]]) - origin) @ axes.T
+    es0 = eyes[0, 0] - eyes[1, 0]
+    ens0 = eyes[:, 1].mean()
+    scale = (es0 / TEMPLATE_ES0 + ens0 / TEMPLATE_ENS0) / 2.0
+    if not scale > 0.0:
+        raise ModelError("the pupils 3.5 and 3.6 lie below the nose or are swapped: 3.5 is the subject's left eye")
+    return HeadFrame(axes=axes, origin=origin, scale=float(scale))
+
+
+def _axes(points: Mapping[str, Floats]) -> Floats:
+    """(3, 3) left, up and forward of a face: the mesh's own axes, or as the template lies on its points."""
     names = [name for name in FRAME_POINTS if name in points]
     if len(names) < 6:
         raise ModelError(f"the head's direction needs at least six of the points {', '.join(FRAME_POINTS)}")
@@ -117,18 +129,10 @@ def head_frame(points: Mapping[str, Floats]) -> HeadFrame:
     spread = np.linalg.svd(target, compute_uv=False)
     if not np.isfinite(spread).all() or spread[1] < 1e-3 * spread[0] or spread[0] == 0.0:
         raise ModelError("the feature points lie on one line or in one spot: they do not form a face")
-    axes = _rotation_between(source, target).T
-    cosine = (np.trace(axes @ UPRIGHT.T) - 1.0) / 2.0
-    if np.arccos(np.clip(cosine, -1.0, 1.0)) < UPRIGHT_TOLERANCE:
-        axes = UPRIGHT.copy()
-    origin = np.asarray(points["9.15"], dtype=np.float64)
-    eyes = (np.array([points["3.5"], points["3.6"]]) - origin) @ axes.T
-    es0 = eyes[0, 0] - eyes[1, 0]
-    ens0 = eyes[:, 1].mean()
-    scale = (es0 / TEMPLATE_ES0 + ens0 / TEMPLATE_ENS0) / 2.0
-    if not scale > 0.0:
-        raise ModelError("the pupils 3.5 and 3.6 lie below the nose or are swapped: 3.5 is the subject's left eye")
-    return HeadFrame(axes=axes, origin=origin, scale=float(scale))
+    fitted: Floats = _rotation_between(source, target).T
+    modelled = np.rint(fitted)
+    cosine = (np.trace(fitted @ modelled.T) - 1.0) / 2.0
+    return modelled if np.arccos(np.clip(cosine, -1.0, 1.0)) < MODELLED_TOLERANCE else fitted
 
 
 def fapu(points: Mapping[str, Floats], frame: HeadFrame) -> Fapu:
