@@ -12,7 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats
+from ..physics.elastic import diagonal_matrix
 from ..physics.mesh import Sparse
+from .fine_skin import fine_skin
 from .mechanisms import Mechanism
 from .mechanisms.jaw import Jaw, JawMotion
 from .mechanisms.lids import Eye, LidMove
@@ -48,6 +50,14 @@ class Amounts:
     jaw: JawMotion
 
 
+def _forces(skin: OuterSkin, muscles: Sequence[PlacedMuscle]) -> Floats:
+    """(k, n, 3) force of each muscle on each vertex, summed over the skin between them."""
+    fine, carry = fine_skin(skin)
+    spread = (diagonal_matrix(fine.areas) @ carry).T.tocsr()
+    forces = [np.asarray(spread @ force_density(fine, muscle)) for muscle in muscles]
+    return np.array(forces).reshape(-1, skin.vertex_count, 3)
+
+
 class Actuators:
     """The actuators of one face with their fields on the outer skin."""
 
@@ -55,8 +65,7 @@ class Actuators:
         self, skin: OuterSkin, tissue: Tissue, jaw: Jaw, eyes: Mapping[str, Eye], muscles: Sequence[PlacedMuscle]
     ) -> None:
         self.skin, self.jaw, self.eyes = skin, jaw, eyes
-        densities = [force_density(skin, muscle) for muscle in muscles]
-        forces = skin.areas[:, None] * np.array(densities).reshape(-1, skin.vertex_count, 3)
+        forces = _forces(skin, muscles)
         sheets = tissue.relax(forces)
         shown = tissue.show(sheets)
         peak = np.linalg.norm(shown, axis=2).max(axis=1)
