@@ -20,12 +20,12 @@ from .living_skin import Relaxation
 from .mechanisms import EVERY, Mechanism
 from .mechanisms.jaw import Jaw, build_jaw
 from .mechanisms.lids import Eye, build_eye
-from .muscle_fields import PlacedMuscle, place_muscles
 from .muscle_table import muscles_of
 from .openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, edge_graph, find_opening, outer_faces
 from .organs import PUPIL_SHARE, Eyeball, HeadTurn, Tongue, build_head_turn, build_tongue
 from .outer_skin import OuterSkin
 from .parts import Part
+from .placement import PlacedMuscle, place_muscles
 from .points import FeaturePoints
 from .rows import FapRows, displacement_rows
 from .template import TEMPLATE_POINTS, TemplateWarp

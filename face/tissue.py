@@ -10,39 +10,14 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from scipy import sparse
 
 from ..arrays import Floats
-from ..physics.elastic import Factor, diagonal_matrix, elastic_matrix
+from ..physics.elastic import Factor, elastic_matrix
 from ..physics.mesh import Sparse
 from . import regions
+from .mechanisms.bulge import Bulge
+from .mechanisms.sliding import sliding
 from .outer_skin import OuterSkin
-
-#: Radius over which squeezing is averaged before it bulges, metres.
-BULGE_SMOOTHING = 8e-3
-
-
-def _surface_divergence(skin: OuterSkin) -> Sparse:
-    """(n, 3n) area-averaged surface divergence of a vector field given as n rows of x, y, z."""
-    corners = skin.positions[skin.triangles]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    double_area = np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-18)
-    unit = normal / double_area
-    rows, columns, values = [], [], []
-    for corner in range(3):
-        opposite = corners[:, (corner + 2) % 3] - corners[:, (corner + 1) % 3]
-        gradient = np.cross(unit, opposite) / double_area
-        for target in range(3):
-            for axis in range(3):
-                rows.append(skin.triangles[:, target])
-                columns.append(3 * skin.triangles[:, corner] + axis)
-                values.append(gradient[:, axis] * double_area[:, 0] / 6.0)
-    n = skin.vertex_count
-    summed = sparse.coo_array(
-        (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(n, 3 * n)
-    )
-    averaged: Sparse = diagonal_matrix(1.0 / np.maximum(skin.areas, 1e-18)) @ summed.tocsr()
-    return averaged
 
 
 class Tissue:
@@ -70,20 +45,12 @@ class Tissue:
         )
 
     @cached_property
-    def _divergence(self) -> Sparse:
-        return _surface_divergence(self.skin)
-
-    @cached_property
-    def _bulge_filter(self) -> Factor:
-        return self.skin.smoothing(BULGE_SMOOTHING)
-
-    @cached_property
     def _slide(self) -> Floats:
-        return regions.sliding(self.skin)[:, None]
+        return sliding(self.skin)[:, None]
 
     @cached_property
-    def _bulge(self) -> Floats:
-        return regions.bulging(self.skin)
+    def _bulge(self) -> Bulge:
+        return Bulge(self.skin)
 
     def show(self, fields: Floats) -> Floats:
         """W v: sheet fields (n, 3) or (k, n, 3) as what the face shows, same shape, metres."""
@@ -92,17 +59,12 @@ class Tissue:
         flat = fields.reshape(-1, self.skin.vertex_count, 3)
         normals = self.skin.normals
         slid = flat - (self._slide * normals) * (flat * normals).sum(axis=2, keepdims=True)
-        squeeze = np.asarray(self._divergence @ slid.reshape(len(flat), -1).T)
-        smooth = self._bulge_filter.solve(self.skin.areas[:, None] * squeeze)
-        shown = slid - (self._bulge[:, None] * smooth).T[:, :, None] * normals
-        return np.asarray(shown.reshape(fields.shape))
+        return np.asarray((slid + self._bulge.lift(slid)).reshape(fields.shape))
 
     def show_transposed(self, loads: Floats) -> Floats:
         """W' f for loads (k, n, 3): the sheet forces that stand for forces on what the face shows."""
         normals = self.skin.normals
-        pressed = -(self._bulge * (loads * normals).sum(axis=2)).T
-        spread = self.skin.areas[:, None] * self._bulge_filter.solve(pressed)
-        back = loads + np.asarray(self._divergence.T @ spread).T.reshape(loads.shape)
+        back = loads + self._bulge.lift_transposed(loads)
         return np.asarray(back - (self._slide * normals) * (back * normals).sum(axis=2, keepdims=True))
 
     def relax(self, forces: Floats) -> Floats:

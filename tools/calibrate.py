@@ -25,8 +25,9 @@ from faithful.heads import ICT_SKIN, IDENTITIES, load_face
 from faithful.scans import Shape, scanned_shapes
 from risorius.api import Face
 from risorius.arrays import Floats
-from risorius.face.muscle_fields import force_density, place_muscles
+from risorius.face.muscle_fields import force_density
 from risorius.face.muscle_table import Kind, MuscleRow
+from risorius.face.placement import place_muscles
 from risorius.face.pose import Poser
 from risorius.face.template import MM
 from risorius.face.wishes import Drive

@@ -1,6 +1,15 @@
 """What moves a face, one mechanism per file, and the switch that leaves any of them out.
 
-switch        the names of all mechanisms
+switch                                  the names of all mechanisms
+sliding, bulge                          what the skin does beyond the second paper's membrane
+separation                              upper and lower lip and lid, told apart along the skin
+jaw, lids                               what turns: the mandible, the lids about the eyeballs
+brow, cheek, nose, lips, corners        muscles by region: where they insert, how firmly the skin is held there,
+buccinator, chin, orbicularis_oris,       what their pulls have that the paper's three classes lack
+platysma
+
+A mechanism says what it contributes; skin (`regions`, `tissue`), muscle fields and actuators add the contributions up.
+Its figures of muscles stand in presets/anatomy/muscles/<name>.toml.
 """
 
 from .switch import ADDITIONS, EVERY, MUSCLE_GROUPS, Mechanism, named

@@ -14,6 +14,7 @@ from ...arrays import Floats
 from ...physics.elastic import Factor, elastic_matrix
 from ..outer_skin import OuterSkin, smoothstep
 from ..template import MM, TEMPLATE_POINTS, TemplateWarp
+from .separation import upper_lip_side
 from .switch import Mechanism
 
 #: The axis lies this far from the ear's lower contact 10.7, head space, metres.
@@ -100,8 +101,7 @@ def mandible_mask(skin: OuterSkin) -> Floats:
     angle = (points["2.13"] + points["2.14"]) / 2.0 if "2.13" in points and "2.14" in points else None
     if angle is None:
         angle = (TEMPLATE_POINTS["2.13"] + TEMPLATE_POINTS["2.14"]) / 2.0
-    upper, lower = skin.lip_distances
-    lower_lip = smoothstep(((upper - lower) / (8 * MM) + 1.0) / 2.0)
+    lower_lip = 1.0 - upper_lip_side(skin, 8 * MM)
     below_mouth = 1.0 - _above_line(skin.positions, corner, angle + np.array([0.0, 20 * MM, 0.0]), 16 * MM)
     above_jaw = _above_line(
         skin.positions, chin - np.array([0.0, 4 * MM, 0.0]), angle - np.array([0.0, 4 * MM, 0.0]), 10 * MM

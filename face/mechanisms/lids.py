@@ -29,6 +29,9 @@ NASAL_SLIDE_LOWER = 0.5
 NASAL_SLIDE_RISING = 0.42
 NASAL_SLIDE_UPPER = 0.2
 
+#: Squared bending length of the lids relative to other skin.
+LID_BENDING = 0.25
+
 #: Where the motion of the upper lid ends, along the eye from the inner corner (0) to the outer one (1), and over which
 #: length it fades: the outer corner's hood goes along, further when the lid opens.
 CLOSING_END = (1.15, 0.14)
@@ -103,6 +106,16 @@ class Eye:
         short = np.maximum(wanted - distance, 0.0) * near
         lifted: Floats = positions + away * (short / np.maximum(distance, 1e-6))[:, None]
         return lifted
+
+
+def near_lids(skin: OuterSkin) -> Floats:
+    """(n,) 1 within 6 mm of a lid's edge, 0 beyond 16 mm."""
+    return 1.0 - smoothstep((skin.lid_edge_distance - 6 * MM) / (10 * MM))
+
+
+def thickness(skin: OuterSkin) -> Floats:
+    """(n,) squared bending length relative to other skin: lids are the thinnest skin of the body."""
+    return 1.0 - (1.0 - LID_BENDING) * near_lids(skin)
 
 
 def _fissure_position(skin: OuterSkin, side: str) -> Floats:

@@ -10,8 +10,9 @@ import pytest
 from risorius.api import Face, Part
 from risorius.errors import ModelError
 from risorius.face.mechanisms.lids import LidMove
-from risorius.face.muscle_fields import force_density, place_muscles
+from risorius.face.muscle_fields import force_density
 from risorius.face.muscle_table import Kind, Region, read_muscles
+from risorius.face.placement import place_muscles
 from scipy.spatial.transform import Rotation
 
 #: The kinds of muscle of the second paper's line and of every FACS table; the parts a name begins with.

@@ -1,0 +1,46 @@
+"""Cheek: the raiser under the eye (AU 6), air blown into the cheek and sucked out of it (AU 34, 35).
+
+Anatomy. The lower orbital part of the orbicularis oculi lifts the whole cheek towards the eye and forward: the pad
+under the lower lid bulges and the eye narrows. The cheek's pouch between teeth and buccinator fills with air behind
+closed lips, which hold the mouth's corner.
+
+Rows (presets/anatomy/muscles/cheek.toml): orb_oculi_orbital_inf (a flat window with a fixed line of pull: as a
+sphincter it would draw the cheek's sides together), cheek_puff and cheek_suck (pressure along the normal).
+
+What the second paper's model lacks and is added here: the insertion's region, below the lower lid's edge and not on the
+upper one; pressure, which is no muscle. The heap under the eye is `bulge.py`.
+
+Source: FACS muscle list (docs/sources.md); window of the raiser: own calibration on a scanned squint of the cheek
+(it rises by 5.5 mm and comes forward by 2); extent of the pouch: anatomy alone, no scan at hand shows it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...arrays import Floats
+from ..outer_skin import OuterSkin, smoothstep
+from ..placement import PlacedMuscle
+from ..template import MM
+from .lips import off_lips
+from .separation import lower_lid_side
+from .sliding import sliding
+
+
+def region(skin: OuterSkin) -> Floats:
+    """(n,) 1 on cheek and lower lid, 0 on upper lid, brow and nose bridge."""
+    y = skin.positions[:, 1]
+    lid = (skin.points["3.3"][1] + skin.points["3.4"][1]) / 2.0
+    below = smoothstep((lid + 14 * MM - y) / (10 * MM))
+    return np.asarray(below * np.where(y > lid - 4 * MM, lower_lid_side(skin), 1.0))
+
+
+def pressure(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
+    """(n, 3) air pressure in the cheek pouch along the skin's normal: outwards for bulge 1, inwards for bulge -1.
+
+    No bone lies under the pouch, so the pressure makes up for what the skull takes from motion along the normal
+    elsewhere, and closed lips hold the mouth's corner; otherwise the corner would swell more than the cheek.
+    """
+    radius, depth = muscle.elliptic_radius(skin.positions)
+    strength = muscle.row.bulge * np.exp(-(radius**2) - depth**4) * off_lips(skin) / (1.0 - sliding(skin))
+    return np.asarray(strength[:, None] * skin.normals)

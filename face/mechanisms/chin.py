@@ -1,0 +1,42 @@
+"""Chin: the mentalis (AU 17).
+
+Anatomy. It comes from the mandible under the lower teeth down and forward to the skin of the chin's pad: contracting it
+pushes pad and lower lip up and the lip forward, and the pad balls. The pad is thick and tied to the bone by many
+strands.
+
+Rows (presets/anatomy/muscles/chin.toml): mentalis, a flat window with a fixed line of pull up and forward. As the
+paper's linear muscle it would draw the pad into the lip: its fibres end all over the pad, and the bone that turns
+their pull forward is not in the model.
+
+What the second paper's model lacks and is added here: that line of pull; a pad that is held firmly
+(`Mechanism.FIRMNESS`), and that comes off the bone more readily than other skin (`sliding.py`).
+
+Source: FACS muscle list (docs/sources.md) for the line of action; own calibration on scanned pressed lips for the
+figures.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...arrays import Floats
+from ..outer_skin import OuterSkin, gaussian
+from ..template import MM
+
+#: Extra tie of the pad to the bone, 1/m^2; its extent to the side, up and forward, metres.
+PAD_FIRMNESS = 0.075 / MM**2
+PAD_EXTENT = np.array([18.0, 9.0, 20.0]) * MM
+
+#: Share of the sliding that the pad is free of.
+LOOSE = 0.7
+
+
+def pad(skin: OuterSkin) -> Floats:
+    """(n,) 1 at the pad of the chin, between boss 2.10 and underside 2.1, 0 away from it."""
+    centre = 0.75 * skin.points["2.10"] + 0.25 * skin.points["2.1"]
+    return gaussian(skin.positions, centre, PAD_EXTENT)
+
+
+def firmness(skin: OuterSkin) -> Floats:
+    """(n,) extra tie of the pad to the bone, 1/m^2."""
+    return PAD_FIRMNESS * pad(skin)
