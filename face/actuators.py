@@ -18,8 +18,9 @@ from .fine_skin import fine_skin
 from .mechanisms import Mechanism
 from .mechanisms.jaw import Jaw, JawMotion
 from .mechanisms.lids import Eye, LidMove
-from .muscle_fields import PlacedMuscle, force_density
+from .muscle_fields import force_density
 from .outer_skin import OuterSkin
+from .placement import PlacedMuscle
 from .template import MM
 from .tissue import Tissue
 

@@ -28,9 +28,9 @@ from .checks import (
 from .frame import Fapu, fapu, head_frame
 from .measure import features, measure
 from .mechanisms import EVERY, Mechanism, named
-from .muscle_fields import PlacedMuscle
 from .natural import EmotionShares
 from .parts import Part
+from .placement import PlacedMuscle
 from .points import FeaturePoints, PointSource, bind_points, check_sides
 from .pose import Pose, Poser
 from .simulate import Simulation, cue_moments, stream_moments

@@ -33,6 +33,13 @@ def smoothstep(t: Floats) -> Floats:
     return eased
 
 
+def gaussian(positions: Floats, centre: Floats, radii: Floats | float) -> Floats:
+    """(n,) exp(-|d/r|^2) round a centre (3,) with radius or radii (3,) in metres."""
+    away: Floats = (((positions - centre) / radii) ** 2).sum(axis=1)
+    value: Floats = np.exp(-away)
+    return value
+
+
 @dataclass(frozen=True)
 class OuterSkin:
     """The visible skin in head space.
@@ -74,11 +81,6 @@ class OuterSkin:
     def laplacian(self) -> Sparse:
         """(n, n) L with u'Lu the integral of |grad u|^2 over the skin."""
         return laplacian(self.positions, self.polygons)
-
-    @cached_property
-    def triangles(self) -> Ints:
-        """(t, 3) local vertex numbers."""
-        return mesh.triangulate(self.polygons)
 
     @cached_property
     def fans(self) -> tuple[Ints, Floats]:
@@ -128,12 +130,6 @@ class OuterSkin:
     def lip_distances(self) -> tuple[Floats, Floats]:
         """Distances (n,) along the skin from the upper and from the lower lip's edge, metres."""
         return self.distance_from(self.mouth.upper), self.distance_from(self.mouth.lower)
-
-    @cached_property
-    def upper_lip_side(self) -> Floats:
-        """(n,) 1 on the upper lip's side of the skin, 0 on the lower lip's, a 5 mm blend beside the corners."""
-        upper, lower = self.lip_distances
-        return smoothstep(((lower - upper) / 0.005 + 1.0) / 2.0)
 
     def lid_distances(self, side: str) -> tuple[Floats, Floats]:
         """Distances (n,) along the skin from the upper and from the lower lid's edge of eye "l" or "r", metres."""

@@ -59,7 +59,8 @@ def bulging(skin: OuterSkin) -> Floats:
 
 def surface_divergence(skin: OuterSkin) -> Sparse:
     """(n, 3n) area-averaged surface divergence of a vector field given as n rows of x, y, z."""
-    corners = skin.positions[skin.triangles]
+    triangles, shares = skin.fans
+    corners = skin.positions[triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     double_area = np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-18)
     unit = normal / double_area
@@ -69,9 +70,9 @@ def surface_divergence(skin: OuterSkin) -> Sparse:
         gradient = np.cross(unit, opposite) / double_area
         for target in range(3):
             for axis in range(3):
-                rows.append(skin.triangles[:, target])
-                columns.append(3 * skin.triangles[:, corner] + axis)
-                values.append(gradient[:, axis] * double_area[:, 0] / 6.0)
+                rows.append(triangles[:, target])
+                columns.append(3 * triangles[:, corner] + axis)
+                values.append(gradient[:, axis] * double_area[:, 0] * shares / 6.0)
     n = skin.vertex_count
     summed = sparse.coo_array(
         (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(n, 3 * n)
