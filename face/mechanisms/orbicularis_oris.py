@@ -31,18 +31,22 @@ HALVES_BLEND = 14 * MM
 
 
 def ring(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
-    """(n, 3) equations (14)-(17) inside the rim; beyond it the pull fades instead of ending at its maximum."""
+    """(n, 3) equations (14)-(17) inside the rim; beyond it the pull fades instead of ending at its maximum.
+
+    It fades in depth too: seen from the front the neck lies within the ring, but no fibre reaches it.
+    """
     wide, high = muscle.row.radii
     paper: Muscle = SphincterMuscle(
         muscle.middle, np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), semi_major=wide, semi_minor=high
     )
     if not skin.has(Mechanism.FADING):
         return paper.force(skin.positions)
-    radius, _ = muscle.elliptic_radius(skin.positions)
+    radius, depth = muscle.elliptic_radius(skin.positions)
     toward = muscle.middle - skin.positions
     toward = toward / np.maximum(np.linalg.norm(toward, axis=1, keepdims=True), 1e-9)
     outside = np.where(radius > 1.0, np.exp(-(((radius - 1.0) / muscle.row.fall) ** 2)), 0.0)
-    return np.asarray(paper.force(skin.positions) * (radius <= 1.0)[:, None] + outside[:, None] * toward)
+    pull = paper.force(skin.positions) * (radius <= 1.0)[:, None] + outside[:, None] * toward
+    return np.asarray(np.exp(-((depth / 2.0) ** 4))[:, None] * pull)
 
 
 def band(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
