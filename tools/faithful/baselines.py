@@ -49,11 +49,12 @@ def spline(face: Face) -> Model:
     """The thin-plate spline in space (the biharmonic kernel, a distance) through all points; those without FAP rest."""
     names, centres = _moving_points(face)
     landmarks = face.anatomy.mesh.landmarks
-    still = [n for n in landmarks if n not in names and n.split(".")[0] in _SKIN_GROUPS]
-    places = np.concatenate([centres, np.array([landmarks[n] for n in still])])
+    still = np.array([p for n, p in landmarks.items() if n not in names and n.split(".")[0] in _SKIN_GROUPS])
+    places = np.concatenate([centres, np.unique(still, axis=0)])  # the crown may be two points at one place
 
     def model(shape: Shape) -> Floats:
-        wanted = np.concatenate([_wanted(face, names, shape.frame), np.zeros((len(still), 3))])
+        wanted = np.zeros_like(places)
+        wanted[: len(names)] = _wanted(face, names, shape.frame)
         through = RBFInterpolator(places, wanted, kernel="linear", degree=1)
         moved: Floats = through(face.anatomy.mesh.positions[shape.skin])
         return moved

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -39,8 +40,9 @@ def heads_folder() -> Path:
     return folder
 
 
+@lru_cache(maxsize=2)
 def load_face(name: str) -> Face:
-    """The face of a head of `HEADS`.
+    """The face of a head of `HEADS`; the last two are kept.
 
     Raises
     ------

@@ -23,6 +23,7 @@ from risorius.scene.studio import Look, render_frame, studio
 from risorius.scene.subjects import paint_parts
 
 from .heads import lash_vertices
+from .irises import irises
 
 #: The face fills the picture: of the height that a portrait shows, this much, about a centre so much lower and deeper.
 CLOSENESS, LOWER, DEEPER = 0.76, 0.045, 0.14
@@ -51,8 +52,10 @@ class Sitter:
         if name == "default":
             self._object = head_object(api.build_default_head(), name)
             bpy.context.collection.objects.link(self._object)
+            self._objects = [self._object]
         else:
             self._object = _plain_object(name, face)
+            self._objects = [self._object, *irises(self._object, face)]
         self._look = Look(width=width, height=height, fine=fine)
         framing = framing_of(self._object)
         centre = framing.point(0.0, -LOWER, -DEEPER)
@@ -68,7 +71,7 @@ class Sitter:
         look = replace(self._look, yaw=view.yaw)
         with (
             tempfile.TemporaryDirectory(prefix="risorius-") as folder,
-            studio([self._object], self._framing, look) as scene,
+            studio(self._objects, self._framing, look) as scene,
         ):
             if colours is not None:
                 scene.display.shading.color_type = "VERTEX"
