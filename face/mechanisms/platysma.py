@@ -4,7 +4,9 @@ Anatomy. A thin sheet under the skin of the neck, from the chest over the jaw's 
 mandible, the rear ones cross it and are woven into the ring muscle at the mouth's corner. It draws the corner down and
 back, tightens the skin of jaw line and neck, and raises ridges there.
 
-Rows (presets/anatomy/muscles/platysma.toml).
+Rows (presets/anatomy/muscles/platysma.toml): platysma (a sheet, equations 18-22, from neck to jaw line),
+platysma_corner (the rear fibres, linear, equations 6-13). The first moves skin that no FAP measures: it is drawn by
+hand, or by a plan that names it; the second shares frown and stretch with the corner's own muscles.
 
 What the second paper's model lacks and is added here: skin that is held more firmly on neck and under the chin than on
 the face (`Mechanism.FIRMNESS`).
