@@ -25,6 +25,12 @@ EmotionShares: TypeAlias = Mapping[Archetype, float] | Mapping[str, float]
 #: A difference of left and right below these is no wish: units, and share of the larger.
 SYMMETRY_UNITS, SYMMETRY_SHARE = 12.0, 0.12
 
+#: Left and right corner of the mouth, drawn outwards: inner lip, outer lip.
+CORNERS = ((6, 7), (53, 54))
+
+#: The unit that is the mandible opening.
+JAW, JAW_FAP = "AU27", 3
+
 LID_FAPS = (19, 20, 21, 22)
 BROW_CHEEK_FAPS = (*range(31, 43), 61, 62, 63, 64)
 PSI_MOUTH, PSI_BROW, PSI_LID = 1.0, 0.8, 0.4
@@ -192,8 +198,8 @@ class Natural:
         request, asymmetric = symmetric(frame)
         y = request[data.numbers - 1] * data.per_fap
         asked = ~np.isnan(y)
-        held = saturate(np.nan_to_num(y), data.low, data.high, data.low_linear, data.high_linear)
-        limited = np.where(asked, held, np.nan)
+        carried = self._jaw_carries(np.nan_to_num(y))
+        limited = np.where(asked, self._held(np.nan_to_num(y), carried), np.nan)
         noise = self._conflicts(np.nan_to_num(y), limited, asked)
         self._spare_smiling_eyes(limited, asked)
         known = Known.of_word(emotion) if emotion else Known.by_sight(request)
@@ -201,7 +207,8 @@ class Natural:
         explained = data.units @ amounts
         trust = self._psi**2 / (self._psi**2 + noise**2)
         goal = np.where(asked, explained + trust * (np.nan_to_num(limited) - explained), explained)
-        goal = np.clip(goal, data.low, data.high)
+        least, most = (np.fmin(np.fmin(data.low, carried), limited), np.fmax(np.fmax(data.high, carried), limited))
+        goal = np.clip(goal, least, most)
         return Plan(
             goal=self._frame(goal),
             asked=request,
@@ -216,13 +223,39 @@ class Natural:
         frame[self.data.numbers - 1] = values / self.data.per_fap
         return frame
 
+    def _jaw_carries(self, y: Floats) -> Floats:
+        """(m,) mm by which the asked opening of the jaw moves every FAP's point, itself left out."""
+        data, row = self.data, self._row[JAW_FAP]
+        limits = (data.low, data.high, data.low_linear, data.high_linear)
+        jaw = data.units[:, data.unit_names.index(JAW)]
+        carried = jaw * max(float(saturate(y, *limits)[row]) / float(jaw[row]), 0.0)
+        carried[row] = 0.0
+        return np.asarray(carried)
+
+    def _held(self, y: Floats, carried: Floats) -> Floats:
+        """(m,) requests in mm (0 = none) softly held within the anatomical ranges.
+
+        Ranges are of what each part does by itself: what the jaw carries along, and what both corners of a mouth that
+        is drawn to one side have in common, is not held back.
+        """
+        data = self.data
+        free = np.where(y * carried > 0.0, np.sign(y) * np.minimum(np.abs(y), np.abs(carried)), 0.0)
+        for pair in CORNERS:
+            left, right = (self._row[number] for number in pair)
+            one, other = y[left] - free[left], y[right] - free[right]
+            if one * other < 0.0:
+                aside = np.sign(one) * min(abs(one), abs(other))
+                free[left] += aside
+                free[right] -= aside
+        return free + saturate(y - free, data.low, data.high, data.low_linear, data.high_linear)
+
     def _conflicts(self, asked_mm: Floats, limited: Floats, asked: Bools) -> Floats:
         """(m,) doubt in mm about each request: what lies beyond the range, and lips against an open jaw."""
         noise = 0.5 * self._psi + 0.25 * np.abs(asked_mm - np.nan_to_num(limited))
         row = self._row
-        jaw = max(float(np.nan_to_num(limited[row[3]])), 0.0)
+        jaw = max(float(np.nan_to_num(limited[row[JAW_FAP]])), 0.0)
         noise[[row[n] for n in (5, 10, 11, 52, 57, 58)]] += 0.35 * jaw
-        noise[row[3]] += 0.08 * jaw
+        noise[row[JAW_FAP]] += 0.08 * jaw
         for number in (6, 7, 53, 54):
             if asked_mm[row[number]] < 0:
                 noise[row[number]] += 0.12 * jaw
@@ -294,8 +327,8 @@ class Natural:
 
     def _limit_jaw(self, spread: Floats, asked: Bools) -> None:
         """A jaw that nobody asks to open does not open to explain a lowered lip, in place."""
-        if not asked[self._row[3]]:
-            spread[self.data.unit_names.index("AU27")] = 0.05
+        if not asked[self._row[JAW_FAP]]:
+            spread[self.data.unit_names.index(JAW)] = 0.05
 
     def _prior_factor(self, spread: Floats, asymmetric: bool) -> Floats:
         """Square root of the prior's inverse covariance: halves of a pair go together unless asked otherwise."""

@@ -17,6 +17,9 @@ from risorius.mpeg4 import VARIANTS
 NATURAL = Natural()
 DATA = NATURAL.data
 
+#: FAPs that an open jaw may take beyond their own range.
+JAW_CARRIES = (5, 10, 11, 12, 13, 14, 16, 18, 52, 57, 58, 59, 60)
+
 
 def asked(**values: float) -> np.ndarray:
     """A frame with some FAPs: F12=200."""
@@ -184,7 +187,7 @@ def test_smiling_eyes_are_not_torn_open() -> None:
 
 
 def test_requests_within_range_are_met(face: Face) -> None:
-    """Those of the 25 profiles that pass the range unchanged, as a share of the request or of 100 units."""
+    """Those of the 25 profiles that lie within the anatomical range, as a share of the request or of 100 units."""
     errors = []
     for word in api.ARCHETYPES:
         for variant in VARIANTS[word]:
@@ -193,10 +196,19 @@ def test_requests_within_range_are_met(face: Face) -> None:
             achieved = face.pose(frame, emotion=profile.weights).achieved
             for number in DATA.numbers.tolist():
                 value = frame[number - 1]
-                if not np.isnan(value) and within(number, value, 0.35):
+                if not np.isnan(value) and within(number, value):
                     errors.append(abs(achieved[number - 1] - value) / max(abs(value), 100.0))
     assert len(errors) >= 30
     assert np.median(errors) <= 0.1
+
+
+def test_an_open_jaw_and_a_mouth_drawn_aside_are_met_as_scans_have_them() -> None:
+    """The jaw takes lips and chin beyond their own ranges, one corner takes the other along (scanned actions)."""
+    wide = NATURAL.plan(asked(F3=1329.0, F5=-1700.0, F14=-1377.0, F18=-1485.0)).goal
+    assert wide[[2, 4, 13, 17]] == pytest.approx([1329.0, -1700.0, -1377.0, -1485.0], rel=0.1)
+    aside = NATURAL.plan(asked(F6=-300.0, F7=130.0, F53=-310.0, F54=140.0)).limited
+    assert aside[[5, 6, 52, 53]] == pytest.approx([-300.0, 130.0, -310.0, 140.0], rel=0.12)
+    assert NATURAL.plan(asked(F6=-300.0, F7=-300.0)).limited[5] > -200.0
 
 
 def test_each_fap_asked_for_alone_is_met(face: Face) -> None:
@@ -223,7 +235,7 @@ def test_the_face_does_what_is_planned_and_no_more_than_anatomy_where_it_was_ask
             done, goal = (v[number - 1] * DATA.per_fap[row] for v in (pose.achieved, pose.goal))
             silent = np.isnan(pose.asked[number - 1])
             assert done == pytest.approx(goal, abs=2.0 if silent else 0.5), (word, number)
-            if not silent:
+            if not silent and number not in JAW_CARRIES:
                 assert DATA.low[row] - 0.5 <= done <= DATA.high[row] + 0.5, (word, number)
     assert pose.reasons[31] == "held back by its anatomical range"
 

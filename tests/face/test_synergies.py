@@ -15,7 +15,7 @@ WRONG = {
     "ranges.csv: no column": ("ranges.csv", "low_mm", "lowest", "columns"),
     "ranges.csv: no number": ("ranges.csv", "3,-2.5,", "3,wide,", "number"),
     "ranges.csv: one-sided": ("ranges.csv", "3,-2.5,", "3,2.5,", "below and above 0"),
-    "ranges.csv: share": ("ranges.csv", "3,-2.5,32.0,0.35", "3,-2.5,32.0,1.5", "between 0 and 1"),
+    "ranges.csv: share": ("ranges.csv", "3,-2.5,32.0,0.8", "3,-2.5,32.0,1.5", "between 0 and 1"),
     "ranges.csv: no FAP": ("ranges.csv", "3,-2.5,", "99,-2.5,", "does not exist"),
     "synergies.toml: no TOML": ("synergies.toml", "[sums]", "[sums", "TOML"),
     "synergies.toml: not paired": ("synergies.toml", "paired = true", 'paired = "yes"', "paired"),
