@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from .face.creases import Creases
 from .face.default_head import HeadMesh, build_default_head
 from .face.face import Clip, Face
 from .face.frame import Fapu
@@ -63,6 +64,7 @@ __all__ = [
     "Archetype",
     "Beliefs",
     "Clip",
+    "Creases",
     "Cue",
     "Drive",
     "ExpressionField",

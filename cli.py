@@ -235,7 +235,7 @@ def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:
     """The options that all jobs share."""
     if arguments.mesh is None and arguments.points is not None:
         raise _UsageError("--points needs --mesh")
-    shared = {name: getattr(arguments, name) for name in ("mesh", "points", "fps")}
+    shared = {name: getattr(arguments, name) for name in ("mesh", "points", "fps", "creases")}
     words = {"words": tuple(arguments.words)} if arguments.words else {}
     return {**shared, **words, "progress": _ShowProgress()}
 
@@ -322,6 +322,7 @@ def _parser() -> argparse.ArgumentParser:
     bake = _verb(verbs, "bake", _bake)
     _add_words(bake)
     _add_face(bake)
+    _add_creases(bake)
     bake.add_argument("--dynamic", action="store_true", help="simulate the motion instead of posing the apex")
     bake.add_argument("--out", type=Path, required=True, help="the .blend to write")
 
@@ -329,6 +330,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_words(render)
     _add_face(render)
     _add_engine(render)
+    _add_creases(render)
     render.add_argument("--out", type=Path, required=True, help="the .mp4 to write")
 
     measure = _verb(verbs, "measure", _measure)
@@ -355,6 +357,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_words(demo, nargs="*")
     _add_face(demo)
     _add_engine(demo)
+    _add_creases(demo)
     demo.add_argument("--out", type=Path, default=Path("out"), help="the folder to fill (default: out)")
     return parser
 
@@ -384,6 +387,11 @@ def _add_fps(parser: argparse.ArgumentParser) -> None:
 def _add_engine(parser: argparse.ArgumentParser) -> None:
     choices = ("WORKBENCH", "CYCLES", "EEVEE")
     parser.add_argument("--engine", choices=choices, type=str.upper, default=choices[0], help="default: WORKBENCH")
+
+
+def _add_creases(parser: argparse.ArgumentParser) -> None:
+    about = "wrinkles where skin is squeezed, in Cycles and EEVEE (default: on the default head only)"
+    parser.add_argument("--creases", action=argparse.BooleanOptionalAction, help=about)
 
 
 def _add_face(parser: argparse.ArgumentParser) -> None:

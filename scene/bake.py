@@ -16,6 +16,7 @@ from ..arrays import Floats
 from ..errors import ParameterError, SceneError
 from ..face.parts import Part
 from . import action as actions
+from . import creases as crease_marks
 from . import shape_keys
 from .compress import TOLERANCE, compress
 from .faces import FaceSource, face_of, read_face
@@ -24,6 +25,7 @@ from .progress import Progress, Work
 from .refusals import own_mesh, refuse_unwritable, remarks
 
 if TYPE_CHECKING:
+    from ..face.creases import Creases
     from ..face.natural import EmotionShares
 
 #: A piece that moves less than this everywhere gets no shape keys, metres.
@@ -108,6 +110,7 @@ def bake_expression(
     drive: str = "natural",
     emotion: EmotionShares | None = None,
     contractions: Mapping[str, float] | None = None,
+    creases: bool | None = None,
 ) -> Work[BakeResult]:
     """Bake one expression as one shape key at its apex, with keyframes along onset, apex and offset.
 
@@ -117,6 +120,7 @@ def bake_expression(
     clip : name of the shape key and of the clip; a clip of this name is replaced.
     peak : the key's value at the apex.
     drive, emotion, contractions : as for `Face.pose`.
+    creases : whether the head gets creases (`creases.settle`); None: where a material of it draws them.
 
     Raises
     ------
@@ -130,7 +134,10 @@ def bake_expression(
     pose = face.pose(frame, drive=drive, emotion=emotion, contractions=contractions)
     yield Progress(0.95, "Writing the shape key")
     shapes = (np.asarray(pose.positions) - source.vertices)[None]
-    action, keys, said = _write(target, source, clip, [clip], shapes, [timing.curve(peak)], slider_min=0.0)
+    marks = crease_marks.prepare(source, creases)
+    action, keys, said = _write(
+        target, source, clip, [clip], shapes, [timing.curve(peak)], slider_min=0.0, creases=marks
+    )
     return BakeResult(
         clip, action.name, keys, 0.0, tuple(action.frame_range), np.asarray(pose.achieved), remarks(source.head) + said
     )
@@ -145,6 +152,7 @@ def bake_motion(
     fps: float | None = None,
     drive: str = "natural",
     tolerance: float = TOLERANCE,
+    creases: bool | None = None,
 ) -> Work[BakeResult]:
     """Simulate a motion and bake it, compressed to as few shape keys as keep every vertex within `tolerance`.
 
@@ -156,6 +164,7 @@ def bake_motion(
     fps : frames per second of the motion; by default the scene's.
     drive : as for `Face.simulate`.
     tolerance : metres.
+    creases : as for `bake_expression`.
 
     Raises
     ------
@@ -179,7 +188,8 @@ def bake_motion(
     names = [f"{clip} {number + 1:02d}" for number in range(len(packed.shapes))]
     times = start + np.arange(count, dtype=np.float64)
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
-    action, keys, said = _write(target, source, clip, names, packed.shapes, curves, slider_min=-1.0)
+    marks = crease_marks.prepare(source, creases)
+    action, keys, said = _write(target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks)
     said = remarks(source.head) + said
     return BakeResult(clip, action.name, keys, packed.error, tuple(action.frame_range), None, said)
 
@@ -193,6 +203,7 @@ def _write(
     curves: list[actions.Curve],
     *,
     slider_min: float,
+    creases: Creases | None,
 ) -> tuple[Any, tuple[str, ...], tuple[str, ...]]:
     """Write shape keys (K, V, 3 displacements, metres) on all pieces, and their clip; nothing can fail from here on."""
     if target.make_single_user:
@@ -220,6 +231,7 @@ def _write(
         retired=retired,
         silent={name for mesh in members for name in shape_keys.read_own(mesh).names},
     )
+    crease_marks.settle(source, creases)
     said = {actions.play(datablock, action) for datablock in datablocks}
     return action, free, tuple(sorted(remark for remark in said if remark))
 
@@ -257,6 +269,8 @@ def clear(target: Target, *, clips: list[str] | None = None) -> tuple[str, ...]:
         for member in members:
             shape_keys.remove_keys(member, [clip])
         removed += sorted(names)
+    if not shape_keys.has_own(target.obj):
+        crease_marks.remove(target.obj)
     return tuple(removed)
 
 

@@ -11,9 +11,13 @@ from mathutils import Vector
 from ..arrays import Floats
 from ..face.default_head import HeadMesh, Material
 from . import mesh as meshes
+from .creases import draw_in
 from .faces import store_points
 
 NAME = "Risorius Head"
+
+#: The material that draws creases where the baked skin is squeezed.
+SKIN = "skin"
 
 #: Half of the room that a head takes, metres.
 ROOM = 0.3
@@ -103,4 +107,6 @@ def _material(material: Material) -> Any:
     if principled is not None:
         principled.inputs["Base Color"].default_value = (*material.colour, 1.0)
         principled.inputs["Roughness"].default_value = material.roughness
+        if material.name == SKIN:
+            draw_in(made)
     return made

@@ -73,6 +73,7 @@ def bake_file(
     words: Sequence[str] = ARCHETYPES,
     fps: float = 25.0,
     dynamic: bool = False,
+    creases: bool | None = None,
     progress: Report | None = None,
 ) -> Made:
     """Bake words onto a face and save the .blend.
@@ -83,13 +84,15 @@ def bake_file(
     mesh, points : see `subjects.subject`.
     words : shown one after another.
     dynamic : simulate one motion through all words, instead of one shape key per word.
+    creases : whether the skin wrinkles where it is squeezed; by default on the default head only. Cycles and EEVEE draw
+        it, in the default head's material and those given to meshes that bring none.
     progress : called with each step.
 
     Raises
     ------
     RisoriusError : nothing has been written then.
     """
-    return run(_bake_file(Path(out), mesh, points, words, fps, dynamic), progress)
+    return run(_bake_file(Path(out), mesh, points, words, fps, dynamic, creases), progress)
 
 
 def render_film(
@@ -100,10 +103,12 @@ def render_film(
     words: Sequence[str] = ARCHETYPES,
     engine: str = "WORKBENCH",
     fps: float = 25.0,
+    creases: bool | None = None,
     progress: Report | None = None,
 ) -> Made:
     """Simulate words on a face and write the film (.mp4). Parameters as in `bake_file` and `demo`."""
-    return run(_render_film(Path(out), mesh, points, words, Look(engine=_engine(engine)), fps), progress)
+    look = Look(engine=_engine(engine))
+    return run(_render_film(Path(out), mesh, points, words, look, fps, creases), progress)
 
 
 def demo(
@@ -114,6 +119,7 @@ def demo(
     words: Sequence[str] = ARCHETYPES,
     engine: str = "WORKBENCH",
     fps: float = 25.0,
+    creases: bool | None = None,
     progress: Report | None = None,
 ) -> Made:
     """One film of all words with onset, apex and offset, the .blend it is from, and a contact sheet of the apexes.
@@ -125,13 +131,14 @@ def demo(
     words : shown one after another.
     engine : "WORKBENCH", "EEVEE" or "CYCLES".
     fps : frames per second.
+    creases : as for `bake_file`.
     progress : called with each step.
 
     Raises
     ------
     RisoriusError : names the file, the word, the point or the object, and the remedy.
     """
-    return run(_demo(Path(out_dir), mesh, points, words, Look(engine=_engine(engine)), fps), progress)
+    return run(_demo(Path(out_dir), mesh, points, words, Look(engine=_engine(engine)), fps, creases), progress)
 
 
 def cues_of(words: Sequence[str]) -> list[Cue]:
@@ -171,7 +178,7 @@ def _empty_file(fps: float) -> None:
     render.fps_base = render.fps / fps
 
 
-def _move(obj: Any, words: Sequence[str], fps: float) -> Work[tuple[list[Cue], bake.BakeResult]]:
+def _move(obj: Any, words: Sequence[str], fps: float, creases: bool | None) -> Work[tuple[list[Cue], bake.BakeResult]]:
     """Simulate all words as one motion."""
     from .. import api
 
@@ -179,23 +186,27 @@ def _move(obj: Any, words: Sequence[str], fps: float) -> Work[tuple[list[Cue], b
     end = max(cue.start + cue.duration for cue in cues)
     rest = api.Cue(api.expression("neutral"), start=end, onset=0.0, apex=PAUSE, offset=0.0)
     motion = CueMotion([*cues, rest])
-    result = yield from bake.bake_motion(bake.Target(obj), motion, clip="performance", start=FIRST_FRAME, fps=fps)
+    result = yield from bake.bake_motion(
+        bake.Target(obj), motion, clip="performance", start=FIRST_FRAME, fps=fps, creases=creases
+    )
     bpy.context.scene.frame_start, bpy.context.scene.frame_end = (int(frame) for frame in result.frame_range)
     return cues, result
 
 
-def _bake_file(out: Path, mesh: Any, points: Any, words: Sequence[str], fps: float, dynamic: bool) -> Work[Made]:
+def _bake_file(
+    out: Path, mesh: Any, points: Any, words: Sequence[str], fps: float, dynamic: bool, creases: bool | None
+) -> Work[Made]:
     """See `bake_file`."""
     film.refuse_unwritable_output(out)
     cues = cues_of(words)
     _empty_file(fps)
     yield Progress(0.0, "Loading the face")
-    obj = subject(mesh, points)
+    obj = subject(mesh, points, creases=bool(creases))
     if dynamic:
-        _, moved = yield from part_of(_move(obj, words, fps), 0.05, 0.95)
+        _, moved = yield from part_of(_move(obj, words, fps, creases), 0.05, 0.95)
         results = [moved]
     else:
-        results = yield from part_of(_pose_all(obj, cues, fps), 0.05, 0.95)
+        results = yield from part_of(_pose_all(obj, cues, fps, creases), 0.05, 0.95)
         _line_up(obj, results)
     furnish(bpy.context.scene, framing_of(obj), Look())
     save(out)
@@ -204,7 +215,7 @@ def _bake_file(out: Path, mesh: Any, points: Any, words: Sequence[str], fps: flo
     return Made(blend=out, shape_keys=keys, error_mm=round(error * 1000.0, 4), remarks=results[-1].remarks)
 
 
-def _pose_all(obj: Any, cues: Sequence[Cue], fps: float) -> Work[list[bake.BakeResult]]:
+def _pose_all(obj: Any, cues: Sequence[Cue], fps: float, creases: bool | None) -> Work[list[bake.BakeResult]]:
     """One shape key per cue, each clip at its cue's time."""
     results = []
     for index, cue in enumerate(cues):
@@ -217,6 +228,7 @@ def _pose_all(obj: Any, cues: Sequence[Cue], fps: float) -> Work[list[bake.BakeR
             clip=str(cue.profile.word),
             timing=timing,
             emotion=cue.profile.weights,
+            creases=creases,
         )
         share = 1.0 / len(cues)
         results.append((yield from part_of(work, index * share, (index + 1) * share)))
@@ -235,21 +247,25 @@ def _line_up(obj: Any, results: Sequence[bake.BakeResult]) -> None:
     scene.frame_start, scene.frame_end = FIRST_FRAME, int(np.ceil(max(result.frame_range[1] for result in results)))
 
 
-def _render_film(out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float) -> Work[Made]:
+def _render_film(
+    out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float, creases: bool | None
+) -> Work[Made]:
     """See `render_film`."""
     film.refuse_unwritable_output(out)
     cues_of(words)
     _empty_file(fps)
     yield Progress(0.0, "Loading the face")
-    obj = subject(mesh, points)
-    _, moved = yield from part_of(_move(obj, words, fps), 0.02, 0.4)
+    obj = subject(mesh, points, creases=bool(creases))
+    _, moved = yield from part_of(_move(obj, words, fps, creases), 0.02, 0.4)
     scene = bpy.context.scene
     work = film.render_film([obj], out, start=scene.frame_start, end=scene.frame_end, look=look)
     rendered = yield from part_of(work, 0.4, 1.0)
     return Made(film=rendered.path, frames=rendered.frame_count, remarks=moved.remarks + rendered.remarks)
 
 
-def _demo(out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float) -> Work[Made]:
+def _demo(
+    out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float, creases: bool | None
+) -> Work[Made]:
     """See `demo`."""
     blend, movie, sheet = (out / f"risorius.{suffix}" for suffix in ("blend", "mp4", "png"))
     for path in (blend, movie, sheet):
@@ -257,8 +273,8 @@ def _demo(out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, f
     cues_of(words)
     _empty_file(fps)
     yield Progress(0.0, "Loading the face")
-    obj = subject(mesh, points)
-    cues, moved = yield from part_of(_move(obj, words, fps), 0.02, 0.35)
+    obj = subject(mesh, points, creases=bool(creases))
+    cues, moved = yield from part_of(_move(obj, words, fps, creases), 0.02, 0.35)
     scene = bpy.context.scene
     work = film.render_film([obj], movie, start=scene.frame_start, end=scene.frame_end, look=look)
     rendered = yield from part_of(work, 0.35, 0.9)

@@ -12,6 +12,7 @@ from ..arrays import Bools, Floats, Ints
 from ..errors import FormatError, SceneError
 from ..face.parts import Part
 from . import mesh as meshes
+from .creases import draw_in
 from .faces import FaceSource, face_of, has_points, read_face, store_points
 from .head import add_default_head, select_only
 from .points_file import read_points
@@ -45,13 +46,16 @@ _DISCS = {5: 0.09, 6: 0.035}
 MANY_TEETH = 8
 
 
-def subject(mesh: str | Path | None = None, points: str | Path | None = None) -> Any:
+def subject(
+    mesh: str | Path | None = None, points: str | Path | None = None, *, creases: bool = False
+) -> Any:
     """Put the face of a job into the current scene.
 
     Parameters
     ----------
     mesh : .npz, .obj, .blend, .glb or .gltf; by default the default head.
     points : JSON file of its feature points; may be left out for a .blend whose object has them stored.
+    creases : whether the skin of a mesh that brings no materials shows creases.
 
     Returns
     -------
@@ -78,7 +82,7 @@ def subject(mesh: str | Path | None = None, points: str | Path | None = None) ->
     if not has_points(obj):
         raise SceneError(obj.name, "has no feature points: give them with --points")
     if not obj.data.materials:
-        paint_parts(obj)
+        paint_parts(obj, creases=creases)
     select_only(obj)
     return obj
 
@@ -133,7 +137,7 @@ def _largest(objects: list[Any], path: Path) -> Any:
     return max(candidates, key=lambda obj: (has_points(obj), len(obj.data.vertices)))
 
 
-def paint_parts(obj: Any) -> None:
+def paint_parts(obj: Any, *, creases: bool = False) -> None:
     """Give a mesh without materials one per part of its face, so that eyes and teeth can be told from skin."""
     source = read_face(obj)
     face = face_of(source)
@@ -158,6 +162,8 @@ def paint_parts(obj: Any) -> None:
         for node in material.node_tree.nodes:
             if node.type == "BSDF_PRINCIPLED":
                 node.inputs["Base Color"].default_value = (*colour, 1.0)
+        if creases and name == "Skin":
+            draw_in(material)
         obj.data.materials.append(material)
     obj.data.polygons.foreach_set("material_index", colours.astype(np.int32))
     obj.data.update()

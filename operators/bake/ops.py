@@ -34,6 +34,12 @@ def timing_of(obj: Any, context: Any) -> bake.ClipTiming:
     )
 
 
+def creases_wanted(obj: Any) -> bool | None:
+    """What the user has said about creases; None where nothing, and the material decides."""
+    chosen = obj.risorius.bake
+    return bool(chosen.creases) if chosen.is_property_set("creases") else None
+
+
 def show_apex(context: Any) -> None:
     """Go to the frame where the expression is full: at its first frame a bake looks like nothing happened."""
     if not bpy.app.background:
@@ -79,6 +85,7 @@ class RISORIUS_OT_bake_expression(BakeOperator, bpy.types.Operator):
             timing=timing_of(obj, context),
             drive=obj.risorius.emotion.drive,
             emotion=profile.weights,
+            creases=creases_wanted(obj),
         )
 
 
@@ -110,6 +117,7 @@ class RISORIUS_OT_bake_motion(BakeOperator, bpy.types.Operator):
             start=timing.start,
             fps=timing.fps,
             drive=obj.risorius.emotion.drive,
+            creases=creases_wanted(obj),
         )
 
 

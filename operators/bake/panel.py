@@ -24,7 +24,7 @@ class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
         return context.object is not None and context.object.type == "MESH"
 
     def draw(self, context: Any) -> None:
-        """When, then the buttons, then what is there."""
+        """When and with what, then the buttons, then what is there."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         obj, chosen = context.object, context.object.risorius.bake
@@ -33,6 +33,7 @@ class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
         column = layout.column(align=True)
         for name in ("start", "onset", "apex", "offset"):
             column.prop(chosen, name)
+        layout.prop(chosen, "creases")
         reason = face_reason(obj)
         if reason is not None:
             layout.label(text=reason.partition(": ")[2].partition(":")[0].capitalize(), icon="INFO")

@@ -30,6 +30,13 @@ class RISORIUS_PG_bake(bpy.types.PropertyGroup):
     onset: _seconds("Onset (s)", "Seconds until the expression is full", _TIMING.onset)  # type: ignore[valid-type]
     apex: _seconds("Apex (s)", "Seconds that the expression is held", _TIMING.apex)  # type: ignore[valid-type]
     offset: _seconds("Offset (s)", "Seconds until the face is at rest again", _TIMING.offset)  # type: ignore[valid-type]
+    creases: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Creases",
+        description="With the next bake, mark on the mesh where squeezed skin wrinkles, and add a modifier that "
+        "measures how much. Your materials stay as they are: add the shader node group Risorius Creases to one to see "
+        "it. The default head's material has it. Off: the next bake takes all of that away",
+        default=False,
+    )
 
 
 CLASSES = (RISORIUS_PG_bake,)
