@@ -15,6 +15,14 @@ Explained = Mapping[str, float]
 #: A shape falls by at least this much to be named in the table of mechanisms.
 FALL = 0.01
 
+PICTURES = """## Pictures
+
+The command leaves contact sheets in `out/faithful/`: HEAD-emotions.png and HEAD-words.png are the six emotions and the
+fourteen words of the first paper's Table 6 at their apex, front and three-quarter, as the natural drive shows them;
+HEAD-scans-1.png and so on are the expressions beside what the exact drive makes of their FAPs, and the distance
+between both in colour.
+"""
+
 HEADING = f"""# How faithful the faces are
 
 Written by `make bench-faithful ARGS="--page docs/faithful.md"` (`tools/bench_faithful.py`); do not edit.
@@ -54,13 +62,18 @@ def page(results: Results) -> str:
         parts.append(_drawings(results.drawings))
     if results.requests:
         parts.append(_requests(results.requests))
-    return "\n".join(parts)
+    return "\n".join([*parts, PICTURES])
 
 
 def summary(explained: Explained) -> tuple[float, float, float]:
     """Median, mean and least."""
     values = np.array(list(explained.values()))
     return float(np.median(values)), float(values.mean()), float(values.min())
+
+
+def _number(value: float, decimals: int = 2) -> str:
+    """A figure with a proper minus sign."""
+    return f"{value:.{decimals}f}".replace("-", "−")
 
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -72,9 +85,9 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 def _per_shape(columns: Mapping[str, Explained]) -> str:
     """One row per shape, one column per head or way of moving it."""
     shapes = list(next(iter(columns.values())))
-    rows = [[shape, *(f"{explained[shape]:.2f}" for explained in columns.values())] for shape in shapes]
+    rows = [[shape, *(_number(explained[shape]) for explained in columns.values())] for shape in shapes]
     for place, name in enumerate(("median", "mean", "least")):
-        rows.append([f"**{name}**", *(f"{summary(explained)[place]:.3f}" for explained in columns.values())])
+        rows.append([f"**{name}**", *(_number(summary(explained)[place], 3) for explained in columns.values())])
     return _table(["", *(name.replace("identity-", "id ") for name in columns)], rows)
 
 
@@ -85,8 +98,8 @@ def _mechanisms(results: Results) -> str:
     for name, explained in {"nothing": whole, **results.without, **results.drives}.items():
         median, mean, least = summary(explained)
         changes = sorted((explained[shape] - whole[shape], shape) for shape in whole)
-        falls = ", ".join(f"{shape} {change:+.2f}" for change, shape in changes[:3] if change <= -FALL)
-        rows.append([name, f"{median:.3f}", f"{mean:.3f}", f"{least:.2f}", falls.replace("-", "−")])
+        falls = ", ".join(f"{shape} {_number(change)}" for change, shape in changes[:3] if change <= -FALL)
+        rows.append([name, _number(median, 3), _number(mean, 3), _number(least), falls])
     introduction = "## Per mechanism left out\n\nOn the scanned head; nothing is refitted in a row.\n\n"
     return introduction + _table(["left out", "median", "mean", "least", "falls most"], rows)
 
@@ -94,7 +107,7 @@ def _mechanisms(results: Results) -> str:
 def _drawings(explained: Explained) -> str:
     """MakeHuman's face units."""
     median, mean, _ = summary(explained)
-    rows = [[name, f"{value:.2f}"] for name, value in explained.items()]
+    rows = [[name, _number(value)] for name, value in explained.items()]
     introduction = (
         "## MakeHuman's face units\n\nDrawn by hand, without the neighbours that scans show going along (lids, inner"
         " brow): a check of\ntransfer, not of truth. One of each mirrored pair, those that move a feature point.\n"

@@ -29,6 +29,7 @@ from .irises import irises
 CLOSENESS, LOWER, DEEPER = 0.76, 0.045, 0.14
 
 _COLOUR = "faithful"
+_EYE = ("sclera", "iris", "pupil")
 
 
 class View(StrEnum):
@@ -94,6 +95,9 @@ def _plain_object(name: str, face: Face) -> Any:
     bpy.context.collection.objects.link(obj)
     store_points(obj, {n: tuple(point.position.tolist()) for n, point in face.points.items()})
     paint_parts(obj)
+    for material in obj.data.materials:
+        if material.name.endswith(_EYE):
+            material.roughness = 1.0  # a highlight on a flat cornea hides the pupil
     return obj
 
 
