@@ -39,14 +39,17 @@ def region_mask(skin: OuterSkin, region: Region) -> Floats:
 
 
 def _linear(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
-    """Equations (6)-(13)."""
+    """Equations (6)-(13); superficial muscles pull along the skin that they lie in, not along a chord through it."""
     attachment, insertion = muscle.line
     length = float(np.linalg.norm(insertion - attachment))
     row = muscle.row
     paper: Muscle = LinearMuscle(
         attachment, insertion, radius=row.reach * length, angle=row.angle, exponent=row.exponent
     )
-    return paper.force(skin.positions)
+    force = paper.force(skin.positions)
+    if row.along_skin == 0.0 or not skin.has(Mechanism.SUPERFICIAL):
+        return force
+    return np.asarray(force + row.along_skin * (_tangential(skin, force) - force))
 
 
 def _sheet(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:

@@ -85,6 +85,7 @@ class MuscleRow:
     reaction: float
     reaction_at: float
     bulge: float
+    along_skin: float
     prior: float
     amplitude: float
 
@@ -101,7 +102,7 @@ NEEDS: Mapping[Kind, tuple[str, ...]] = {
     Kind.PRESSURE: ("centre", "radii_mm", "bulge"),
 }
 COMMON = ("title", "kind", "au", "sides", "region", "prior_mm", "amplitude_mm")
-OPTIONAL = ("reaction", "reaction_at", "bulge")
+OPTIONAL = ("reaction", "reaction_at", "bulge", "along_skin")
 
 
 def _place(path: Path, key: str, entry: Any) -> Floats:
@@ -156,6 +157,7 @@ def _row(path: Path, mechanism: Mechanism, name: str, raw: Mapping[str, Any]) ->
         reaction=float(raw.get("reaction", 0.0)),
         reaction_at=float(raw.get("reaction_at", 0.0)),
         bulge=float(raw.get("bulge", 0.0)),
+        along_skin=float(raw.get("along_skin", 0.0)),
         prior=MM * float(raw["prior_mm"]),
         amplitude=MM * float(raw["amplitude_mm"]),
     )

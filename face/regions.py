@@ -42,6 +42,6 @@ def anchor(skin: OuterSkin) -> Floats:
     tie = np.full(skin.vertex_count, 1.0 / ANCHOR_LENGTH**2)
     if not skin.has(Mechanism.FIRMNESS):
         return tie
-    for firmness in (brow.scalp_firmness, nose.firmness, chin.firmness, platysma.neck_firmness):
+    for firmness in (brow.scalp_firmness, lids.firmness, nose.firmness, chin.firmness, platysma.neck_firmness):
         tie += firmness(skin)
     return tie

@@ -32,6 +32,9 @@ NASAL_SLIDE_UPPER = 0.2
 #: Squared bending length of the lids relative to other skin.
 LID_BENDING = 0.25
 
+#: Ties of the tarsal plate, 1/mm^2; scanned frowns move the brow 4 mm aside and the lid's edge 0.2 mm.
+PLATE_FIRMNESS = 0.02
+
 #: Where the motion of the upper lid ends, along the eye from the inner corner (0) to the outer one (1), and over which
 #: length it fades: the outer corner's hood goes along, further when the lid opens.
 CLOSING_END = (1.15, 0.14)
@@ -116,6 +119,15 @@ def near_lids(skin: OuterSkin) -> Floats:
 def thickness(skin: OuterSkin) -> Floats:
     """(n,) squared bending length relative to other skin: lids are the thinnest skin of the body."""
     return 1.0 - (1.0 - LID_BENDING) * near_lids(skin)
+
+
+def firmness(skin: OuterSkin) -> Floats:
+    """(n,) what the lids' plates add to the skin's ties, 1/m^2.
+
+    Tarsal plate and canthal tendons hold the lid's edge sideways: a brow that is drawn to the nose slides over it.
+    """
+    plate = 1.0 - smoothstep((skin.lid_edge_distance - 2 * MM) / (6 * MM))
+    return np.asarray(PLATE_FIRMNESS / MM**2 * plate)
 
 
 def _fissure_position(skin: OuterSkin, side: str) -> Floats:

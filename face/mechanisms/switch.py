@@ -17,7 +17,7 @@ class Mechanism(StrEnum):
 
     # Additions: the skin
     BENDING = "bending"  # skin resists being bent
-    FIRMNESS = "firmness"  # scalp, nose, chin pad and neck are held more firmly than the rest
+    FIRMNESS = "firmness"  # scalp, nose, lid plates, chin pad and neck are held more firmly than the rest
     SLIDING = "sliding"  # skin slides over the bone rather than lifts off it
     BULGE = "bulge"  # squeezed tissue bulges
     FOLDS = "folds"  # squeezed skin folds along known lines
@@ -25,6 +25,7 @@ class Mechanism(StrEnum):
     SEPARATION = "separation"  # lips and lids are told apart by distance along the skin, not through the air
     FADING = "fading"  # sphincter and sheet fade beyond their zones and follow the skin
     FLAT_PULLS = "flat_pulls"  # muscles of other kinds than the paper's three: windows, bands, arches, pressure
+    SUPERFICIAL = "superficial"  # muscles that lie in the skin pull along it
     SCALP = "scalp"  # the frontalis, without bony origin, draws the scalp down
     # Additions: what turns, meets and is made exact
     JAW = "jaw"  # the mandible
