@@ -66,7 +66,7 @@ def lint() -> Count:
 def types() -> Count:
     """Mypy over the package (through the link, so that the checkout may have any name) and the tools beside it."""
     mypy = (tool("mypy"), "--config-file", "../pyproject.toml")
-    scripts = sorted(path.name for path in (ROOT / "tools").glob("*.py"))
+    scripts = [*sorted(path.name for path in (ROOT / "tools").glob("*.py")), "experiments/compare_layers.py"]
     package = command(*mypy, "-p", "risorius", folder=ensure_link())
     return package + command(*mypy, "--explicit-package-bases", *scripts, folder=ROOT / "tools")
 
