@@ -90,9 +90,10 @@ def test_errors_of_requests_are_shares_of_what_was_asked(tool: Callable[[str], M
         def pose(self, frame: np.ndarray, **_: object) -> object:
             return type("Pose", (), {"achieved": 0.9 * frame})
 
-    profile = api.archetype("joy", 1)
-    found = tool("faithful.requests").met(Stub(), api.Drive.EXACT, {"joy:1": profile})
+    profile = api.archetype("sadness", 0)
+    found = tool("faithful.requests").met(Stub(), api.Drive.EXACT, {"sadness:0": profile})
     asked = np.abs(profile.frame()[~np.isnan(profile.frame())])
+    assert asked.min() < 100.0 < asked.max()
     assert found.errors == pytest.approx(0.1 * asked / np.maximum(asked, 100.0))
 
 
