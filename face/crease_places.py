@@ -16,7 +16,7 @@ from .template import TemplateWarp
 COURSE = 49
 
 #: Share of a line at each end over which its crease fades.
-ENDS = 0.22
+ENDS = 0.35
 
 #: Beyond the outermost lines a crease lasts as many spacings in full, and is gone after so many.
 LASTS, GONE = 0.6, 1.2

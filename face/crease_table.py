@@ -15,7 +15,7 @@ from ..errors import FormatError
 from .tables import read_toml
 from .template import ANATOMY, MM
 
-_WORDS = ("sides", "look", "lines_mm", "of", "taken", "reason")
+_WORDS = ("sides", "look", "lines_mm", "of", "reason")
 _FIGURES = ("spacing_mm", "width_mm", "depth_mm", "onset", "full", "wander")
 
 
@@ -38,7 +38,6 @@ class CreaseRow:
     spacing, width, depth : from line to line; half width and depth of a valley.
     onset, full : compressions at which the crease begins and is full.
     of : the crease across whose lines compression is taken.
-    taken : places across that one, in its spacings, between which compression is taken.
     wander : how far a line strays from its course, in widths.
     reason : why it lies there.
     """
@@ -53,7 +52,6 @@ class CreaseRow:
     onset: float
     full: float
     of: str
-    taken: tuple[float, float]
     wander: float
     reason: str
 
@@ -69,14 +67,6 @@ def _line(points: Any, *, joined: bool) -> list[Floats]:
     return [np.concatenate([mirrored[:0:-1], line])] if line[0, 0] == 0.0 else [line, mirrored]
 
 
-def _interval(raw: Any) -> tuple[float, float]:
-    """Two figures, the lower one first."""
-    low, high = (float(figure) for figure in raw)
-    if not low < high:
-        raise ValueError("taken needs two figures, the lower one first")
-    return low, high
-
-
 def _row(path: Path, name: str, raw: Mapping[str, Any]) -> CreaseRow:
     """The crease of a table's entry."""
     key = f"creases.{name}"
@@ -85,7 +75,7 @@ def _row(path: Path, name: str, raw: Mapping[str, Any]) -> CreaseRow:
     if raw["sides"] not in ("pair", "joined"):
         raise FormatError(path, f'sides must be "pair" or "joined", not {raw["sides"]!r}', key=key)
     try:
-        look, taken = Look(raw["look"]), _interval(raw["taken"])
+        look = Look(raw["look"])
         lines = [line for points in raw["lines_mm"] for line in _line(points, joined=raw["sides"] == "joined")]
         spacing, width, depth, onset, full, wander = (float(raw[figure]) for figure in _FIGURES)
     except (ValueError, TypeError) as problem:
@@ -103,7 +93,6 @@ def _row(path: Path, name: str, raw: Mapping[str, Any]) -> CreaseRow:
         onset=onset,
         full=full,
         of=str(raw["of"]),
-        taken=taken,
         wander=wander,
         reason=str(raw["reason"]),
     )

@@ -27,9 +27,6 @@ from .template import MM
 #: Compression is averaged over this radius, metres, in at most so many rounds over neighbouring vertices.
 AVERAGED, MOST_ROUNDS = 8.0 * MM, 12
 
-#: How sharp the limits are between which compression is taken, per spacing.
-LIMITS = 4.0
-
 
 @dataclass(frozen=True)
 class Crease:
@@ -87,7 +84,7 @@ class Creases:
         full = {}
         for name, crease in self.creases.items():
             row = crease.row
-            weight = self._weight(self.creases[row.of], row.taken)
+            weight = self._weight(self.creases[row.of])
             total = self._averaged(weight)
             squeezed = self._averaged(weight * shortening) / np.where(total > 0.0, total, 1.0)
             full[name] = crease.places[:, 1] * smoothstep((squeezed - row.onset) / (row.full - row.onset))
@@ -106,14 +103,11 @@ class Creases:
                 amounts[name + side] = float(areas @ full) / max(float(areas @ crease.places[:, 1]), 1e-18)
         return amounts
 
-    def _weight(self, crease: Crease, taken: tuple[float, float]) -> Floats:
+    def _weight(self, crease: Crease) -> Floats:
         """(E,) how much every edge tells of compression across a crease: those count that lie on it and run across."""
         across, presence = crease.places.T
         slope = np.diff(across[self.edges], axis=1)[:, 0] / self.lengths
-        low, high = taken
-        middle = across[self.edges].mean(axis=1)
-        inside = np.clip(LIMITS * (middle - low) + 0.5, 0.0, 1.0) * np.clip(LIMITS * (high - middle) + 0.5, 0.0, 1.0)
-        weight: Floats = presence[self.edges].prod(axis=1) * slope**4 * inside
+        weight: Floats = presence[self.edges].prod(axis=1) * slope**4
         return weight
 
     def _spread(self, places: Floats) -> Floats:

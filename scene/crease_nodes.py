@@ -13,7 +13,6 @@ from typing import Any
 import bpy
 
 from ..face.crease_table import CreaseRow, Look, read_creases
-from ..face.creases import LIMITS
 from .node_graph import NodeGraph, Value
 
 #: Attributes of the mesh, written once: a vertex's resting place in head space, and its place on a crease.
@@ -24,6 +23,9 @@ CREASE, STRAIN = "risorius_crease_", "risorius_strain"
 
 #: Lengths over which lines stray, break off, and pebbles lie, as noise per metre.
 STRAYS, BREAKS, PEBBLES = 75.0, 60.0, 260.0
+
+#: A valley of this half width, metres, is dark to its bottom; light reaches into wider ones.
+NARROW = 1.0e-3
 
 MEASURE, DRAW = "Risorius Crease Strain", "Risorius Creases"
 _FULLNESS, _LINES = "Risorius Crease Fullness", "Risorius Crease Lines"
@@ -104,8 +106,6 @@ def _measuring(rows: Sequence[CreaseRow]) -> Any:
             **{ROUNDS: rounds},
             Onset=row.onset,
             Full=row.full,
-            From=row.taken[0],
-            To=row.taken[1],
         )
         geometry = _stored(graph, geometry, CREASE + row.name, crease.outputs[0], "FLOAT_VECTOR")
     graph.gives(Geometry=geometry)
@@ -118,17 +118,12 @@ def _fullness() -> Any:
     place, gauge = (graph.takes(name, "NodeSocketVector") for name in ("Place", "Gauge"))
     shortening, length = (graph.takes(name, "NodeSocketFloat") for name in ("Shortening", "Length"))
     rounds = graph.takes(ROUNDS, "NodeSocketInt", 2)
-    names = ("Onset", "Full", "From", "To")
-    onset, full, low, high = (graph.takes(name, "NodeSocketFloat") for name in names)
+    onset, full = (graph.takes(name, "NodeSocketFloat") for name in ("Onset", "Full"))
     ends = graph.node("GeometryNodeInputMeshEdgeVertices").outputs[:2]
     (x1, y1), (x2, y2) = (graph.separate(_at(graph, end, gauge))[:2] for end in ends)
     slope = graph.math("DIVIDE", graph.math("SUBTRACT", x1, x2), length)
     square = graph.math("MULTIPLY", slope, slope)
-    middle = graph.math("MULTIPLY", graph.math("ADD", x1, x2), 0.5)
-    above = _limited(graph, graph.math("SUBTRACT", middle, low))
-    below = _limited(graph, graph.math("SUBTRACT", high, middle))
     weight = graph.math("MULTIPLY", graph.math("MULTIPLY", y1, y2), graph.math("MULTIPLY", square, square))
-    weight = graph.math("MULTIPLY", weight, graph.math("MULTIPLY", above, below))
     told = _averaged(graph, graph.math("MULTIPLY", weight, shortening), rounds)
     squeezed = graph.math("DIVIDE", told, _averaged(graph, weight, rounds))
     smooth = graph.node(
@@ -142,12 +137,6 @@ def _fullness() -> Any:
     graph.gives(Crease=graph.combine(x, graph.math("MULTIPLY", y, smooth), 0.0))
     graph.tree[TABLE] = ""
     return graph.arranged()
-
-
-def _limited(graph: NodeGraph, beyond: Value) -> Value:
-    """1 inside a limit, 0 outside."""
-    inside = graph.math("MULTIPLY_ADD", beyond, LIMITS, 0.5)
-    return graph.math("MAXIMUM", graph.math("MINIMUM", inside, 1.0), 0.0)
 
 
 def _named(graph: NodeGraph, name: str) -> Value:
@@ -200,7 +189,8 @@ def _drawing(rows: Sequence[CreaseRow]) -> Any:
             Breaks=breaks,
         )
         height = graph.math("MULTIPLY_ADD", drawn.outputs["Height"], row.depth, height)
-        shade = graph.math("MAXIMUM", drawn.outputs["Shade"], shade)
+        dark = min(1.0, NARROW / row.width)
+        shade = graph.math("MAXIMUM", graph.math("MULTIPLY", drawn.outputs["Shade"], dark), shade)
     bump = graph.node("ShaderNodeBump", Strength=strength, Distance=scale, Height=height)
     graph.gives(Normal=bump.outputs[0], Shade=graph.math("MULTIPLY", shade, strength))
     return graph.arranged()
