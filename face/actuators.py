@@ -6,23 +6,19 @@ the chin. Amounts are what the inverse finds; contractions in [0, 1] are amounts
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import Floats
-from ..physics.elastic import diagonal_matrix
 from ..physics.mesh import Sparse
-from .fine_skin import fine_skin
 from .mechanisms import Mechanism
 from .mechanisms.jaw import Jaw, JawMotion
 from .mechanisms.lids import Eye, LidMove
-from .muscle_fields import force_density
 from .outer_skin import OuterSkin
-from .placement import PlacedMuscle
+from .pulls import Pulls
 from .template import MM
-from .tissue import Tissue
 
 LID_PRIOR = 12 * MM
 JAW_PRIOR = 25 * MM
@@ -51,30 +47,12 @@ class Amounts:
     jaw: JawMotion
 
 
-def _forces(skin: OuterSkin, muscles: Sequence[PlacedMuscle]) -> Floats:
-    """(k, n, 3) force of each muscle on each vertex, summed over the skin between them."""
-    fine, carry = fine_skin(skin)
-    spread = (diagonal_matrix(fine.areas) @ carry).T.tocsr()
-    forces = [np.asarray(spread @ force_density(fine, muscle)) for muscle in muscles]
-    return np.array(forces).reshape(-1, skin.vertex_count, 3)
-
-
 class Actuators:
     """The actuators of one face with their fields on the outer skin."""
 
-    def __init__(
-        self, skin: OuterSkin, tissue: Tissue, jaw: Jaw, eyes: Mapping[str, Eye], muscles: Sequence[PlacedMuscle]
-    ) -> None:
+    def __init__(self, skin: OuterSkin, pulls: Pulls, jaw: Jaw, eyes: Mapping[str, Eye]) -> None:
         self.skin, self.jaw, self.eyes = skin, jaw, eyes
-        forces = _forces(skin, muscles)
-        sheets = tissue.relax(forces)
-        shown = tissue.show(sheets)
-        peak = np.linalg.norm(shown, axis=2).max(axis=1)
-        alive = peak > 0.0
-        self.muscles = [muscle for muscle, moves in zip(muscles, alive, strict=True) if moves]
-        scale = (1.0 / peak[alive])[:, None, None]
-        self.sheets: Floats = np.ascontiguousarray(sheets[alive] * scale)
-        self.fields: Floats = np.ascontiguousarray(shown[alive] * scale)
+        self.muscles, self.sheets, self.fields = list(pulls.muscles), pulls.sheets, pulls.fields
         lids = skin.has(Mechanism.LIDS)
         self.lid_moves = [(side, move) for side in "lr" for move in LidMove] if lids else []
 

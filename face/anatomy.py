@@ -15,7 +15,7 @@ from ..physics.elastic import laplacian
 from .actuators import Actuators
 from .followers import InnerSkin, LooseParts
 from .frame import Fapu, HeadFrame
-from .inverse import Inverse
+from .inverse import Inverse, Kernel, kernel_of
 from .living_skin import Relaxation
 from .mechanisms import EVERY, Mechanism
 from .mechanisms.jaw import Jaw, build_jaw
@@ -27,6 +27,7 @@ from .outer_skin import OuterSkin
 from .parts import Part
 from .placement import PlacedMuscle, place_muscles
 from .points import FeaturePoints
+from .pulls import Pulls, pulls_of
 from .rows import FapRows, displacement_rows
 from .template import TEMPLATE_POINTS, TemplateWarp
 from .tissue import Tissue
@@ -58,12 +59,27 @@ def _vertex_of(points: FeaturePoints) -> dict[str, int]:
     return {n: int(p.vertices[np.argmax(p.weights)]) for n, p in points.items() if p.is_bound}
 
 
+#: Mechanisms that the skin's answer to forces depends on, and those that the muscles' forces depend on besides.
+OF_THE_SKIN = frozenset(
+    {Mechanism.BENDING, Mechanism.FIRMNESS, Mechanism.SLIDING, Mechanism.BULGE, Mechanism.SEPARATION}
+)
+OF_THE_PULLS = OF_THE_SKIN | {Mechanism.FADING, Mechanism.SCALP, Mechanism.SUPERFICIAL}
+
+
 class Anatomy:
     """The moving parts of one face; each is built when first asked for."""
 
-    def __init__(self, face_mesh: Mesh, mechanisms: frozenset[Mechanism] = EVERY) -> None:
-        """Prepare a face with some mechanisms, all of them unless told otherwise."""
+    def __init__(
+        self, face_mesh: Mesh, mechanisms: frozenset[Mechanism] = EVERY, *, whole: Anatomy | None = None
+    ) -> None:
+        """Prepare a face with some mechanisms, all of them unless told otherwise.
+
+        `whole` is the same face with these and more: what does not depend on the difference is taken from it.
+        """
         self.mesh, self.mechanisms = face_mesh, mechanisms
+        lost: frozenset[Mechanism] = frozenset() if whole is None else whole.mechanisms - mechanisms
+        self._same_skin = None if lost & OF_THE_SKIN else whole
+        self._same_pulls = None if lost & OF_THE_PULLS else whole
 
     @cached_property
     def warp(self) -> TemplateWarp:
@@ -110,7 +126,7 @@ class Anatomy:
     @cached_property
     def tissue(self) -> Tissue:
         """Its elastic response."""
-        return Tissue(self.skin)
+        return Tissue(self.skin) if self._same_skin is None else self._same_skin.tissue
 
     @cached_property
     def jaw(self) -> Jaw:
@@ -135,9 +151,16 @@ class Anatomy:
         return place_muscles(muscles_of(self.mechanisms), self.warp)
 
     @cached_property
+    def pulls(self) -> Pulls:
+        """What the muscles do to the skin."""
+        if self._same_pulls is None:
+            return pulls_of(self.skin, self.tissue, self.muscles)
+        return self._same_pulls.pulls.of({muscle.name for muscle in self.muscles})
+
+    @cached_property
     def actuators(self) -> Actuators:
         """Muscles, lids and jaw with their fields."""
-        return Actuators(self.skin, self.tissue, self.jaw, self.eyes, self.muscles)
+        return Actuators(self.skin, self.pulls, self.jaw, self.eyes)
 
     @cached_property
     def relaxation(self) -> Relaxation:
@@ -163,13 +186,22 @@ class Anatomy:
         )
 
     @cached_property
+    def inverse_rows(self) -> FapRows:
+        """Those of `skin_rows`, and the lips' middles."""
+        return self.skin_rows.with_lip_middles() if Mechanism.LIP_MIDDLE in self.mechanisms else self.skin_rows
+
+    @cached_property
+    def kernel(self) -> Kernel:
+        """How the skin answers loads on the rows."""
+        rows = self.inverse_rows
+        if self._same_skin is not None:
+            return self._same_skin.kernel.first(len(rows))
+        return kernel_of(rows, self.mesh.points.matrix(rows.names)[:, self.skin.index], self.tissue)
+
+    @cached_property
     def inverse(self) -> Inverse:
         """FAP rows to amounts."""
-        rows = self.skin_rows
-        if Mechanism.LIP_MIDDLE in self.mechanisms:
-            rows = rows.with_lip_middles()
-        reader = self.mesh.points.matrix(rows.names)[:, self.skin.index]
-        return Inverse(rows, reader, self.actuators, self.tissue)
+        return Inverse(self.inverse_rows, self.actuators, self.kernel)
 
     @cached_property
     def inner_skin(self) -> InnerSkin:

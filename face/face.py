@@ -27,7 +27,7 @@ from .checks import (
 )
 from .frame import Fapu, fapu, head_frame
 from .measure import features, measure
-from .mechanisms import EVERY, Mechanism, named
+from .mechanisms import Mechanism, named
 from .natural import EmotionShares
 from .parts import Part
 from .placement import PlacedMuscle
@@ -48,9 +48,9 @@ class Clip:
 class Face:
     """One face. Make it with `from_arrays`; nothing in it changes afterwards."""
 
-    def __init__(self, vertices: Floats, face_mesh: Mesh, mechanisms: frozenset[Mechanism] = EVERY) -> None:
+    def __init__(self, vertices: Floats, anatomy: Anatomy) -> None:
         self._vertices = vertices
-        self.anatomy = Anatomy(face_mesh, mechanisms)
+        self.anatomy = anatomy
 
     @classmethod
     def from_arrays(
@@ -93,7 +93,7 @@ class Face:
         if parts is None:
             bound = bind_points(sources, array, triangles, given == Part.SKIN)
         face_mesh = Mesh(head, faces, given, bound, landmarks, frame, units)
-        return cls(array, face_mesh)
+        return cls(array, Anatomy(face_mesh))
 
     def without(self, *mechanisms: str | Mechanism) -> Face:
         """The same face with some mechanisms left out, to show what each is worth.
@@ -105,7 +105,8 @@ class Face:
         ------
         ParameterError : an unknown mechanism; lists the known ones.
         """
-        return Face(self._vertices, self.anatomy.mesh, self.mechanisms - named(mechanisms))
+        whole = self.anatomy
+        return Face(self._vertices, Anatomy(whole.mesh, whole.mechanisms - named(mechanisms), whole=whole))
 
     @property
     def mechanisms(self) -> frozenset[Mechanism]:

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
-from scipy import linalg, sparse
+from scipy import linalg
 
 from ..arrays import Bools, Floats
+from ..physics.mesh import Sparse
 from .actuators import Actuators, Amounts
 from .nonnegative import bounded_least_squares
 from .rows import FapRows
@@ -53,16 +55,36 @@ class Wish:
     carried: Bools | None = None
 
 
+class Kernel(NamedTuple):
+    """How the skin answers loads on the rows.
+
+    Attributes
+    ----------
+    matrix : (m, 3n) reads the rows off flattened displacements of the outer skin.
+    responses : (m, n, 3) what the face shows under a unit load on each row, metres.
+    """
+
+    matrix: Sparse
+    responses: Floats
+
+    def first(self, count: int) -> Kernel:
+        """The kernel of the first rows alone."""
+        return Kernel(self.matrix[:count], self.responses[:count])
+
+
+def kernel_of(rows: FapRows, reader: Sparse, tissue: Tissue) -> Kernel:
+    """The kernel of rows whose points a (m, n) `reader` reads off the outer skin."""
+    matrix = rows.matrix(reader)
+    loads = np.asarray(matrix.todense()).reshape(len(rows), tissue.skin.vertex_count, 3)
+    return Kernel(matrix, np.ascontiguousarray(tissue.point_responses(loads)))
+
+
 class Inverse:
     """Prefactored inverse of one face."""
 
-    def __init__(self, rows: FapRows, reader: sparse.csr_array, actuators: Actuators, tissue: Tissue) -> None:
-        """`reader` (m, n) reads the rows' points off the outer skin."""
+    def __init__(self, rows: FapRows, actuators: Actuators, kernel: Kernel) -> None:
         self.rows, self.actuators = rows, actuators
-        self.matrix = rows.matrix(reader)
-        count = actuators.skin.vertex_count
-        loads = np.asarray(self.matrix.todense()).reshape(len(rows), count, 3)
-        self.kernel: Floats = np.ascontiguousarray(tissue.point_responses(loads))
+        self.matrix, self.kernel = kernel
         self.compliance: Floats = np.asarray(self.matrix @ self.kernel.reshape(len(rows), -1).T)
         self.compliance = (self.compliance + self.compliance.T) / 2.0
         self._scale = len(rows) / np.trace(self.compliance)
