@@ -1,30 +1,30 @@
-"""Contact: lips and lids that meet without passing through each other, and lids that stay off the eyeballs.
+"""Contact: lips and lids that meet without passing through each other, lids on the eyeballs, lips on the teeth.
 
-Projections of the posed skin. Where the upper margin of an opening has come below the lower one, both halves of the
-skin are moved back to where they touch, fading with distance along the skin. Overlap that the neutral face has already
-is left alone. Lids that are all but shut are shut along their whole length. What is not modelled: one lip over the
-other, and lips against teeth.
+Projections of the skin. A pose is settled: margins that have crossed go back to where they touch, all but shut lids are
+shut, and skin that has sunk into an eyeball or a tooth is lifted out. Skin in motion is held: after every step what has
+gone too deep is put back and loses the speed with which it went there, so that contact never adds to the motion.
+What is not modelled: one lip lying over the other, and the lining of lips and cheeks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
-from scipy.spatial.distance import cdist
 
 from ..arrays import Floats, Ints
-from ..physics.mesh import Sparse
+from ..physics.mesh import triangulate
+from ..physics.skin import State
+from .anatomy import Anatomy
+from .dental_arch import DentalArch, build_front
+from .eyeball_surface import EyeballSurface, modelled_ball, round_ball
+from .margins import Depths, Meeting, build_meeting
 from .mechanisms import Mechanism
-from .mechanisms.lids import Eye
-from .openings import Opening
 from .outer_skin import OuterSkin, smoothstep
+from .parts import Part
+from .surroundings import Body, Look, Surroundings
 from .template import MM
-
-#: Distance along the skin over which a push at the margin fades out, metres.
-LIP_REACH, LID_REACH = 16.0 * MM, 9.0 * MM
 
 #: Share of the way back that the upper margin takes: lips give way alike unless one is asked to move, upper lids do.
 LIP_SHARE, LID_SHARE = 0.5, 0.9
@@ -33,112 +33,13 @@ LIP_SHARE, LID_SHARE = 0.5, 0.9
 UPPER_LIP_FAPS, LOWER_LIP_FAPS = (4, 8, 9, 51, 55, 56), (5, 10, 11, 52, 57, 58)
 UNFELT = 2.0
 
-#: Lids closed beyond the first share of their opening are drawn together, fully at the second.
-SHUT_FROM, SHUT_AT = 0.86, 0.96
+#: Skin is kept off the eyeball, and off the teeth, within the first distance of lids or lips, fading to the second.
+LID_SKIN, LIP_SKIN = (6.0 * MM, 10.0 * MM), (8.0 * MM, 14.0 * MM)
 
-#: Within this of the border between both halves, metres, a push is shared by both.
-BLEND = 1.0 * MM
+#: Bodies may move margins that have been settled: both are repeated at most so often, while they move this, metres.
+SWEEPS, UNDISTURBED = 3, 0.02 * MM
 
-#: A push moves the partner's margin too, so the projection is repeated; each round leaves a fraction.
-ROUNDS = 3
-
-#: Lid skin is kept off the eyeball within the first distance of the lid's edge, fading to the second, metres.
-CLEAR_WITHIN, CLEAR_UNTIL = 4.0 * MM, 8.0 * MM
-
-
-def crossing(positions: Floats, arc: Ints, partner: Ints) -> Floats:
-    """(k,) height of each vertex of an arc above its partner arc at the same place across the face, metres.
-
-    Positions (n, 3) in head space; the partner is interpolated linearly between its vertices.
-    """
-    other = positions[partner]
-    order = np.argsort(other[:, 0], kind="stable")
-    below: Floats = np.interp(positions[arc, 0], other[order, 0], other[order, 1])
-    height: Floats = positions[arc, 1] - below
-    return height
-
-
-def _spread(positions: Floats, arc: Ints, weight: Floats) -> Sparse:
-    """(n, k) matrix that spreads values at an arc's vertices over the skin, times weight (n,); exact on the arc."""
-    touched = np.flatnonzero(weight > 1e-6)
-    steps = np.linalg.norm(np.diff(positions[arc], axis=0), axis=1)
-    length = np.maximum(np.append(steps, 0.0) + np.append(0.0, steps), 1e-9)  # so that a denser margin counts alike
-    distance = cdist(positions[touched], positions[arc])
-    first = distance.min(axis=1, keepdims=True)
-    share = length * np.exp(-(((distance - first) / (0.5 * first + 0.05 * MM)) ** 2))
-    share *= (weight[touched] / share.sum(axis=1))[:, None]
-    row, column = np.nonzero(share > 1e-12)
-    return sparse.csr_array((share[row, column], (touched[row], column)), shape=(len(positions), len(arc)))
-
-
-@dataclass(frozen=True)
-class Meeting:
-    """Two margins of one opening that may meet.
-
-    Attributes
-    ----------
-    upper, lower : (k,), (l,) vertices of the outer skin.
-    rest : height of upper over lower, and of lower over upper (negative), at rest; metres.
-    spread : (n, k) and (n, l) pushes at the margins spread over the skin.
-    shuts : whether margins that nearly meet are drawn together.
-    """
-
-    upper: Ints
-    lower: Ints
-    rest: tuple[Floats, Floats]
-    spread: tuple[Sparse, Sparse]
-    shuts: bool
-
-    def depths(self, positions: Floats) -> tuple[Floats, Floats]:
-        """How far each vertex of the upper and of the lower margin lies beyond contact, metres; negative: apart."""
-        above = crossing(positions, self.upper, self.lower)
-        below = crossing(positions, self.lower, self.upper)
-        return np.minimum(self.rest[0], 0.0) - above, below - np.maximum(self.rest[1], 0.0)
-
-    def settle(self, positions: Floats, upper_share: float) -> Floats:
-        """Positions (n, 3) with the margins moved to contact where they had passed each other, or were nearly shut.
-
-        The upper one takes its share (0..1) of the way and the lower one the rest.
-        """
-        settled = positions
-        for _ in range(ROUNDS):
-            depths = self.depths(settled)
-            drawn = self._shut(depths[0])
-            push = [np.maximum(depth, drawn * depth) for depth in depths]
-            if max(float(np.abs(p).max()) for p in push) < 1e-6:
-                break
-            settled = settled.copy()
-            up, down = self.spread[0] @ push[0], self.spread[1] @ push[1]
-            settled[:, 1] += upper_share * up - (1.0 - upper_share) * down
-        return settled
-
-    def _shut(self, depth: Floats) -> float:
-        """How firmly the margins are drawn together, 0..1, by how much of the opening is closed."""
-        if not self.shuts:
-            return 0.0
-        open_now, open_before = np.maximum(-depth, 0.0).sum(), np.maximum(self.rest[0], 0.0).sum()
-        closed = 1.0 - float(open_now) / max(float(open_before), 1e-9)
-        return float(smoothstep(np.array((closed - SHUT_FROM) / (SHUT_AT - SHUT_FROM))))
-
-
-def _meeting(skin: OuterSkin, opening: Opening, distances: tuple[Floats, Floats], *, lids: bool) -> Meeting:
-    """The margins of one opening; distances (n,) along the skin from the upper and the lower one."""
-    reach = LID_REACH if lids else LIP_REACH
-    on_upper = smoothstep(((distances[1] - distances[0]) / BLEND + 1.0) / 2.0)
-    rest = skin.positions
-    spread = tuple(
-        _spread(rest, arc, side * (1.0 - smoothstep(distance / reach)))
-        for arc, side, distance in zip(
-            (opening.upper, opening.lower), (on_upper, 1.0 - on_upper), distances, strict=True
-        )
-    )
-    return Meeting(
-        upper=opening.upper,
-        lower=opening.lower,
-        rest=(crossing(rest, opening.upper, opening.lower), crossing(rest, opening.lower, opening.upper)),
-        spread=(spread[0], spread[1]),
-        shuts=lids,
-    )
+AT_REST = Surroundings()
 
 
 def lip_share(asked: Floats) -> float:
@@ -148,20 +49,37 @@ def lip_share(asked: Floats) -> float:
     return lower / (upper + lower)
 
 
+@dataclass(frozen=True)
+class Slack:
+    """How far a pose passes contact, which skin on its way there may too: margins and bodies, in `Contact`'s order."""
+
+    margins: tuple[Depths, ...]
+    bodies: tuple[Floats, ...]
+
+    def towards(self, other: Slack, share: float) -> Slack:
+        """Part of the way (0..1) to another pose's slack."""
+
+        def mixed(a: Floats, b: Floats) -> Floats:
+            return (1.0 - share) * a + share * b
+
+        margins = zip(self.margins, other.margins, strict=True)
+        return Slack(
+            tuple((mixed(a[0], b[0]), mixed(a[1], b[1])) for a, b in margins),
+            tuple(mixed(a, b) for a, b in zip(self.bodies, other.bodies, strict=True)),
+        )
+
+
 class Contact:
     """The contacts of one face's outer skin."""
 
-    def __init__(self, skin: OuterSkin, eyes: Mapping[str, Eye]) -> None:
+    def __init__(self, skin: OuterSkin, sides: Sequence[str], bodies: Sequence[Body] = ()) -> None:
+        """Lips and the lids of the eyes `sides` ("l", "r") as meetings, and the bodies that skin stays out of."""
         self.skin = skin
-        self.lips = _meeting(skin, skin.mouth, skin.lip_distances, lids=False)
-        self.lids = {side: _meeting(skin, skin.eyes[side], skin.lid_distances(side), lids=True) for side in eyes}
-        self._eyes = dict(eyes)
-        self._near = {}
-        for side in eyes:
-            distance = np.min(skin.lid_distances(side), axis=0)
-            self._near[side] = 1.0 - np.clip((distance - CLEAR_WITHIN) / (CLEAR_UNTIL - CLEAR_WITHIN), 0.0, 1.0)
+        self.bodies = tuple(bodies)
+        self.lips = build_meeting(skin, skin.mouth, skin.lip_distances, lids=False)
+        self.lids = {side: build_meeting(skin, skin.eyes[side], skin.lid_distances(side), lids=True) for side in sides}
 
-    def settle(self, displacement: Floats, lip_share: float = LIP_SHARE) -> Floats:
+    def settle(self, displacement: Floats, lip_share: float = LIP_SHARE, at: Surroundings = AT_REST) -> Floats:
         """The displacement (n, 3) of the outer skin in head space, metres, with every contact resolved.
 
         `lip_share` is the upper lip's part of the way back (`lip_share`).
@@ -169,17 +87,102 @@ class Contact:
         if not self.skin.has(Mechanism.CONTACT):
             return displacement
         rest = self.skin.positions
-        positions = self.lips.settle(rest + displacement, lip_share)
-        for lids in self.lids.values():
-            positions = lids.settle(positions, LID_SHARE)
-        return self.clear_eyes(positions - rest)
+        positions = rest + displacement
+        for _ in range(SWEEPS):
+            met = positions
+            for meeting, share in self._meetings(lip_share):
+                met = meeting.settle(met, share)
+            cleared = rest + self.clear(met - rest, at)
+            positions, moved = cleared, float(np.abs(cleared - met).max())
+            if moved < UNDISTURBED:
+                break
+        return positions - rest
 
-    def clear_eyes(self, displacement: Floats) -> Floats:
-        """The displacement (n, 3) with lid skin kept off the eyeballs, as far as at rest or nearly."""
+    def clear(self, displacement: Floats, at: Surroundings = AT_REST, spared: Floats | None = None) -> Floats:
+        """The displacement (n, 3) with skin kept out of eyeballs and teeth; `spared` (n,) 0..1 of it stays."""
         if not self.skin.has(Mechanism.CONTACT):
             return displacement
-        rest = self.skin.positions
-        positions = rest + displacement
-        for side, eye in self._eyes.items():
-            positions = eye.clear(positions, rest, self._near[side])
-        return positions - rest
+        positions = self.skin.positions + displacement
+        for body in self.bodies:
+            positions = _lifted(positions, body, at, 0.0, spared)
+        return positions - self.skin.positions
+
+    def slack(self, displacement: Floats, at: Surroundings) -> Slack:
+        """How far a pose's displacement (n, 3) passes contact."""
+        positions = self.skin.positions + displacement
+        margins = [meeting.depths(positions) for meeting, _ in self._meetings(LIP_SHARE)]
+        return Slack(
+            tuple((np.maximum(above, 0.0), np.maximum(below, 0.0)) for above, below in margins),
+            tuple(np.maximum(body.depths(positions, at)[0], 0.0) for body in self.bodies),
+        )
+
+    def hold(self, state: State, lip_share: float, at: Surroundings, slack: Slack, step: float) -> State:
+        """The state with skin put back that has gone deeper than the slack, and without the speed of going there.
+
+        A vertex loses no more speed than would have taken it as far as it was put back within the step (s).
+        """
+        if not self.skin.has(Mechanism.CONTACT):
+            return state
+        positions = state.positions
+        for (meeting, share), more in zip(self._meetings(lip_share), slack.margins, strict=True):
+            positions = meeting.settle(positions, share, more)
+        for body, deep in zip(self.bodies, slack.bodies, strict=True):
+            positions = _lifted(positions, body, at, deep)
+        back = positions - state.positions
+        way = np.linalg.norm(back, axis=1)
+        if not way.any():
+            return state
+        out = back / np.maximum(way, 1e-12)[:, None]
+        inwards = np.clip(-(state.velocities * out).sum(axis=1), 0.0, way / step)
+        return State(positions, state.velocities + inwards[:, None] * out)
+
+    def _meetings(self, lip_share: float) -> list[tuple[Meeting, float]]:
+        """Every pair of margins with the upper one's share of the way."""
+        return [(self.lips, lip_share), *((lids, LID_SHARE) for lids in self.lids.values())]
+
+
+def _lifted(
+    positions: Floats, body: Body, at: Surroundings, deep: Floats | float, spared: Floats | None = None
+) -> Floats:
+    """Positions (n, 3) lifted out of a body as far as they lie deeper in it than `deep`."""
+    depth, out = body.depths(positions, at)
+    way = np.maximum(depth - deep, 0.0) * body.firmness
+    if spared is not None:
+        way = way * (1.0 - spared[body.index])
+    if not way.any():
+        return positions
+    lifted = positions.copy()
+    lifted[body.index] += way[:, None] * out
+    return lifted
+
+
+def build_contact(anatomy: Anatomy) -> Contact:
+    """Every contact of a face."""
+    skin, positions = anatomy.skin, anatomy.mesh.positions
+    bodies: list[Body] = []
+    balls = {ball.side: ball for ball in anatomy.eyeballs}
+    for side, eye in anatomy.eyes.items():
+        index, firmness = _near(np.min(skin.lid_distances(side), axis=0), LID_SKIN)
+        look = Look(eye.centre, balls[side].gaze if side in balls else np.array([0.0, 0.0, 1.0]))
+        triangles = _triangles(anatomy, Part.EYEBALL_L if side == "l" else Part.EYEBALL_R)
+        ball = modelled_ball(look, positions, triangles) if len(triangles) else round_ball(look, eye.radius)
+        bodies.append(EyeballSurface(side, ball, index, firmness, skin.positions[index]))
+    index, firmness = _near(skin.lip_edge_distance, LIP_SKIN)
+    for part, jaw in ((Part.TEETH_UPPER, None), (Part.TEETH_LOWER, anatomy.jaw)):
+        triangles = _triangles(anatomy, part)
+        if len(triangles):
+            front = build_front(positions, triangles)
+            bodies.append(DentalArch(front, jaw, index, firmness, skin.positions[index]))
+    return Contact(skin, list(anatomy.eyes), bodies)
+
+
+def _triangles(anatomy: Anatomy, part: Part) -> Ints:
+    """(t, 3) vertices of a part's surface; none where the face has none."""
+    polygons = [polygon for polygon in anatomy.mesh.polygons if (anatomy.mesh.parts[polygon] == part).all()]
+    return triangulate(polygons) if polygons else np.empty((0, 3), dtype=np.int64)
+
+
+def _near(distance: Floats, within: tuple[float, float]) -> tuple[Ints, Floats]:
+    """Vertices at a distance (n,) of less than the second of two lengths, and 1 within the first, fading to 0."""
+    index = np.flatnonzero(distance < within[1])
+    return index, 1.0 - smoothstep((distance[index] - within[0]) / (within[1] - within[0]))

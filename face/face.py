@@ -186,7 +186,7 @@ class Face:
         drive: str | Drive = Drive.NATURAL,
         emotions: ArrayLike | None = None,
         integrator: str = "implicit",
-        substeps: int = 1,
+        substeps: int = 2,
         tissue: str = "default",
     ) -> Iterator[Floats]:
         """Positions (V, 3) frame by frame of the moving face; see `simulate`."""
@@ -202,7 +202,7 @@ class Face:
         *,
         drive: str | Drive = Drive.NATURAL,
         integrator: str = "implicit",
-        substeps: int = 1,
+        substeps: int = 2,
         tissue: str = "default",
     ) -> Iterator[Floats]:
         """Positions (V, 3) frame by frame of expressions in time (`sequence` gives their frames).
@@ -221,7 +221,7 @@ class Face:
         drive: str | Drive = Drive.NATURAL,
         emotions: ArrayLike | None = None,
         integrator: str = "implicit",
-        substeps: int = 1,
+        substeps: int = 2,
         tissue: str = "default",
     ) -> Clip:
         """The moving face: frames of FAPs with the skin's inertia and damping.
@@ -232,7 +232,7 @@ class Face:
         fps : frames per second.
         emotions : (T, 6) strength of each archetype over time (`emotion_weights`), where the words are known.
         integrator : "implicit" (default) or "rk2", the paper's.
-        substeps : steps per frame of the implicit integrator; rk2 chooses its own.
+        substeps : steps per frame, after each of which contact is seen to; rk2 cuts them as it needs.
         tissue : "default", "young", "aged" or "stiff" (presets/tissue.toml).
 
         Raises

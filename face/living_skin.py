@@ -14,33 +14,71 @@ import numpy as np
 
 from ..arrays import Floats
 from ..physics.equilibrium import EquilibriumSolver
+from ..physics.oscillator import Oscillator
 from ..physics.skin import Skin
 from ..physics.tissue import tissue as tissue_of
 from . import regions
 from .actuators import Actuators, Amounts
 from .mechanisms import Mechanism
-from .outer_skin import OuterSkin
+from .outer_skin import OuterSkin, gaussian
+from .template import MM
 from .tissue import Tissue
 
 #: The largest correction of a node that an equilibrium may leave, metres.
 TOLERANCE = 2e-5
 
+#: Loose tissue fades out over this from the cheek's centre and from the jowl, which lies so far outwards, down and
+#: back from the corner of the mouth, metres.
+LOOSE_RADIUS = 30.0 * MM
+JOWL_FROM_CORNER = np.array([12.0, -24.0, -10.0]) * MM
+
+
+def looseness(sheet: OuterSkin) -> Floats:
+    """(n,) 1 where deep soft tissue hangs loose, over cheek and jowl; 0 where skin lies close on bone.
+
+    Between the cheekbone and the mandible's edge, before the ear: about feature points 5.1 and 5.2, and down to the
+    edge of the jaw beside the chin.
+    """
+    points, loose = sheet.points, np.zeros(sheet.vertex_count)
+    for cheek, corner in (("5.1", "8.3"), ("5.2", "8.4")):
+        jowl = points[corner] + JOWL_FROM_CORNER * np.array([np.sign(points[corner][0]), 1.0, 1.0])
+        for centre in (points[cheek], jowl):
+            loose = np.maximum(loose, gaussian(sheet.positions, centre, LOOSE_RADIUS))
+    return loose
+
 
 def living_skin(sheet: OuterSkin, tissue: str = "default") -> Skin:
     """The skin of a face, of a tissue named in presets/tissue.toml, held as its regions are.
+
+    Where it hangs loose more tissue moves with it and is less damped.
+
+    Raises
+    ------
+    ParameterError : an unknown tissue.
+    """
+    figures, loose, anchor = tissue_of(tissue), looseness(sheet), regions.anchor(sheet)
+    depth = figures.depth + (figures.loose_depth - figures.depth) * loose
+    ratio = figures.damping_ratio + (figures.loose_damping_ratio - figures.damping_ratio) * loose
+    return Skin.from_mesh(
+        sheet.positions,
+        sheet.polygons,
+        figures if sheet.has(Mechanism.BIPHASIC) else replace(figures, stiffening=1.0),
+        anchor=anchor,
+        bending=regions.bending(sheet),
+        depth=depth,
+        damping=2.0 * ratio * np.sqrt(figures.membrane * anchor / (figures.density * depth)),
+    )
+
+
+def mandible(tissue: str = "default") -> Oscillator:
+    """How the mandible of a face follows what is asked of it.
 
     Raises
     ------
     ParameterError : an unknown tissue.
     """
     figures = tissue_of(tissue)
-    return Skin.from_mesh(
-        sheet.positions,
-        sheet.polygons,
-        figures if sheet.has(Mechanism.BIPHASIC) else replace(figures, stiffening=1.0),
-        anchor=regions.anchor(sheet),
-        bending=regions.bending(sheet),
-    )
+    return Oscillator(figures.jaw_frequency, figures.jaw_damping_ratio)
 
 
 class Relaxation:

@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from ..arrays import Floats, Ints
 from .outer_skin import smoothstep
+from .surroundings import Look
 from .template import MM
 
 ANGLE_UNIT = 1e-5
@@ -47,6 +48,11 @@ class Eyeball:
     faps: tuple[int, int, int, int]
     units: tuple[float, float]
 
+    @property
+    def side(self) -> str:
+        """Whose it is: "l" or "r"."""
+        return "l" if self.faps[0] == 23 else "r"
+
     def displacement(self, frame: Floats) -> Floats:
         """(k, 3) displacement in head space for a frame (68,) in FAP units."""
         yaw, pitch, thrust, dilate = (value_of(frame, number) for number in self.faps)
@@ -55,6 +61,12 @@ class Eyeball:
         moved: Floats = turn.apply(away) + self.centre - self.positions
         moved[:, 2] += thrust * self.units[0]
         return moved
+
+    def look(self, frame: Floats) -> Look:
+        """Where the eyeball is and looks for a frame (68,) in FAP units."""
+        yaw, pitch, thrust = (value_of(frame, number) for number in self.faps[:3])
+        turn = Rotation.from_euler("yx", [yaw * ANGLE_UNIT, pitch * ANGLE_UNIT])
+        return Look(self.centre + np.array([0.0, 0.0, thrust * self.units[0]]), turn.apply(self.gaze))
 
     def _dilated(self, growth: float) -> Floats:
         """Vertices from the centre (k, 3) with the pupil's edge moved out by a growth in metres, along the ball."""

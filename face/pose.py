@@ -3,26 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from scipy.spatial import cKDTree
 
-from ..arrays import Floats
+from ..arrays import Floats, Ints
 from ..errors import ParameterError
 from .actuators import LID_AMPLITUDES, LID_NAMES, Amounts
 from .anatomy import Anatomy
-from .contact import Contact, lip_share
+from .contact import Contact, build_contact, lip_share
 from .folds import Folds
 from .inverse import EXACT_NOISE
 from .measure import measure
 from .mechanisms import Mechanism
 from .mechanisms.jaw import JawMotion
 from .natural import EmotionShares, Natural, Plan
+from .surroundings import Surroundings
 from .wishes import ASKED_DOUBT, LIP_DOUBT, LIP_FAPS, SILENT_DOUBT, Drive, exact_wish, fill, lip_middles, natural_wish
 
-#: Rounds of elastic correction: what contact with the eyeball disturbs is corrected again.
-CORRECTION_ROUNDS = 2
+#: Rounds of elastic correction where FAPs are met exactly: what contact disturbs is corrected again.
+CORRECTION_ROUNDS = 3
+
+#: Exact poses leave contact alone within this of the FAPs' points, fading, metres.
+SPARED = 3.0e-3
 
 
 @dataclass(frozen=True)
@@ -65,14 +70,13 @@ class Poser:
 
     @cached_property
     def contact(self) -> Contact:
-        """Lips and lids of the face where they meet."""
-        return Contact(self.anatomy.skin, self.anatomy.eyes)
+        """Lips and lids of the face where they meet, eyeballs and teeth behind them."""
+        return build_contact(self.anatomy)
 
     @cached_property
     def folds(self) -> Folds:
         """Where the skin folds; no FAP's point moves with it."""
-        fixed = np.unique(self.anatomy.inverse.matrix.indices // 3).astype(np.int64)
-        return Folds(self.anatomy.skin, self.anatomy.warp, fixed)
+        return Folds(self.anatomy.skin, self.anatomy.warp, self._points_on_skin)
 
     def pose(
         self, frame: Floats, drive: Drive, emotion: EmotionShares | None, contractions: Mapping[str, float] | None
@@ -81,7 +85,7 @@ class Poser:
         plan = self.natural.plan(frame, emotion) if drive is Drive.NATURAL else None
         amounts = self.amounts(frame, drive, plan, contractions)
         state = self.skin_state(frame, drive, plan, amounts)
-        positions = self.assemble(state, frame)
+        positions = self.assemble(self.folded(state, drive), frame)
         goal = plan.goal if plan is not None else frame
         return Pose(
             positions=positions,
@@ -126,37 +130,53 @@ class Poser:
         return Amounts(muscles, lids, jaw)
 
     def skin_state(self, frame: Floats, drive: Drive, plan: Plan | None, amounts: Amounts) -> SkinState:
-        """The outer skin under given amounts, corrected as the drive asks.
+        """The outer skin under given amounts, corrected as the drive asks, without its folds.
 
-        In the natural mode contact has the last word; where FAPs are met exactly, their correction has.
+        In the natural mode contact has the last word; where FAPs are met exactly, their correction has, and only what
+        lies away from the FAPs' points is cleared once more.
         """
-        anatomy = self.anatomy
+        anatomy, at = self.anatomy, self.surroundings(amounts.jaw, frame)
         actuators, inverse = anatomy.actuators, anatomy.inverse
         kinematic = actuators.kinematic(amounts)
         elastic = anatomy.relaxation.muscular(amounts)
         if drive is Drive.MUSCLES:
-            return SkinState(self.contact.settle(kinematic + elastic), elastic, amounts.jaw)
+            return SkinState(self.contact.settle(kinematic + elastic, at=at), elastic, amounts.jaw)
         share = lip_share(frame if plan is None else plan.asked)
-        shown = self.contact.settle(kinematic + elastic, share)
+        shown = self.contact.settle(kinematic + elastic, share, at)
         if Mechanism.CORRECTION not in anatomy.mechanisms:
-            return SkinState(shown + self._folded(shown, plan), elastic, amounts.jaw)
+            return SkinState(shown, elastic, amounts.jaw)
         target, doubts = self._targets(frame, plan)
         for number in range(1, CORRECTION_ROUNDS + 1):
             change = inverse.correction(target - np.asarray(inverse.matrix @ shown.ravel()), doubts)
             elastic = elastic + change
             shown = shown + change
             if plan is not None:
-                shown = self.contact.settle(shown, share)
-                return SkinState(shown + self._folded(shown, plan), elastic, amounts.jaw)
+                return SkinState(self.contact.settle(shown, share, at), elastic, amounts.jaw)
             if number < CORRECTION_ROUNDS:
-                shown = self.contact.clear_eyes(shown)
-        return SkinState(shown, elastic, amounts.jaw)
+                shown = self.contact.settle(shown, share, at)
+        return SkinState(self.contact.clear(shown, at, self._measured), elastic, amounts.jaw)
 
-    def _folded(self, displacement: Floats, plan: Plan | None) -> Floats:
-        """What folds add to a displacement (n, 3); in the natural mode only."""
-        if plan is None or not self.with_folds:
-            return np.zeros_like(displacement)
-        return self.folds.displacement(displacement)
+    @cached_property
+    def _points_on_skin(self) -> Ints:
+        """Vertices of the outer skin that feature points are read off."""
+        return np.unique(self.anatomy.inverse.matrix.indices // 3).astype(np.int64)
+
+    @cached_property
+    def _measured(self) -> Floats:
+        """(n,) 1 where FAPs are read off the skin, fading over a few millimetres."""
+        positions = self.anatomy.skin.positions
+        distance, _ = cKDTree(positions[self._points_on_skin]).query(positions)
+        return np.asarray(np.exp(-((distance / SPARED) ** 2)))
+
+    def surroundings(self, jaw: JawMotion, frame: Floats) -> Surroundings:
+        """Where mandible and eyeballs are for a frame (68,)."""
+        return Surroundings(jaw, {ball.side: ball.look(frame) for ball in self.anatomy.eyeballs})
+
+    def folded(self, state: SkinState, drive: Drive) -> SkinState:
+        """A state of the skin with its folds, in the natural mode."""
+        if drive is not Drive.NATURAL or not self.with_folds:
+            return state
+        return replace(state, displacement=state.displacement + self.folds.displacement(state.displacement))
 
     def _targets(self, frame: Floats, plan: Plan | None) -> tuple[Floats, Floats]:
         """Row targets and doubts (m,) of the elastic correction."""

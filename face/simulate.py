@@ -1,13 +1,14 @@
 """The face in motion: the skin's inertia, damping and biphasic springs between the poses that FAPs ask for.
 
-At every frame the muscles bear the load that would hold the frame's own pose in equilibrium; the skin, carried by
-jaw and lids, follows it by Lagrangian dynamics (Zhang, Sung, Prakash 2001, equation (23)). A held frame is therefore
-reached exactly, and what lies between is physics.
+At every frame the muscles bear the load that would hold the frame's own pose in equilibrium; the mandible follows as
+a damped oscillator, and the skin, carried by jaw and lids, by Lagrangian dynamics (Zhang, Sung, Prakash 2001, equation
+(23)), held off eyeballs, teeth and itself after every step. A held frame is therefore reached exactly, and what lies
+between is physics. Folds belong to the shape that the skin has, not to the one that is asked for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -19,7 +20,11 @@ from ..mpeg4 import ARCHETYPES, Cue, sequence, strengths
 from ..physics.implicit import ImplicitSolver
 from ..physics.rk2 import Rk2Solver
 from ..physics.skin import State
-from .living_skin import living_skin
+from .actuators import Amounts
+from .contact import Slack, lip_share
+from .living_skin import living_skin, mandible
+from .mechanisms.jaw import JawMotion
+from .mechanisms.lids import LidMove
 from .natural import Plan, blend
 from .pose import Poser, SkinState
 from .wishes import Drive
@@ -41,6 +46,46 @@ class Moment:
     plan: Plan | None
 
 
+@dataclass(frozen=True)
+class Aim:
+    """What one frame's pose is made of, so that the way from one to the next can be taken in part.
+
+    Attributes
+    ----------
+    lids : the amounts of lid moves. jaw : (3,) the mandible's angle, slide to the left and forward.
+    elastic : (n, 3) what muscles and elastic correction add to the kinematics of jaw and lids, metres.
+    push : (n, 3) what contact adds, metres.
+    slack : how far the pose itself passes contact. lip_share : the upper lip's part of giving way.
+    """
+
+    lids: Mapping[tuple[str, LidMove], float]
+    jaw: Floats
+    elastic: Floats
+    push: Floats
+    slack: Slack
+    lip_share: float
+
+    def towards(self, other: Aim, share: float) -> Aim:
+        """Part of the way (0..1) to another aim."""
+        rest = 1.0 - share
+        return Aim(
+            lids={move: rest * amount + share * other.lids[move] for move, amount in self.lids.items()},
+            jaw=rest * self.jaw + share * other.jaw,
+            elastic=rest * self.elastic + share * other.elastic,
+            push=rest * self.push + share * other.push,
+            slack=self.slack.towards(other.slack, share),
+            lip_share=rest * self.lip_share + share * other.lip_share,
+        )
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The moving face between two steps: its skin, and the mandible (2, 3): angle and slides, and their rates."""
+
+    skin: State
+    jaw: Floats
+
+
 class Simulation:
     """The moving skin of one face."""
 
@@ -51,7 +96,7 @@ class Simulation:
         ----------
         poser : poses the same face.
         fps : frames per second, above 0.
-        integrator : a name of `Integrator`. substeps : implicit steps per frame, 1 or more.
+        integrator : a name of `Integrator`. substeps : steps per frame, 1 or more; contact is seen to after each.
         tissue : a name in presets/tissue.toml.
 
         Raises
@@ -66,30 +111,78 @@ class Simulation:
             raise ParameterError("integrator", f"must be one of {', '.join(Integrator)}", integrator)
         self.poser = poser
         self.skin = living_skin(poser.anatomy.skin, tissue)
-        self.substeps = substeps if integrator == Integrator.IMPLICIT else 1
-        step = 1.0 / fps / self.substeps
+        self.substeps = substeps
+        self.length = 1.0 / fps / substeps
         solver = ImplicitSolver if integrator == Integrator.IMPLICIT else Rk2Solver
-        self.solver: ImplicitSolver | Rk2Solver = solver(self.skin, step)
+        self.solver: ImplicitSolver | Rk2Solver = solver(self.skin, self.length)
+        self._jaw_step = mandible(tissue).propagator(self.length)
 
     def run(self, moments: Iterable[Moment]) -> Iterator[Floats]:
         """Positions (V, 3) in the face's coordinates, one array per moment; the first is at rest in its pose."""
-        poser = self.poser
-        state: State | None = None
+        motion: Motion | None = None
+        before: Aim | None = None
         for number, moment in enumerate(moments):
-            amounts = poser.amounts(moment.frame, moment.drive, moment.plan, None)
-            target = poser.skin_state(moment.frame, moment.drive, moment.plan, amounts)
-            wanted = self.skin.rest + target.displacement
-            anchors = wanted - target.elastic
-            if state is None:
-                state = State.at_rest(wanted)
+            aim = self._aim(moment)
+            if motion is None or before is None:
+                motion = Motion(State.at_rest(self._held(aim, aim.jaw)), np.stack([aim.jaw, np.zeros(3)]))
             else:
-                load = -self.skin.force(wanted, anchors)
                 try:
-                    for _ in range(self.substeps):
-                        state = self.solver.step(state, load, anchors)
+                    motion = self._frame(motion, before, aim, moment.frame)
                 except SolverError as error:
                     raise SolverError(f"the face's motion was not solved: {error}", frame=number) from error
-            yield poser.assemble(SkinState(state.positions - self.skin.rest, target.elastic, target.jaw), moment.frame)
+            before = aim
+            displacement = motion.skin.positions - self.skin.rest
+            state = SkinState(displacement, aim.elastic, JawMotion(*motion.jaw[0].tolist()))
+            yield self.poser.assemble(self.poser.folded(state, moment.drive), moment.frame)
+
+    def _aim(self, moment: Moment) -> Aim:
+        """The pose that a moment asks for, taken apart."""
+        poser = self.poser
+        amounts = poser.amounts(moment.frame, moment.drive, moment.plan, None)
+        state = poser.skin_state(moment.frame, moment.drive, moment.plan, amounts)
+        kinematic = poser.anatomy.actuators.kinematic(amounts)
+        return Aim(
+            lids=amounts.lids,
+            jaw=np.array([amounts.jaw.angle, amounts.jaw.left, amounts.jaw.forward]),
+            elastic=state.elastic,
+            push=state.displacement - kinematic - state.elastic,
+            slack=poser.contact.slack(state.displacement, poser.surroundings(amounts.jaw, moment.frame)),
+            lip_share=lip_share(moment.frame if moment.plan is None else moment.plan.asked),
+        )
+
+    def _anchors(self, aim: Aim, jaw: Floats) -> Floats:
+        """(n, 3) where jaw (3,), lids and contact would carry skin that no muscle pulls."""
+        actuators = self.poser.anatomy.actuators
+        carried = actuators.kinematic(Amounts(np.zeros(0), aim.lids, JawMotion(*jaw.tolist())))
+        return np.asarray(self.skin.rest + carried + aim.push)
+
+    def _held(self, aim: Aim, jaw: Floats) -> Floats:
+        """(n, 3) where the skin comes to rest for an aim."""
+        return np.asarray(self._anchors(aim, jaw) + aim.elastic)
+
+    def _frame(self, motion: Motion, before: Aim, after: Aim, frame: Floats) -> Motion:
+        """The motion one frame on, its aim changing evenly from one to the other; forces are taken midway in a step."""
+        poser, contact = self.poser, self.poser.contact
+        for number in range(self.substeps):
+            start, midway, end = (before.towards(after, (number + part) / self.substeps) for part in (0.0, 0.5, 1.0))
+            jaw = self._swung(motion.jaw, start.jaw, end.jaw)
+            anchors = self._anchors(midway, 0.5 * (motion.jaw[0] + jaw[0]))
+            load = -self.skin.force(anchors + midway.elastic, anchors)
+            skin = self.solver.step(motion.skin, load, anchors)
+            at = poser.surroundings(JawMotion(*jaw[0].tolist()), frame)
+            motion = Motion(contact.hold(skin, end.lip_share, at, end.slack, self.length), jaw)
+        return motion
+
+    def _swung(self, jaw: Floats, start: Floats, end: Floats) -> Floats:
+        """The mandible (2, 3) one step on, while what it follows goes from start (3,) to end (3,).
+
+        Teeth stop it: it does not close further than it rests, or than is asked.
+        """
+        after: Floats = self._jaw_step @ np.stack([*jaw, start, (end - start) / self.length])
+        least = min(0.0, float(end[0]))
+        if after[0, 0] < least:
+            after[:, 0] = least, max(float(after[1, 0]), 0.0)
+        return after
 
 
 def stream_moments(poser: Poser, frames: Floats, drive: Drive, weights: Floats | None) -> Iterator[Moment]:

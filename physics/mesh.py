@@ -252,3 +252,16 @@ def _unique_pairs(pairs: Sequence[Ints]) -> Ints:
         return np.empty((0, 2), dtype=np.int64)
     keys = np.unique(pair_keys(np.sort(np.concatenate(pairs), axis=1)))
     return np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
+
+
+def surface_samples(corners: Floats, spacing: float) -> Floats:
+    """(s, 3) points all over triangles given by their corners (t, 3, 3), no farther apart than a spacing, metres."""
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    parts = np.maximum(np.ceil(longest / spacing), 1).astype(np.int64)
+    points = []
+    for count in np.unique(parts).tolist():
+        i, j = (part.ravel() for part in np.meshgrid(np.arange(count + 1), np.arange(count + 1)))
+        keep = i + j <= count
+        shares = np.stack([i, j, count - i - j], axis=1)[keep] / count
+        points.append((shares @ corners[parts == count]).reshape(-1, 3))
+    return np.concatenate(points)

@@ -101,6 +101,7 @@ class Skin:
         anchor: Floats | float | None = None,
         bending: Floats | float | None = None,
         damping: Floats | float | None = None,
+        depth: Floats | float | None = None,
         mask: Bools | None = None,
         law: SpringLaw | str = SpringLaw.CONTINUOUS,
     ) -> Skin:
@@ -114,6 +115,7 @@ class Skin:
         anchor : (V,) or one value, 1/m^2, the inverse square of the anchor length; the tissue's if left out.
         bending : (V,) or one value, m^2, the square of the bending length; the tissue's if left out.
         damping : (V,) or one value, 1/s, c / m; the tissue's if left out.
+        depth : (V,) or one value, m, of the soft tissue that moves with the sheet; the tissue's if left out.
         mask : (V,) bool, only polygons with all corners in it are skin.
         law : of the springs.
 
@@ -135,7 +137,7 @@ class Skin:
         bed = np.array(np.broadcast_to(1 / tissue.anchor_length**2 if anchor is None else anchor, areas.shape))
         bed[~skin] = 1 / tissue.anchor_length**2
         lumps = np.where(skin, areas, areas[skin].mean())
-        mass = tissue.mass_per_area * lumps
+        mass = tissue.density * (tissue.depth if depth is None else depth) * lumps
         squared = tissue.bending_length**2 if bending is None else bending
         operator = None
         if np.any(squared):

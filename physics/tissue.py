@@ -17,6 +17,8 @@ from ..errors import FormatError, ParameterError
 PRESET = Path(__file__).resolve().parent.parent / "presets" / "tissue.toml"
 """The tissues that come with Risorius."""
 
+_MAY_BE_ZERO = ("bending_length", "damping_ratio", "loose_damping_ratio", "jaw_damping_ratio")
+
 STIFFNESS_OF_MODULUS = 1.5
 """w / (E h): a sheet of the springs of `springs.py` has the plane Young's modulus times thickness 2 w / 3."""
 
@@ -36,6 +38,10 @@ class Tissue:
     bending_length : m, >= 0; 0 leaves a bare membrane, the paper's skin.
     anchor_length : m, > 0.
     damping_ratio : relative to critical damping on the bed, >= 0.
+    loose_depth : m, of the soft tissue that moves where it hangs loose: cheek and jowl.
+    loose_damping_ratio : as `damping_ratio`, where it hangs loose, >= 0.
+    jaw_frequency : Hz, of the mandible in its muscles and ligaments, undamped.
+    jaw_damping_ratio : of the mandible, relative to critical damping, >= 0.
     description : one line for a menu.
 
     Raises
@@ -52,6 +58,10 @@ class Tissue:
     bending_length: float
     anchor_length: float
     damping_ratio: float
+    loose_depth: float
+    loose_damping_ratio: float
+    jaw_frequency: float
+    jaw_damping_ratio: float
     description: str = ""
 
     def __post_init__(self) -> None:
@@ -59,7 +69,7 @@ class Tissue:
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
                 raise ParameterError(name, "must be a finite number", value)
-            if value < 0 or (value == 0 and name not in ("bending_length", "damping_ratio")):
+            if value < 0 or (value == 0 and name not in _MAY_BE_ZERO):
                 raise ParameterError(name, "must be above 0", value)
         if self.stiffening < 1:
             raise ParameterError("stiffening", "must be 1 or more (k_h at least k_l)", self.stiffening)

@@ -67,6 +67,17 @@ class Jaw:
         moved[:, 2] = sine * y + (cosine - 1.0) * z + motion.forward
         return moved
 
+    def turned(self, directions: Floats, motion: JawMotion) -> Floats:
+        """Directions (k, 3) fixed to the mandible, in head space."""
+        cosine, sine = np.cos(motion.angle), np.sin(motion.angle)
+        x, y, z = directions.T
+        return np.stack([x, cosine * y - sine * z, sine * y + cosine * z], axis=1)
+
+    def unmoved(self, positions: Floats, motion: JawMotion) -> Floats:
+        """Where places (k, 3) of head space lie for one who sits on the mandible: `rigid` undone."""
+        slid = positions - np.array([motion.left, 0.0, motion.forward])
+        return self.hinge + self.turned(slid - self.hinge, JawMotion(-motion.angle))
+
     def skin(self, positions: Floats, motion: JawMotion) -> Floats:
         """Displacement (n, 3) of the outer skin."""
         bulged = max(float(np.sin(motion.angle)), 0.0) ** 2 * self.bulge

@@ -20,9 +20,6 @@ from .switch import Mechanism
 #: Centre of the eyeball behind the middle of the two eye corners, template head space: inwards, up, forward (metres).
 CENTRE_FROM_CORNERS = np.array([0.9, 1.5, -9.5]) * MM
 
-#: Distance of lid skin over the eyeball that a closing lid keeps at least.
-LID_CLEARANCE = 0.1 * MM
-
 #: Metres towards the nose per metre of closing: orbicularis fibres spring from the inner corner, so that closing the
 #: upper lid draws the lower one along, which hardly rises (scanned blink: 2 to 3 mm); and the lower lid as it rises.
 NASAL_SLIDE_LOWER = 0.5
@@ -100,15 +97,6 @@ class Eye:
         moved[:, 1] = (cosine - 1.0) * y - sine * z
         moved[:, 2] = sine * y + (cosine - 1.0) * z
         return moved
-
-    def clear(self, positions: Floats, rest: Floats, near: Floats) -> Floats:
-        """Positions (n, 3) with lid skin (weight `near` (n,)) kept off the eyeball as far as at rest, or nearly."""
-        away = positions - self.centre
-        distance = np.linalg.norm(away, axis=1)
-        wanted = np.minimum(np.linalg.norm(rest - self.centre, axis=1), self.radius + LID_CLEARANCE)
-        short = np.maximum(wanted - distance, 0.0) * near
-        lifted: Floats = positions + away * (short / np.maximum(distance, 1e-6))[:, None]
-        return lifted
 
 
 def near_lids(skin: OuterSkin) -> Floats:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 import risorius.api as api
 from risorius.api import Face
+from risorius.face.pose import Poser
+from risorius.face.simulate import Simulation, stream_moments
+from risorius.face.wishes import Drive
 
 JOY = api.archetype("joy", 1)
 
@@ -23,17 +27,88 @@ def clip_of(strengths: list[float]) -> np.ndarray:
     return np.array(strengths)[:, None] * JOY.frame()
 
 
-@pytest.mark.parametrize("drive", ["natural", "exact"])
-def test_a_held_frame_is_reached(face: Face, drive: str) -> None:
-    """Half a second after the request has come, every vertex is where the pose has it, within 0.05 mm."""
-    clip = face.simulate(clip_of([0.0] + [1.0] * 12), drive=drive)
-    assert clip.fps == 25.0
-    assert clip.positions.shape == (13, len(face.vertices), 3)
-    pose = face.pose(JOY.frame(), drive=drive).positions
-    away = np.abs(clip.positions - pose).max(axis=(1, 2))
-    assert away[0] > 5e-3
-    assert away[1] > 2e-4  # the skin has inertia
-    assert away[-1] < 0.05e-3
+def sudden(face: Face, word: str, frames: int, **options: Any) -> np.ndarray:
+    """(T, V, 3) a word asked for all at once from rest, with its name known, at 25 frames a second."""
+    profile = api.expression(word)
+    asked = np.repeat(profile.frame()[None], frames, axis=0)
+    asked[0] *= 0.0
+    weights = np.array([[profile.weights.get(name, 0.0) for name in api.ARCHETYPES]] * frames)
+    return np.asarray(face.simulate(asked, emotions=weights, **options).positions)
+
+
+@pytest.mark.parametrize(
+    ("head", "word", "drive"),
+    [("default", "surprise", "natural"), ("default", "fear", "exact"), ("ict", "joy", "natural"),
+     ("makehuman", "anger", "natural"), ("makehuman", "surprise", "exact")],
+)  # fmt: skip
+def test_a_held_frame_settles_on_its_pose(head: str, word: str, drive: str, any_face: Callable[[str], Face]) -> None:
+    """Within 1 % of the largest displacement 0.4 s after a sudden request; contact, folds, eyes and jaw included."""
+    face, profile = any_face(head), api.expression(word)
+    moving = sudden(face, word, 12, drive=drive)
+    pose = face.pose(profile.frame(), drive=drive, emotion=profile.weights).positions
+    largest = np.linalg.norm(pose - face.vertices, axis=1).max()
+    away = np.linalg.norm(moving - pose, axis=2).max(axis=1)
+    assert away[0] > 0.9 * largest
+    assert away[1] > 0.05 * largest  # the skin has inertia
+    assert away[10:].max() < 0.01 * largest
+
+
+def test_folds_are_those_of_the_moving_skin(any_face: Callable[[str], Face]) -> None:
+    """In every frame the fold that the skin has there, not the one that the request would have."""
+    face = any_face("ict")
+    frames, skins = np.stack([0.0 * JOY.frame(), JOY.frame(), JOY.frame()]), []
+    for folds in (True, False):
+        poser = Poser(face.anatomy, folds=folds)
+        simulation = Simulation(poser, fps=50.0, integrator="implicit", substeps=1, tissue="default")
+        moving = simulation.run(stream_moments(poser, frames, Drive.NATURAL, None))
+        skins.append([face.anatomy.mesh.frame.to_head(p)[face.anatomy.skin.index] for p in moving])
+    placed = Poser(face.anatomy).folds
+    for number, (folded, smooth) in enumerate(zip(*skins, strict=True)):
+        expected = placed.displacement(smooth - face.anatomy.skin.positions)
+        np.testing.assert_allclose(folded - smooth, expected, atol=1e-9)
+        assert (np.abs(expected).max() > 0.1e-3) == (number > 0)
+
+
+def overshoot(moving: np.ndarray, vertex: int) -> float:
+    """How far a vertex passes the place where it ends, as a share of its way."""
+    way = moving[:, vertex] - moving[0, vertex]
+    return float((way @ way[-1]).max() / (way[-1] @ way[-1])) - 1.0
+
+
+@pytest.mark.parametrize(
+    ("head", "word", "loose"),
+    [("default", "joy", ("5.1", "5.2")), ("default", "surprise", ("2.1", "2.10")), ("makehuman", "joy", ("5.1",)),
+     ("makehuman", "surprise", ("2.1",))],
+)  # fmt: skip
+def test_cheek_and_chin_overshoot_slightly_and_the_forehead_does_not(
+    head: str, word: str, loose: tuple[str, ...], any_face: Callable[[str], Face]
+) -> None:
+    face = any_face(head)
+    moving = sudden(face, word, 15)
+    for point in loose:
+        assert 0.01 < overshoot(moving, face.points[point].vertices[0]) < 0.08
+    for point in ("4.1", "4.2", "4.3", "4.4"):
+        vertex = face.points[point].vertices[0]
+        assert np.linalg.norm(moving[-1, vertex] - moving[0, vertex]) > 2e-3
+        assert overshoot(moving, vertex) < 0.001
+
+
+def test_loose_tissue_alone_makes_the_cheek_overshoot(face: Face) -> None:
+    """What is firmly held everywhere follows without."""
+    assert overshoot(sudden(face, "joy", 12, tissue="stiff"), face.points["5.1"].vertices[0]) < 0.005
+
+
+def test_nothing_jitters(face: Face) -> None:
+    """Of every path of an expression, less than 0.1 mm is faster than a third of the frame rate."""
+    for name in ("joy", "surprise"):
+        cue = api.Cue(api.expression(name), onset=0.3, apex=0.2, offset=0.4)
+        moving = np.stack(list(face.performance([cue], fps=50.0)))
+        spectrum = np.fft.rfft(moving - moving[0], axis=0)
+        fast = np.fft.rfftfreq(len(moving), 1 / 50.0) > 50.0 / 3.0
+        spectrum[~fast] = 0.0
+        trembling = np.linalg.norm(np.fft.irfft(spectrum, n=len(moving), axis=0), axis=2)
+        assert np.abs(moving - moving[0]).max() > 8e-3
+        assert trembling.max() < 0.1e-3
 
 
 def test_constant_frames_stay_still(face: Face) -> None:
@@ -55,15 +130,15 @@ def test_the_emotion_word_matters_to_a_stream(face: Face) -> None:
 
 
 def test_the_implicit_integrator_converges_to_the_papers(small: Face) -> None:
-    """First order: the paper's midpoint rule at its own stable step is the reference, 1 % of the motion the goal."""
+    """The paper's midpoint rule, seeing to contact as often, is the reference; 1 % of the motion the goal."""
     frames = clip_of([0.0, 0.25, 0.6, 1.0, 1.0])
-    paper = small.simulate(frames, fps=60.0, integrator="rk2").positions
+    paper = small.simulate(frames, fps=60.0, integrator="rk2", substeps=16).positions
     motion = np.abs(paper - small.vertices).max()
     assert motion > 5e-3
     coarse, medium, fine = (
-        np.abs(small.simulate(frames, fps=60.0, substeps=n).positions - paper).max() for n in (4, 16, 64)
+        np.abs(small.simulate(frames, fps=60.0, substeps=n).positions - paper).max() for n in (1, 2, 4)
     )
-    assert fine < 0.01 * motion
+    assert medium < 0.01 * motion
     assert fine < 0.5 * medium < 0.25 * coarse
 
 

@@ -81,7 +81,7 @@ def oscillator(t: float, stiffness: float, mass: float, damping: float) -> float
     return float(np.exp(-decay * t) * (np.cos(omega * t) + decay / omega * np.sin(omega * t)))
 
 
-@pytest.mark.parametrize(("solver", "order", "coarsest"), [(Rk2Solver, 2, 200), (ImplicitSolver, 1, 1600)])
+@pytest.mark.parametrize(("solver", "order", "coarsest"), [(Rk2Solver, 2, 200), (ImplicitSolver, 2, 200)])
 def test_order_of_convergence_on_a_damped_oscillator(solver: Any, order: int, coarsest: int) -> None:
     stiffness, mass, damping, end = 40.0, 0.1, 0.5, 1.0
     skin, errors = node(stiffness, mass, damping), []
@@ -211,7 +211,7 @@ def test_skin_at_rest_stays_at_rest(solver: Any) -> None:
 def test_implicit_agrees_with_fine_rk2_on_a_face_within_a_percent(shared: Path, bending: float | None) -> None:
     vertices, polygons = head(shared, "mediapipe")
     skin, load = Skin.from_mesh(vertices, polygons, tissue(), bending=bending), smooth_load(vertices, polygons)
-    frames, frame, fine, coarse = 3, 0.04, 20, 8
+    frames, frame, fine, coarse = 3, 0.04, 20, 4
 
     def run(integrator: Any, substeps: int, late: float) -> Any:
         state, shapes = State.at_rest(vertices), []
@@ -222,7 +222,7 @@ def test_implicit_agrees_with_fine_rk2_on_a_face_within_a_percent(shared: Path, 
         return np.array(shapes[substeps - 1 :: substeps])
 
     reference = run(Rk2Solver(skin, frame / fine), fine, 0.5)
-    implicit = run(ImplicitSolver(skin, frame / coarse), coarse, 1.0)
+    implicit = run(ImplicitSolver(skin, frame / coarse), coarse, 0.5)
     moved = np.linalg.norm(reference - vertices, axis=2).max()
     assert moved > 0.003
     assert np.linalg.norm(implicit - reference, axis=2).max() < 0.01 * moved
