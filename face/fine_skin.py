@@ -18,7 +18,7 @@ from .outer_skin import OuterSkin
 from .template import MM
 
 #: A skin is split until its vertices are no farther apart than this in the middle, metres.
-FINE = 4.0 * MM
+FINE = 3.5 * MM
 
 MOST_SPLITS = 3
 

@@ -247,11 +247,12 @@ def pose_differences(divisions: Divisions, other: Face) -> tuple[np.ndarray, np.
 
 
 def test_four_times_the_vertices_move_alike(divisions: Divisions) -> None:
-    for differences in (pose_differences, muscle_differences):
+    """One vertex in seventy muscles passes 5 %: where the depressor of the lower lip has its edge."""
+    for differences, worst in ((pose_differences, 0.05), (muscle_differences, 0.065)):
         rms, largest = differences(divisions, divisions.fourfold)
         assert rms.max() < 0.05
-        assert np.median(largest) < 0.05
-        assert largest.max() < 0.065
+        assert largest.max() < worst
+        assert np.median(largest) < 0.03
 
 
 def test_a_quarter_of_the_vertices_moves_nearly_alike(divisions: Divisions) -> None:
