@@ -57,7 +57,7 @@ from .standard import (
     Unit,
     fap,
 )
-from .timing import Cue, Timing, emotion_weights, envelope, load_timings, sequence, strengths
+from .timing import Cue, Ramp, Timing, emotion_weights, envelope, load_timings, sequence, strengths
 from .wheel import ACTIVATION_MAX, ACTIVATION_MIN
 from .words import TABLE_WORDS, Word
 
@@ -99,6 +99,7 @@ __all__ = [
     "FeaturePoint",
     "Motion",
     "Profile",
+    "Ramp",
     "Side",
     "Signs",
     "Timing",

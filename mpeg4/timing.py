@@ -1,4 +1,7 @@
-"""Expressions in time: onset, apex, offset, and several expressions blended where they overlap."""
+"""Expressions in time: onset, apex, offset, and several expressions blended where they overlap.
+
+How fast, how strongly and along which ramp the kinds of expressions come and go stands in presets/timing.toml.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import math
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
+from enum import StrEnum
 from pathlib import Path
 from types import MappingProxyType
 
@@ -28,26 +32,84 @@ def _check_seconds(name: str, value: float) -> None:
         raise ParameterError(name, "must be a number of seconds, 0 or more", value)
 
 
+def _check_peak(value: float) -> None:
+    """A strength: 0 to 1."""
+    if not 0.0 <= value <= 1.0:
+        raise ParameterError("peak", "must lie in 0..1", value)
+
+
 def _check_fps(fps: float) -> None:
     """A frame rate: finite, positive."""
     if not (isinstance(fps, int | float | np.number) and math.isfinite(fps) and fps > 0.0):
         raise ParameterError("fps", "must be a positive number of frames per second", fps)
 
 
+class Ramp(StrEnum):
+    """How an expression comes and goes within its onset and offset.
+
+    minimum_jerk : 10 s^3 - 15 s^4 + 6 s^5, as aimed movements go (T. Flash, N. Hogan 1985, J. Neurosci. 5:1688-1703):
+        no speed and acceleration at its ends, and the fastest in between, 15/8 of the mean speed.
+    cosine : (1 - cos(pi s)) / 2, gentler: pi/2 of the mean speed at most.
+    """
+
+    MINIMUM_JERK = "minimum_jerk"
+    COSINE = "cosine"
+
+    def at(self, since: Floats, duration: float) -> Floats:
+        """From 0 to 1 as times (T,) since its beginning go through a duration, seconds; a step if it is 0."""
+        if duration == 0.0:
+            return np.where(since >= 0.0, 1.0, 0.0)
+        s = np.clip(since / duration, 0.0, 1.0)
+        if self is Ramp.COSINE:
+            return np.asarray(0.5 - 0.5 * np.cos(np.pi * s))
+        return np.clip(s**3 * (10.0 - 15.0 * s + 6.0 * s**2), 0.0, 1.0)  # rounding may pass 1
+
+
 @dataclass(frozen=True)
 class Timing:
-    """Seconds an expression takes to appear (onset), stays (apex) and fades (offset), and why."""
+    """How one kind of expression goes through time.
+
+    Attributes
+    ----------
+    name, reason, source : what it is called, what it is for, where its figures come from.
+    onset, apex, offset : seconds it takes to appear, stays, and takes to fade.
+    peak : strength at the apex of an expression that is asked for in full, 0..1.
+    ramp : how it appears and fades.
+
+    Raises
+    ------
+    ParameterError
+        When a time is negative or the peak is outside 0..1.
+    """
 
     name: str
     onset: float
     apex: float
     offset: float
     reason: str
+    _: KW_ONLY
+    peak: float = 1.0
+    ramp: Ramp = Ramp.MINIMUM_JERK
+    source: str = ""
 
     def __post_init__(self) -> None:
-        """Refuse negative durations."""
+        """Check durations and peak."""
         for key in ("onset", "apex", "offset"):
             _check_seconds(key, getattr(self, key))
+        _check_peak(self.peak)
+
+    def cue(self, profile: Profile, *, start: float = 0.0, seed: int | None = None) -> Cue:
+        """An expression with this timing, beginning at `start` seconds; seed as in `Cue`."""
+        return Cue(
+            profile,
+            start=start,
+            onset=self.onset,
+            apex=self.apex,
+            offset=self.offset,
+            peak=self.peak,
+            seed=seed,
+            ramp=self.ramp,
+        )
 
 
 @dataclass(frozen=True)
@@ -61,6 +123,7 @@ class Cue:
     onset, apex, offset : seconds it takes to appear, stays, and takes to fade.
     peak : strength at the apex, 0..1.
     seed : None for the midpoints of the ranges, else a draw inside them.
+    ramp : how it appears and fades.
 
     Raises
     ------
@@ -76,6 +139,7 @@ class Cue:
     offset: float
     peak: float = 1.0
     seed: int | None = None
+    ramp: Ramp = Ramp.MINIMUM_JERK
 
     def __post_init__(self) -> None:
         """Check times and peak."""
@@ -83,8 +147,7 @@ class Cue:
             _check_seconds(key, getattr(self, key))
         if not self.duration > 0.0:
             raise ParameterError("onset + apex + offset", "must be more than 0 seconds", self.duration)
-        if not 0.0 <= self.peak <= 1.0:
-            raise ParameterError("peak", "must lie in 0..1", self.peak)
+        _check_peak(self.peak)
 
     @property
     def duration(self) -> float:
@@ -92,20 +155,12 @@ class Cue:
         return self.onset + self.apex + self.offset
 
     def strength(self, times: Floats) -> Floats:
-        """Strength 0..peak at times (T,) in seconds: smooth ramps (zero speed and acceleration at their ends)."""
+        """Strength 0..peak at times (T,) in seconds, rising and falling along the ramp."""
         since = times - self.start
-        rise = _ramp(since, self.onset)
-        fall = _ramp(since - self.onset - self.apex, self.offset)
+        rise = self.ramp.at(since, self.onset)
+        fall = self.ramp.at(since - self.onset - self.apex, self.offset)
         inside = (since >= 0.0) & (since <= self.duration)
         return np.asarray(np.where(inside, self.peak * np.minimum(rise, 1.0 - fall), 0.0), dtype=np.float64)
-
-
-def _ramp(since: Floats, duration: float) -> Floats:
-    """From 0 to 1 within the duration along the minimum-jerk curve 10 s^3 - 15 s^4 + 6 s^5; a step if it is 0."""
-    if duration == 0.0:
-        return np.where(since >= 0.0, 1.0, 0.0)
-    s = np.clip(since / duration, 0.0, 1.0)
-    return np.clip(s**3 * (10.0 - 15.0 * s + 6.0 * s**2), 0.0, 1.0)  # rounding may pass 1
 
 
 def envelope(
@@ -117,12 +172,13 @@ def envelope(
     fps: float = DEFAULT_FPS,
     peak: float = 1.0,
     seed: int | None = None,
+    ramp: Ramp | str = Ramp.MINIMUM_JERK,
 ) -> Floats:
     """FAP frames of one expression that appears, stays and fades.
 
     Parameters
     ----------
-    profile, onset, apex, offset, peak, seed : as in `Cue`.
+    profile, onset, apex, offset, peak, seed, ramp : as in `Cue`.
     fps : frames per second.
 
     Returns
@@ -133,9 +189,12 @@ def envelope(
     Raises
     ------
     ParameterError
-        When a time, the rate or the peak breaks its rule.
+        When a time, the rate, the peak or the ramp breaks its rule.
     """
-    return sequence([Cue(profile, onset=onset, apex=apex, offset=offset, peak=peak, seed=seed)], fps=fps)
+    if ramp not in list(Ramp):
+        raise ParameterError("ramp", f"must be one of {', '.join(Ramp)}", ramp)
+    cue = Cue(profile, onset=onset, apex=apex, offset=offset, peak=peak, seed=seed, ramp=Ramp(ramp))
+    return sequence([cue], fps=fps)
 
 
 def sequence(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
@@ -203,7 +262,9 @@ def strengths(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
 
 
 def load_timings(path: str | Path = TIMINGS) -> Mapping[str, Timing]:
-    """Timing presets by name out of a TOML file: tables with onset, apex, offset (seconds) and reason.
+    """Timing presets by name out of a TOML file.
+
+    Tables with onset, apex, offset (seconds) and reason; peak (1 if left out), ramp (minimum_jerk) and source if known.
 
     Raises
     ------
@@ -220,14 +281,26 @@ def load_timings(path: str | Path = TIMINGS) -> Mapping[str, Timing]:
     return MappingProxyType({name: _timing(file, name, table) for name, table in document.items()})
 
 
+_NEEDED, _OPTIONAL = {"onset", "apex", "offset", "reason"}, {"peak", "ramp", "source"}
+
+
 def _timing(file: Path, name: str, table: object) -> Timing:
     """One preset, checked."""
-    if not isinstance(table, dict) or set(table) != {"onset", "apex", "offset", "reason"}:
-        raise FormatError(file, "must be a table with exactly onset, apex, offset and reason", key=name)
-    for key in ("onset", "apex", "offset"):
-        value = table[key]
+    if not isinstance(table, dict) or not _NEEDED <= set(table) <= _NEEDED | _OPTIONAL:
+        rule = f"must be a table with {', '.join(sorted(_NEEDED))}, and {', '.join(sorted(_OPTIONAL))} if wanted"
+        raise FormatError(file, rule, key=name)
+    for key in ("onset", "apex", "offset", "peak"):
+        value = table.get(key, 1.0)
         if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 <= value < math.inf:
-            raise FormatError(file, f"must be seconds, 0 or more, but it is {value!r}", key=f"{name}.{key}")
+            raise FormatError(file, f"must be a number, 0 or more, but it is {value!r}", key=f"{name}.{key}")
     if not isinstance(table["reason"], str) or not table["reason"].strip():
         raise FormatError(file, "must be a text that gives the reason", key=f"{name}.reason")
-    return Timing(name, float(table["onset"]), float(table["apex"]), float(table["offset"]), table["reason"])
+    ramp = table.get("ramp", Ramp.MINIMUM_JERK.value)
+    if ramp not in list(Ramp):
+        raise FormatError(file, f"must be one of {', '.join(Ramp)}", key=f"{name}.ramp")
+    times = (float(table[key]) for key in ("onset", "apex", "offset"))
+    options = {"peak": float(table.get("peak", 1.0)), "source": str(table.get("source", ""))}
+    try:
+        return Timing(name, *times, table["reason"], ramp=Ramp(ramp), **options)
+    except ParameterError as error:
+        raise FormatError(file, f"{error.rule}, but it is {error.value!r}", key=f"{name}.{error.name}") from error

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 from risorius.errors import FormatError, ParameterError
 from risorius.mpeg4 import (
     ARCHETYPES,
@@ -169,10 +170,48 @@ def test_no_cue_is_refused() -> None:
 
 def test_the_timing_presets() -> None:
     timings = load_timings()
-    assert list(timings) == ["flash", "natural", "slow"]
-    totals = [timing.onset + timing.apex + timing.offset for timing in timings.values()]
+    assert list(timings) == ["flash", "natural", "posed", "spontaneous", "slow"]
+    totals = [timings[name].onset + timings[name].apex + timings[name].offset for name in ("flash", "natural", "slow")]
     assert totals == sorted(totals)
     assert all(timing.reason and timing.offset >= timing.onset for timing in timings.values())
+
+
+def _fastest(strength: NDArray[np.float64]) -> float:
+    """Greatest speed of a strength sampled at FPS, per second."""
+    return float(np.abs(np.diff(strength)).max() * FPS)
+
+
+def test_posed_expressions_differ_from_spontaneous_ones_as_measured() -> None:
+    """Schmidt et al. 2006: faster onset and offset, greater amplitude, longer offset."""
+    posed, felt = load_timings()["posed"], load_timings()["spontaneous"]
+    assert posed.source
+    assert felt.source
+    assert posed.peak > felt.peak
+    assert posed.offset > felt.offset
+    paths = []
+    for timing in (posed, felt):
+        frames = sequence([timing.cue(_made(31, 1.0))], fps=FPS)[:, 30]
+        assert frames.max() == pytest.approx(timing.peak)
+        apex = int((timing.onset + 0.5 * timing.apex) * FPS)
+        paths.append((_fastest(frames[:apex]), _fastest(frames[apex:])))
+    assert paths[0][0] > 1.3 * paths[1][0]
+    assert paths[0][1] > 1.1 * paths[1][1]
+
+
+@pytest.mark.parametrize(("ramp", "fastest"), [("minimum_jerk", 15.0 / 8.0), ("cosine", np.pi / 2.0)])
+def test_ramps_have_their_closed_forms(ramp: str, fastest: float) -> None:
+    """The greatest speed is in proportion to the amplitude and against the duration, as measured of smiles."""
+    for peak, onset in ((1.0, 0.4), (0.5, 0.8)):
+        frames = envelope(_made(31, 1.0), onset=onset, apex=0.2, offset=0.4, peak=peak, ramp=ramp, fps=FPS)[:, 30]
+        rise = frames[: int(onset * FPS) + 1]
+        assert _fastest(rise) == pytest.approx(fastest * peak / onset, rel=1e-3)
+        assert rise[len(rise) // 2] == pytest.approx(0.5 * peak)
+        np.testing.assert_allclose(rise + rise[::-1], peak, atol=1e-9)
+
+
+def test_an_unknown_ramp_is_refused() -> None:
+    with pytest.raises(ParameterError, match="ramp"):
+        envelope(JOY, onset=0.1, apex=0.1, offset=0.1, ramp="bounce")
 
 
 @pytest.mark.parametrize(
@@ -181,6 +220,8 @@ def test_the_timing_presets() -> None:
      ("[a]\nonset = 1\napex = inf\noffset = 1\nreason = 'x'", "a.apex"),
      ("[a]\nonset = 1\napex = 1\nreason = 'x'", "a"),
      ("[a]\nonset = 1\napex = 1\noffset = 1\nreason = ''", "a.reason"),
+     ("[a]\nonset = 1\napex = 1\noffset = 1\nreason = 'x'\nramp = 'bounce'", "a.ramp"),
+     ("[a]\nonset = 1\napex = 1\noffset = 1\nreason = 'x'\npeak = 2.0", "a.peak"),
      ("a = 1", "a"), ("[a", None)],
 )  # fmt: skip
 def test_a_wrong_timing_preset_names_file_and_key(tmp_path: Path, text: str, key: str | None) -> None:
