@@ -298,9 +298,9 @@ def _timing(file: Path, name: str, table: object) -> Timing:
     ramp = table.get("ramp", Ramp.MINIMUM_JERK.value)
     if ramp not in list(Ramp):
         raise FormatError(file, f"must be one of {', '.join(Ramp)}", key=f"{name}.ramp")
-    times = (float(table[key]) for key in ("onset", "apex", "offset"))
-    options = {"peak": float(table.get("peak", 1.0)), "source": str(table.get("source", ""))}
+    onset, apex, offset = (float(table[key]) for key in ("onset", "apex", "offset"))
+    peak, source = float(table.get("peak", 1.0)), str(table.get("source", ""))
     try:
-        return Timing(name, *times, table["reason"], ramp=Ramp(ramp), **options)
+        return Timing(name, onset, apex, offset, table["reason"], peak=peak, ramp=Ramp(ramp), source=source)
     except ParameterError as error:
         raise FormatError(file, f"{error.rule}, but it is {error.value!r}", key=f"{name}.{error.name}") from error
