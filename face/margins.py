@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 import numpy as np
 from scipy import sparse
-from scipy.spatial import cKDTree
+from scipy.spatial.distance import cdist
 
 from ..arrays import Floats, Ints
 from ..physics.mesh import Sparse
@@ -51,14 +51,14 @@ def crossing(positions: Floats, arc: Ints, partner: Ints) -> Floats:
 def _spread(positions: Floats, arc: Ints, weight: Floats) -> Sparse:
     """(n, k) matrix that spreads values at an arc's vertices over the skin, times weight (n,); exact on the arc."""
     touched = np.flatnonzero(weight > 1e-6)
-    count = min(6, len(arc))
-    found = cKDTree(positions[arc]).query(positions[touched], k=count)
-    distance, nearest = (np.reshape(part, (len(touched), count)) for part in found)
-    first = distance[:, :1]
-    share = np.exp(-(((distance - first) / (0.5 * first + 0.05 * MM)) ** 2))
+    steps = np.linalg.norm(np.diff(positions[arc], axis=0), axis=1)
+    length = np.maximum(np.append(steps, 0.0) + np.append(0.0, steps), 1e-9)  # so that a denser margin counts alike
+    distance = cdist(positions[touched], positions[arc])  # not the nearest few: on the midline both sides are as near
+    first = distance.min(axis=1, keepdims=True)
+    share = length * np.exp(-(((distance - first) / (0.5 * first + 0.05 * MM)) ** 2))
     share *= (weight[touched] / share.sum(axis=1))[:, None]
-    rows = np.repeat(touched, count)
-    return sparse.csr_array((share.ravel(), (rows, nearest.ravel())), shape=(len(positions), len(arc)))
+    row, column = np.nonzero(share > 1e-12)
+    return sparse.csr_array((share[row, column], (touched[row], column)), shape=(len(positions), len(arc)))
 
 
 @dataclass(frozen=True)
