@@ -3,7 +3,7 @@
 checks, frame, points, parts, segmentation       what is given, where the face is, what its vertices are
 openings, outer_skin, regions, tissue, followers the skin as an elastic sheet, and what follows it
 template, tables, muscle_table, placement        the muscles, written on the template, placed on the face,
-muscle_fields                                    as fields of force
+muscle_fields, pulls                             as fields of force and of what they move
 mechanisms                                       what moves a face, one file each, and the switch
 organs, actuators, anatomy                       what else moves, and all of it together
 rows, inverse, nonnegative                       from FAPs to contractions

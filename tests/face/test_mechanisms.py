@@ -109,7 +109,7 @@ def along_the_bone(face: Face) -> float:
 
 
 def heap_of_a_squeeze(face: Face) -> float:
-    """Volume that rises over the whole face when the corrugators squeeze the glabella, mm above the normal there."""
+    """Corrugators drawn together: how far the skin between them heaps up, mm."""
     moved, sheet = contracted(face, "corrugator"), face.anatomy.skin
     middle = place(face, "4.1", 0.0, 4.0, 0.0) * np.array([0.0, 1.0, 1.0])
     spot = np.linalg.norm(sheet.positions - middle, axis=1) < 9 * MM
