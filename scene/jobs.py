@@ -194,7 +194,7 @@ def _move(obj: Any, words: Sequence[str], fps: float, creases: bool | None) -> W
 
 
 def _bake_file(
-    out: Path, mesh: Any, points: Any, words: Sequence[str], fps: float, dynamic: bool, creases: bool | None
+    out: Path, mesh: Any, points: Any, words: Sequence[str], fps: float, dynamic: bool, creases: bool | None = None
 ) -> Work[Made]:
     """See `bake_file`."""
     film.refuse_unwritable_output(out)
@@ -248,7 +248,7 @@ def _line_up(obj: Any, results: Sequence[bake.BakeResult]) -> None:
 
 
 def _render_film(
-    out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float, creases: bool | None
+    out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float, creases: bool | None = None
 ) -> Work[Made]:
     """See `render_film`."""
     film.refuse_unwritable_output(out)
@@ -264,7 +264,7 @@ def _render_film(
 
 
 def _demo(
-    out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float, creases: bool | None
+    out: Path, mesh: Any, points: Any, words: Sequence[str], look: Look, fps: float, creases: bool | None = None
 ) -> Work[Made]:
     """See `demo`."""
     blend, movie, sheet = (out / f"risorius.{suffix}" for suffix in ("blend", "mp4", "png"))
