@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..physics.mesh import triangulate
+from ..physics.mesh import fans
 from ..physics.skin import State
 from .anatomy import Anatomy
 from .dental_arch import DentalArch, build_front
@@ -179,7 +179,7 @@ def build_contact(anatomy: Anatomy) -> Contact:
 def _triangles(anatomy: Anatomy, part: Part) -> Ints:
     """(t, 3) vertices of a part's surface; none where the face has none."""
     polygons = [polygon for polygon in anatomy.mesh.polygons if (anatomy.mesh.parts[polygon] == part).all()]
-    return triangulate(polygons) if polygons else np.empty((0, 3), dtype=np.int64)
+    return fans(polygons)[0]
 
 
 def _near(distance: Floats, within: tuple[float, float]) -> tuple[Ints, Floats]:

@@ -24,6 +24,9 @@ ANGLES, TURNS = 91, 72
 #: Distance of the points at which a modelled eyeball's surface is taken, metres.
 SPACING = 0.25 * MM
 
+#: Directions nearer than this to the border between two places of the grid, in steps of it, belong to both.
+TIE = 1e-6
+
 
 @dataclass(frozen=True)
 class Ball:
@@ -81,11 +84,11 @@ def modelled_ball(rest: Look, vertices: Floats, triangles: Ints) -> Ball:
     """
     away = surface_samples(vertices[triangles], SPACING) - rest.centre
     distance = np.maximum(np.linalg.norm(away, axis=1), 1e-9)
-    angle, turn = (
-        np.round(place).astype(np.int64) for place in _direction(away @ _axes(rest.gaze) / distance[:, None])
-    )
+    places = _direction(away @ _axes(rest.gaze) / distance[:, None])
     radii = np.zeros((ANGLES, TURNS))
-    np.maximum.at(radii, (angle, turn % TURNS), distance)
+    for aside in ((-TIE, -TIE), (-TIE, TIE), (TIE, -TIE), (TIE, TIE)):  # halfway between two directions counts for both
+        angle, turn = (np.round(place + by).astype(np.int64) for place, by in zip(places, aside, strict=True))
+        np.maximum.at(radii, (np.clip(angle, 0, ANGLES - 1), turn % TURNS), distance)
     radii[[0, -1]] = radii[[0, -1]].max(axis=1, keepdims=True)
     radii[radii == 0.0] = np.median(distance)
     return Ball(rest, np.column_stack([radii, radii[:, 0]]))
