@@ -252,7 +252,7 @@ def test_four_times_the_vertices_move_alike(divisions: Divisions) -> None:
         rms, largest = differences(divisions, divisions.fourfold)
         assert rms.max() < 0.05
         assert largest.max() < worst
-        assert np.median(largest) < 0.03
+        assert np.median(largest) < 0.05
 
 
 def test_a_quarter_of_the_vertices_moves_nearly_alike(divisions: Divisions) -> None:
