@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 from risorius.api import Face, Part
 from risorius.errors import ModelError
+from risorius.face.contact import AT_REST
+from risorius.face.eyeball_surface import EyeballSurface
 from risorius.face.mechanisms.lids import LidMove
 from risorius.face.muscle_fields import force_density
 from risorius.face.muscle_table import Kind, Region, read_muscles
 from risorius.face.placement import place_muscles
+from risorius.face.pose import Poser
 from scipy.spatial.transform import Rotation
 
 #: The kinds of muscle of the second paper's line and of every FACS table; the parts a name begins with.
@@ -184,15 +187,17 @@ def test_closing_lids_stay_outside_the_eyeball(any_face: Callable[[str], Face], 
 
 
 def test_skin_pushed_into_the_eyeball_is_lifted_off_it_and_other_skin_is_not(face: Face) -> None:
-    eye, skin = face.anatomy.eyes["l"], face.anatomy.skin
-    near = (np.min(skin.lid_distances("l"), axis=0) < 4e-3).astype(float)
-    pushed = skin.positions + 0.3 * (eye.centre - skin.positions)
-    cleared = eye.clear(pushed, skin.positions, near)
-    distance = np.linalg.norm(cleared - eye.centre, axis=1)[near > 0]
-    rest = np.linalg.norm(skin.positions - eye.centre, axis=1)[near > 0]
-    assert (np.linalg.norm(pushed - eye.centre, axis=1)[near > 0] < eye.radius).any()
-    assert (distance >= np.minimum(rest, eye.radius) - 1e-9).all()
-    np.testing.assert_array_equal(cleared[near == 0], pushed[near == 0])
+    contact, skin = Poser(face.anatomy).contact, face.anatomy.skin
+    (ball,) = (
+        body for body in contact.bodies if isinstance(body, EyeballSurface) and skin.positions[body.index, 0].mean() > 0
+    )
+    pushed = 0.2 * (face.anatomy.eyes["l"].centre - skin.positions)
+    firm = ball.firmness == 1.0
+    sunk, cleared = (ball.depths(skin.positions + way, AT_REST)[0] for way in (pushed, contact.clear(pushed)))
+    assert sunk[firm].max() > 1e-3
+    assert cleared[firm].max() < 0.1e-3
+    others = np.setdiff1d(np.arange(skin.vertex_count), np.concatenate([body.index for body in contact.bodies]))
+    np.testing.assert_allclose(contact.clear(pushed)[others], pushed[others], atol=1e-12)
 
 
 def test_contractions_set_by_hand_move_what_they_name(face: Face) -> None:
