@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint build bench bench-faithful docs-faps clean
+.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -24,6 +24,9 @@ bench: ## speed and accuracy figures
 
 bench-faithful: ## how faithful the faces are: tables and contact sheets in out/faithful/; ARGS="--help" for parts of it
 	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/bench_faithful.py $(ARGS)
+
+trajectories: ## paths of the skin from rest to the six emotions, a picture in out/; ARGS="--timing spontaneous"
+	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/trajectories.py $(ARGS)
 
 docs-faps: ## docs/faps.md: what moves each FAP, measured on the faces
 	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/fap_table.py $(ARGS)
