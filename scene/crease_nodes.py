@@ -30,21 +30,24 @@ NARROW = 1.0e-3
 MEASURE, DRAW = "Risorius Crease Strain", "Risorius Creases"
 _FULLNESS, _LINES = "Risorius Crease Fullness", "Risorius Crease Lines"
 
-#: The measuring group's input: rounds over which compression is averaged.
-ROUNDS = "Rounds"
-
-#: Which table a group was built from.
+#: Which table and variant a group was built from.
 TABLE = "risorius_table"
 
 
-def measuring_group() -> Any:
-    """The geometry node group that writes the attributes `CREASE` + name and `STRAIN` on a posed mesh."""
-    return _ready(MEASURE, _measuring)
+def measuring_group(rounds: int) -> Any:
+    """The geometry node group that writes the attributes `CREASE` + name and `STRAIN` on a posed mesh.
+
+    Parameters
+    ----------
+    rounds : over which compression is averaged (`Creases.rounds`). Built into the group, because how a script sets an
+        input of a modifier differs from Blender to Blender.
+    """
+    return _ready(MEASURE, lambda rows: _measuring(rows, rounds), f"{rounds} rounds")
 
 
 def drawing_group() -> Any:
     """The shader node group that turns the attributes `CREASE` + name into a normal and a shade."""
-    return _ready(DRAW, _drawing)
+    return _ready(DRAW, _drawing, "")
 
 
 def is_measuring(tree: Any | None) -> bool:
@@ -70,10 +73,10 @@ def seen(rows: Sequence[CreaseRow]) -> list[CreaseRow]:
     return [row for row in rows if row.look is not Look.UNSEEN]
 
 
-def _ready(name: str, build: Callable[[Sequence[CreaseRow]], Any]) -> Any:
-    """The group of that name for the table as it is: one that is there already, or a new one."""
+def _ready(name: str, build: Callable[[Sequence[CreaseRow]], Any], variant: str) -> Any:
+    """The variant of the group for the table as it is: one that is there already, or a new one."""
     rows = read_creases()
-    table = blake2b(repr(rows).encode(), digest_size=8).hexdigest()
+    table = blake2b(f"{rows}{variant}".encode(), digest_size=8).hexdigest()
     for tree in bpy.data.node_groups:
         if tree.name.startswith(name) and tree.get(TABLE) == table and tree.library is None:
             return tree
@@ -82,12 +85,11 @@ def _ready(name: str, build: Callable[[Sequence[CreaseRow]], Any]) -> Any:
     return tree
 
 
-def _measuring(rows: Sequence[CreaseRow]) -> Any:
+def _measuring(rows: Sequence[CreaseRow], rounds: int) -> Any:
     """See `measuring_group`."""
     graph = NodeGraph(MEASURE, "GeometryNodeTree")
     graph.tree.is_modifier = True
     geometry = graph.takes("Geometry", "NodeSocketGeometry")
-    rounds = graph.takes(ROUNDS, "NodeSocketInt", 2)
     ends = graph.node("GeometryNodeInputMeshEdgeVertices").outputs
     rest = _named(graph, "rest_position")
     length = graph.vector("DISTANCE", *(_at(graph, end, rest) for end in ends[:2])).outputs["Value"]
@@ -103,7 +105,7 @@ def _measuring(rows: Sequence[CreaseRow]) -> Any:
             Gauge=_named(graph, PLACE + row.of),
             Shortening=shortening,
             Length=length,
-            **{ROUNDS: rounds},
+            Rounds=rounds,
             Onset=row.onset,
             Full=row.full,
         )
@@ -117,7 +119,7 @@ def _fullness() -> Any:
     graph = NodeGraph(_FULLNESS, "GeometryNodeTree")
     place, gauge = (graph.takes(name, "NodeSocketVector") for name in ("Place", "Gauge"))
     shortening, length = (graph.takes(name, "NodeSocketFloat") for name in ("Shortening", "Length"))
-    rounds = graph.takes(ROUNDS, "NodeSocketInt", 2)
+    rounds = graph.takes("Rounds", "NodeSocketInt", 1)
     onset, full = (graph.takes(name, "NodeSocketFloat") for name in ("Onset", "Full"))
     ends = graph.node("GeometryNodeInputMeshEdgeVertices").outputs[:2]
     (x1, y1), (x2, y2) = (graph.separate(_at(graph, end, gauge))[:2] for end in ends)

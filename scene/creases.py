@@ -50,11 +50,8 @@ def settle(source: FaceSource, creases: Creases | None) -> None:
     if not obj.add_rest_position_attribute:
         obj.add_rest_position_attribute = True
         obj[RESTING] = True
-    group = nodes.measuring_group()
     modifier = obj.modifiers.new(MODIFIER, "NODES")
-    modifier.node_group = group
-    rounds = next(item.identifier for item in group.interface.items_tree if item.name == nodes.ROUNDS)
-    modifier[rounds] = creases.rounds
+    modifier.node_group = nodes.measuring_group(creases.rounds)
     obj.modifiers.move(len(obj.modifiers) - 1, 0)
     nodes.drawing_group().use_fake_user = not shown_by(obj)
 
