@@ -208,7 +208,9 @@ class Anatomy:
         """Mouth bag and sockets."""
         inner: Bools = self.mesh.parts == Part.SKIN
         inner[self.skin.index] = False
-        return InnerSkin(laplacian(self.mesh.positions, self._skin_polygons), inner)
+        positions, polygons = self.mesh.positions, self._skin_polygons
+        areas = mesh.vertex_areas(positions, polygons)
+        return InnerSkin(laplacian(positions, polygons), areas, inner, positions, self.skin)
 
     @cached_property
     def loose_parts(self) -> LooseParts:

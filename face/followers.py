@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 from ..arrays import Bools, Floats, Ints
 from ..physics.elastic import Factor, diagonal_matrix
 from ..physics.mesh import Sparse
+from .outer_skin import OuterSkin
 
 #: Loose vertices follow this many nearest carriers.
 NEIGHBOURS = 12
@@ -19,28 +20,54 @@ SHEET_TIE = 0.02
 #: Inner skin is tied to rest as weakly as this, relative to its neighbours, so that loose pieces stay put.
 REST_TIE = 1e-4
 
+#: Inner skin goes with the outer skin that it lies so far behind (metres), ever less over that depth; so many of its
+#: vertices; and the length over which the tie wins over the inner skin's own smoothness.
+FLESH_DEPTH = 7e-3
+BEHIND = 6
+FLESH_LENGTH = 4e-3
+
 
 class InnerSkin:
-    """Skin behind the lips and lids: takes the smoothest displacement that fits the margins it hangs on."""
+    """Skin behind the lips and lids: takes the smoothest displacement that fits the margins it hangs on.
 
-    def __init__(self, laplacian: Sparse, inner: Bools) -> None:
-        """Prepare for a mesh's Laplacian (V, V) and the mask (V,) of vertices that follow."""
+    Where only a few millimetres of flesh lie between it and the outer skin, it goes with that skin, and so cannot come
+    out through it.
+    """
+
+    def __init__(self, laplacian: Sparse, areas: Floats, inner: Bools, positions: Floats, outer: OuterSkin) -> None:
+        """Prepare for a mesh's Laplacian (V, V), vertex areas (V,), the mask (V,) of vertices that follow, and `outer`.
+
+        Lengths are metres of head space.
+        """
         self.index: Ints = np.flatnonzero(inner)
         if len(self.index) == 0:
             return
         rows: Sparse = laplacian[self.index]
         own: Sparse = rows[:, self.index]
         diagonal = own.diagonal()
-        tie = REST_TIE * np.where(diagonal > 0, diagonal, 1.0)
-        self._factor = Factor(own + diagonal_matrix(tie))
+        rest = REST_TIE * np.where(diagonal > 0, diagonal, 1.0)
+        flesh = _flesh(positions[self.index], areas[self.index], outer, len(positions))
+        self._factor = Factor(own + diagonal_matrix(rest + np.asarray(flesh.sum(axis=1)).ravel()))
         keep = np.ones(laplacian.shape[0])
         keep[self.index] = 0.0
-        self._coupling: Sparse = rows @ diagonal_matrix(keep)
+        self._coupling: Sparse = flesh - rows @ diagonal_matrix(keep)
 
     def follow(self, displacement: Floats) -> None:
         """Fill in the inner rows of a displacement field (V, 3), in place."""
         if len(self.index):
-            displacement[self.index] = self._factor.solve(-np.asarray(self._coupling @ displacement))
+            displacement[self.index] = self._factor.solve(np.asarray(self._coupling @ displacement))
+
+
+def _flesh(inner: Floats, areas: Floats, outer: OuterSkin, count: int) -> Sparse:
+    """(i, count) how firmly each inner vertex is tied to the outer skin that it lies behind."""
+    found = cKDTree(outer.positions).query(inner, k=BEHIND)
+    distance, nearest = (np.reshape(part, (len(inner), BEHIND)) for part in found)
+    away = outer.positions[nearest] - inner[:, None]
+    behind = (away * outer.normals[nearest]).sum(axis=2) / np.maximum(distance, 1e-9)
+    firm = np.exp(-((distance / FLESH_DEPTH) ** 2)) * np.maximum(behind, 0.0) ** 2 / FLESH_LENGTH**2
+    rows = np.repeat(np.arange(len(inner)), BEHIND)
+    ties = (areas[:, None] / BEHIND * firm).ravel()
+    return sparse.csr_array((ties, (rows, outer.index[nearest.ravel()])), shape=(len(inner), count))
 
 
 class LooseParts:

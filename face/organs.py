@@ -20,6 +20,12 @@ SKULL_ROUNDS, SKULL_TOLERANCE = 12, 1e-6
 #: The neutral pupil is a third of the iris, and the iris as wide as the neutral lid gap (ISO/IEC 14496-2 neutral face).
 PUPIL_SHARE = 1.0 / 3.0
 
+#: FAPs of the tongue, as places in a frame.
+TONGUE = slice(42, 47)
+
+#: A tongue of which nothing is asked loses this share of its height, once the chin has dropped so far (metres).
+SINKS, SINKS_BY = 0.4, 14 * MM
+
 
 def value_of(frame: Floats, number: int) -> float:
     """A FAP of a frame (68,), 0 where silent."""
@@ -141,6 +147,18 @@ class Tongue:
         moved[:, 1] = self.tip * up * high + self.body * raised * high
         moved[:, 2] = self.tip * forward * wide
         moved += self._rolled(roll * ANGLE_UNIT) * (self.tip + self.body)[:, None]
+        return moved
+
+    def sunk(self, opening: float, frame: Floats) -> Floats:
+        """(k, 3) displacement in head space by which a tongue of which nothing is asked lies down as the jaw opens.
+
+        A tongue at rest fills the closed mouth up to the palate; carried down like a stone it would plug the open one.
+        `opening` is how far the chin has dropped, metres.
+        """
+        moved: Floats = np.zeros_like(self.positions)
+        if np.isnan(frame[TONGUE]).all():
+            height = self.positions[:, 1] - self.positions[:, 1].min()
+            moved[:, 1] = -SINKS * float(smoothstep(np.array(opening / SINKS_BY))) * height
         return moved
 
     def _rolled(self, angle: float) -> Floats:

@@ -201,7 +201,8 @@ class Poser:
         carried = anatomy.lower_teeth
         moved[carried] = anatomy.jaw.rigid(face_mesh.positions[carried], state.jaw)
         if anatomy.tongue is not None:
-            moved[anatomy.tongue.index] += anatomy.tongue.displacement(frame)
+            opening = state.jaw.angle * anatomy.actuators.chin_lever
+            moved[anatomy.tongue.index] += anatomy.tongue.displacement(frame) + anatomy.tongue.sunk(opening, frame)
         anatomy.loose_parts.follow(moved)
         for ball in anatomy.eyeballs:
             moved[ball.index] = ball.displacement(frame)
