@@ -7,10 +7,22 @@ all go through it.
 from __future__ import annotations
 
 from functools import lru_cache
+from pathlib import Path
 
 from .face.creases import Creases
 from .face.default_head import HeadMesh, build_default_head
 from .face.face import Clip, Face
+from .face.fit.find import FoundPoints, find_points, find_points_steps
+from .face.fit.locate import FitProgress
+from .face.fit.topologies import (
+    Topology,
+    TopologyPoint,
+    load_topologies,
+    read_topology,
+    recognise_topology,
+    topology_of,
+    write_topology,
+)
 from .face.frame import Fapu
 from .face.mechanisms import ADDITIONS, MUSCLE_GROUPS, Mechanism
 from .face.parts import Part
@@ -73,6 +85,8 @@ __all__ = [
     "Fap",
     "FapStream",
     "Fapu",
+    "FitProgress",
+    "FoundPoints",
     "HeadMesh",
     "Mechanism",
     "Part",
@@ -80,6 +94,7 @@ __all__ = [
     "Profile",
     "Ramp",
     "Timing",
+    "Topology",
     "VisemeField",
     "archetype",
     "between",
@@ -90,12 +105,18 @@ __all__ = [
     "expression",
     "expression_frame",
     "fap",
+    "find_points",
+    "find_points_steps",
     "initial_profile",
     "load_emotions",
     "load_timings",
+    "load_topologies",
     "read_fap",
+    "read_topology",
     "recognise",
     "recognise_features",
+    "recognise_topology",
+    "save_topology",
     "sequence",
     "viseme_frame",
     "write_fap",
@@ -107,3 +128,18 @@ def default_face() -> Face:
     """The default head as a face; built once."""
     head = build_default_head()
     return Face.from_arrays(head.vertices, head.polygons, head.points, head.parts)
+
+
+def save_topology(path: str | Path, face: Face, *, name: str, source: str = "") -> Topology:
+    """Write a face's feature points as those of every mesh with its connectivity; returns what was written.
+
+    `load_topologies(folder)` reads such tables for `find_points(..., topologies=...)`.
+
+    Raises
+    ------
+    ModelError : when none of its points follows the mesh.
+    """
+    points = {key: TopologyPoint(point.vertices, point.weights) for key, point in face.points.items() if point.is_bound}
+    topology = topology_of(name, source, len(face.vertices), face.polygons, points)
+    write_topology(path, topology)
+    return topology

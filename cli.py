@@ -22,6 +22,8 @@ import numpy as np
 from .errors import ParameterError, RisoriusError
 
 DESCRIPTION = "An emotion word and an activation become a moving face."
+#: Found points that are less sure than this are named.
+DOUBTFUL = 0.4
 NEEDS_BLENDER = (
     "this verb needs Blender: run it as `blender --command risorius ...`, or `pip install bpy` into this Python"
 )
@@ -171,12 +173,41 @@ def _fap(arguments: argparse.Namespace) -> Result:
 
 
 def _points(arguments: argparse.Namespace) -> Result:
-    """Check a file of feature points against a mesh."""
+    """Find the feature points of a mesh, or check a file of them against it."""
+    if arguments.points is None:
+        return _found_points(arguments)
+    if arguments.out is not None:
+        raise _UsageError("--out belongs to points that are found; leave out the file to check")
     face = _face(arguments)
     units = {name: getattr(face.units, name) for name in ("irisd0", "es0", "ens0", "mns0", "mw0")}
     lines = [f"{len(face.points)} feature points fit {arguments.mesh}"]
     lines += [f"{name.upper():<7} {1000.0 * value:7.2f} mm" for name, value in units.items()]
     return Result({"points": len(face.points), "fapu_m": units}, lines)
+
+
+def _point_order(name: str) -> tuple[int, ...]:
+    """Feature points by group and number."""
+    return tuple(int(part) for part in name.split("."))
+
+
+def _found_points(arguments: argparse.Namespace) -> Result:
+    """Feature points found on a mesh; written as the JSON that every verb reads."""
+    from . import api
+    from .face.mesh_file import read_mesh
+
+    mesh = read_mesh(arguments.mesh)
+    found = api.find_points(mesh.vertices, mesh.polygons)
+    positions = {name: place.tolist() for name, place in found.positions.items()}
+    if arguments.out is not None:
+        arguments.out.write_text(json.dumps(positions, indent=1) + "\n", encoding="utf-8")
+    how = f"by its topology ({found.topology})" if found.topology else f"score {found.score:.2f}"
+    doubtful = sorted((name for name, sure in found.confidence.items() if sure < DOUBTFUL), key=_point_order)
+    lines = [f"{len(positions)} feature points found on {arguments.mesh}, {how}"]
+    lines += [f"look at: {', '.join(doubtful)}"] if doubtful else []
+    lines += [f"wrote {arguments.out}"] if arguments.out else []
+    return Result(
+        {"points": positions, "confidence": found.confidence, "score": found.score, "topology": found.topology}, lines
+    )
 
 
 # ---- what the verbs share -----------------------------------------------------------------------------------------
@@ -350,8 +381,10 @@ def _parser() -> argparse.ArgumentParser:
     fap.add_argument("--out", type=Path, help="the .fap file to write")
 
     points = _verb(verbs, "points", _points)
-    points.add_argument("points", type=Path, help='a JSON file {"8.4": vertex index or [x, y, z], ...}')
+    about = 'a JSON file {"8.4": vertex index or [x, y, z], ...} to check; without it, the points are found'
+    points.add_argument("points", type=Path, nargs="?", help=about)
     points.add_argument("--mesh", type=Path, required=True, help="the mesh they belong to, .npz or .obj")
+    points.add_argument("--out", type=Path, help="the JSON file to write found points to")
 
     demo = _verb(verbs, "demo", _demo)
     _add_words(demo, nargs="*")

@@ -192,3 +192,10 @@ def test_module_and_installed_command_are_the_same() -> None:
     command = Path(sys.executable).parent / "risorius"
     installed = subprocess.run([command, "profile", "fear"], capture_output=True, check=True)
     assert module.stdout == installed.stdout != b""
+
+
+def test_points_are_found_and_written(run_json: Run, shared: Path, tmp_path: Path) -> None:
+    said = run_json("points", "--mesh", shared / "heads" / "ict_narrow.npz", "--out", tmp_path / "p.json")
+    assert said["topology"].startswith("ICT")
+    checked = run_json("points", tmp_path / "p.json", "--mesh", shared / "heads" / "ict_narrow.npz")
+    assert checked["points"] == len(said["points"]) + 2  # the pupils are added

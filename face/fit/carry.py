@@ -1,0 +1,158 @@
+"""Feature points carried from the fitted template to the mesh, and how sure each of them is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ...arrays import Floats
+from ...errors import FormatError
+from ..points import closest_on_triangles
+from .fitted import Fit, ring_shares
+from .target import RIM, Target, feature
+from .template import FitTemplate
+
+#: How much a disagreement of the normals counts when a point is dropped on the surface, metres per turn.
+TURN = 5e-3
+#: Points of the surface tried for each.
+NEAREST = 8
+#: The nose tip is the middle of this share of the foremost points within reach, metres.
+TIP_SHARE, TIP_REACH = 0.04, 7e-3
+#: Usual errors of this size halve the confidence, metres.
+HALF_ERROR = 5e-3
+#: A point that lies this far from the mirror image of its twin is doubtful, metres; or from the fitted skin.
+ASKEW, ASTRAY = 4e-3, 4e-3
+#: What is left of the confidence of a doubtful point.
+DOUBT = 0.4
+#: A face that scores worse is a doubtful one.
+DOUBTFUL_SCORE = 1.0
+
+#: Feature points on the lid margins and where the lips meet: ring, and edge or side of the corner.
+RIM_POINTS: Mapping[str, tuple[str, str]] = {
+    "3.7": ("eye_l", "left"), "3.11": ("eye_l", "right"), "3.1": ("eye_l", "upper"), "3.3": ("eye_l", "lower"),
+    "3.12": ("eye_r", "right"), "3.8": ("eye_r", "left"), "3.2": ("eye_r", "upper"), "3.4": ("eye_r", "lower"),
+    "2.4": ("mouth", "left"), "2.5": ("mouth", "right"),
+    "2.2": ("mouth", "upper"), "2.6": ("mouth", "upper"), "2.7": ("mouth", "upper"),
+    "2.3": ("mouth", "lower"), "2.8": ("mouth", "lower"), "2.9": ("mouth", "lower"),
+}  # fmt: skip
+
+ERRORS_FILE = Path(__file__).resolve().parents[2] / "presets" / "anatomy" / "point_errors.csv"
+
+
+@dataclass(frozen=True)
+class Carried:
+    """Feature points in template coordinates: positions (3,), and confidences in [0, 1]."""
+
+    positions: Mapping[str, Floats]
+    confidence: Mapping[str, float]
+
+
+def carry(template: FitTemplate, target: Target, fit: Fit, score: float) -> Carried:
+    """The template's feature points on the head that it was bent onto.
+
+    Parameters
+    ----------
+    score : the face's score; poor faces make every point doubtful.
+    """
+    fitted = template.read(fit.skin)
+    places = _dropped(template, target, fit, fitted)
+    places |= _on_rims(template, fit)
+    places["9.3"] = _foremost(target, places["9.3"])
+    return Carried(places, _confidence(template, target, fit, places, fitted, score))
+
+
+def _dropped(template: FitTemplate, target: Target, fit: Fit, fitted: Floats) -> dict[str, Floats]:
+    """Every point where the surface is nearest to it, among what is seen and faces the same way."""
+    a, b, c = (fit.skin[template.surface.triangles[:, k]] for k in range(3))
+    cross = np.cross(b - a, c - a)
+    normals = np.zeros_like(fit.skin)
+    for k in range(3):
+        np.add.at(normals, template.surface.triangles[:, k], cross)
+    facing = template.read(normals)
+    facing /= np.maximum(np.linalg.norm(facing, axis=1), 1e-30)[:, None]
+    points = target.outside
+    scale = TURN / 10e-3  # `feature` counts a turn as 10 mm
+    tree = cKDTree(feature(points.positions, points.normals * scale))
+    _, match = tree.query(feature(fitted, facing * scale), k=NEAREST)
+    places: dict[str, Floats] = {}
+    for name, place, near in zip(template.names, fitted, np.asarray(match), strict=True):
+        corners = target.surface.vertices[target.surface.triangles[np.unique(points.triangles[near])]]
+        weights, distance = closest_on_triangles(place, corners)
+        best = int(distance.argmin())
+        places[name] = weights[best] @ corners[best]
+    return places
+
+
+def _on_rims(template: FitTemplate, fit: Fit) -> dict[str, Floats]:
+    """The points of lids and lips, on the rims that were found: a point never leaves its own lid or lip."""
+    places: dict[str, Floats] = {}
+    for name, (ring, where) in RIM_POINTS.items():
+        margin = fit.margins.get(ring)
+        if margin is None or name not in template.names:
+            continue
+        if where in ("left", "right"):
+            places[name] = margin.corner(1.0 if where == "left" else -1.0)
+        else:
+            rest = template.read(template.skin.vertices, [name])
+            places[name] = margin.at(where, ring_shares(template, template.rings[ring], rest))[0]
+    return places
+
+
+def _foremost(target: Target, tip: Floats) -> Floats:
+    """The middle of the foremost points round the nose tip."""
+    points = target.outside.positions[target.front]
+    near = points[np.linalg.norm(points - tip, axis=1) < TIP_REACH]
+    if len(near) == 0:
+        return tip
+    foremost = near[near[:, 1] <= np.quantile(near[:, 1], TIP_SHARE)]
+    middle = foremost.mean(axis=0)
+    return np.asarray(near[np.linalg.norm(near - middle, axis=1).argmin()])
+
+
+def _confidence(
+    template: FitTemplate,
+    target: Target,
+    fit: Fit,
+    places: Mapping[str, Floats],
+    fitted: Floats,
+    score: float,
+) -> dict[str, float]:
+    """How sure each point is: its usual error, and what is doubtful about it here."""
+    usual = usual_errors()
+    rim = cKDTree(target.rim) if len(target.rim) else None
+    flip = np.array([-1.0, 1.0, 1.0])
+    confidence: dict[str, float] = {}
+    for number, name in enumerate(template.names):
+        place = places[name]
+        sure = 1.0 / (1.0 + (usual.get(name, HALF_ERROR) / HALF_ERROR) ** 2)
+        twin = template.twins.get(name)
+        if twin is not None and np.linalg.norm(place - flip * places[twin]) > ASKEW:
+            sure *= DOUBT
+        if name not in RIM_POINTS and np.linalg.norm(place - fitted[number]) > ASTRAY:
+            sure *= DOUBT
+        if name in RIM_POINTS and RIM_POINTS[name][0] not in fit.margins:
+            sure *= DOUBT
+        if rim is not None and rim.query(place)[0] < RIM:
+            sure *= DOUBT
+        confidence[name] = sure * (DOUBT if score > DOUBTFUL_SCORE else 1.0)
+    return confidence
+
+
+@lru_cache(maxsize=1)
+def usual_errors() -> Mapping[str, float]:
+    """Feature point -> its median error in metres over the heads that the finding was measured on (docs/fit.md)."""
+    errors: dict[str, float] = {}
+    for number, line in enumerate(ERRORS_FILE.read_text(encoding="utf-8").splitlines(), 1):
+        if not line or line.startswith(("#", "point,")):
+            continue
+        try:
+            name, median = line.split(",")
+            errors[name] = float(median) * 1e-3
+        except ValueError as error:
+            raise FormatError(ERRORS_FILE, f"expected `point,median_mm`, but found {line!r}", line=number) from error
+    return errors

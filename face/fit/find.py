@@ -1,0 +1,194 @@
+"""Feature points of any head: known topology, or the template laid onto the mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arrays import Floats, Ints
+from ...errors import ModelError, ParameterError
+from ...physics.mesh import Polygons, corners
+from ..checks import checked_polygons, checked_vertices
+from .align import align
+from .carry import RIM_POINTS, carry
+from .clicks import FEWEST, checked_clicks, click_misses, click_wishes, pose_from_clicks
+from .cloud import Surface
+from .fitted import fit
+from .head_pose import HeadPose
+from .locate import HEAD, HEAD_BOX, FitProgress, Located, box_cloud, locate, looks_backwards, scored
+from .target import head_target
+from .template import FitTemplate, fit_template
+from .topologies import Topology, load_topologies, recognise_topology
+
+_T = TypeVar("_T")
+
+#: Vertices nearer to each other than this share of the mesh's diagonal are one: exporters split them along seams.
+SAME_PLACE = 1e-6
+#: Alignment is kept only while it moves no click farther off than this, metres, or by this ratio.
+CLICK_DRIFT, CLICK_RATIO = 8e-3, 1.5
+#: A click on a corner of eye or mouth that lies this near to the corner that was found means that one, metres.
+CLICK_SNAP = 4e-3
+
+
+@dataclass(frozen=True)
+class FoundPoints:
+    """Feature points found on a mesh.
+
+    Attributes
+    ----------
+    positions : name -> (3,) on the surface, in the mesh's own coordinates.
+    confidence : name -> 0 .. 1; below about 0.5 a point wants to be looked at.
+    score : how little the mesh looks like a face: 0 is the template itself, beyond 1.6 it is refused.
+    topology : name of the known topology, where the mesh was recognised by it.
+    """
+
+    positions: Mapping[str, Floats]
+    confidence: Mapping[str, float]
+    score: float
+    topology: str | None = None
+
+
+def find_points(
+    vertices: ArrayLike,
+    polygons: Polygons,
+    clicks: Mapping[str, Sequence[float] | Floats] | None = None,
+    *,
+    topologies: Sequence[Topology] | None = None,
+) -> FoundPoints:
+    """Find the feature points of a face, whichever way it looks and however large it is.
+
+    Parameters
+    ----------
+    vertices : (V, 3) a head, a face or a whole body, in any unit, place and direction.
+    polygons : its polygons, as for `Face.from_arrays`.
+    clicks : name -> (3,) points that are known; four or more also say where the face is.
+    topologies : known connectivities; None: those that come with Risorius.
+
+    Raises
+    ------
+    ModelError : where there is no face; states the score, the limit and the remedy. Broken meshes.
+    ParameterError : clicks that name no point of the skin, or no place.
+    """
+    steps = find_points_steps(vertices, polygons, clicks, topologies=topologies)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            found: FoundPoints = end.value
+            return found
+
+
+def find_points_steps(
+    vertices: ArrayLike,
+    polygons: Polygons,
+    clicks: Mapping[str, Sequence[float] | Floats] | None = None,
+    *,
+    topologies: Sequence[Topology] | None = None,
+) -> Generator[FitProgress, None, FoundPoints]:
+    """`find_points` as a generator: yields `FitProgress(fraction, text)`, returns the points; close it to cancel."""
+    yield FitProgress(0.0, "reading the mesh")
+    places = checked_vertices(vertices)
+    faces = _checked_faces(polygons, len(places))
+    template = fit_template()
+    clicked = checked_clicks(clicks, template)
+    known = recognise_topology(len(places), faces, load_topologies() if topologies is None else topologies)
+    if known is not None:
+        return _known_points(known, places, clicked)
+    surface = _welded(places, faces)
+    if len(clicked) >= FEWEST:
+        located = _located_by_clicks(surface, clicked, template)
+    else:
+        located = yield from _part_of(locate(surface), 0.02, 0.6)
+    return (yield from _part_of(_fitted_points(located, clicked, template), 0.6, 1.0))
+
+
+def _checked_faces(polygons: Polygons, vertex_count: int) -> Polygons:
+    """Polygons in range; arrays stay arrays."""
+    if not (isinstance(polygons, np.ndarray) and polygons.ndim == 2):
+        return checked_polygons(polygons, vertex_count)
+    if len(polygons) == 0:
+        raise ModelError("the mesh has no polygons: the face needs a surface")
+    try:
+        corners(polygons, vertex_count)
+    except ParameterError as error:
+        raise ModelError(str(error)) from error
+    return polygons
+
+
+def _known_points(known: Topology, vertices: Floats, clicked: Mapping[str, Floats]) -> FoundPoints:
+    """The stored points of a known topology; clicks replace them."""
+    positions = known.places(vertices) | dict(clicked)
+    return FoundPoints(positions, dict.fromkeys(positions, 1.0), 0.0, known.name)
+
+
+def _welded(vertices: Floats, polygons: Polygons) -> Surface:
+    """The surface with vertices of one place made one, and triangles without area left out."""
+    surface = Surface.from_polygons(vertices, polygons)
+    size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    if not size > 0.0:
+        raise ModelError("no face found: all vertices lie in one place")
+    cells = np.round((vertices - vertices.min(axis=0)) / (SAME_PLACE * size)).astype(np.int64)
+    _, first, same = np.unique(cells, axis=0, return_index=True, return_inverse=True)
+    triangles: Ints = first[np.ravel(same)][surface.triangles]
+    a, b, c = triangles.T
+    triangles = triangles[(a != b) & (b != c) & (c != a)]
+    if len(triangles) == 0:
+        raise ModelError("no face found: the mesh has no area; feature points need a surface")
+    return Surface.from_polygons(vertices, triangles)
+
+
+def _located_by_clicks(surface: Surface, clicked: Mapping[str, Floats], template: FitTemplate) -> Located:
+    """The place that the clicks tell, aligned where that does not move it off the clicks."""
+    pose = pose_from_clicks(clicked, template)
+    cloud = box_cloud(surface, pose, HEAD_BOX, HEAD)
+    if len(cloud) == 0:
+        raise ModelError("the clicked points lie off the mesh: click on its surface")
+    if looks_backwards(cloud, pose):
+        surface = surface.flipped()
+        cloud = box_cloud(surface, pose, HEAD_BOX, HEAD)
+    before = click_misses(clicked, pose, template)
+    closer = align(cloud, pose)
+    after = click_misses(clicked, closer, template)
+    if all(after[name] < max(CLICK_DRIFT, CLICK_RATIO * before[name]) for name in clicked):
+        pose = closer
+    return Located(pose, surface, scored(surface, pose))
+
+
+def _fitted_points(
+    located: Located, clicked: Mapping[str, Floats], template: FitTemplate
+) -> Generator[FitProgress, None, FoundPoints]:
+    """Bend the template onto the head and carry its points over."""
+    pose = located.pose
+    target = head_target(located.surface, pose)
+    wishes = [click_wishes(clicked, pose, template)] if clicked else []
+    fitted = yield from _part_of(fit(template, target, wishes), 0.0, 0.95)
+    score = located.score.value
+    carried = carry(template, target, fitted, score)
+    positions = {name: pose.to_mesh(place) for name, place in carried.positions.items()}
+    confidence = dict(carried.confidence)
+    for name, place in clicked.items():
+        confidence[name] = 1.0
+        if not _means_corner(name, place, positions[name], pose):
+            positions[name] = place
+    return FoundPoints(positions, confidence, score)
+
+
+def _means_corner(name: str, click: Floats, found: Floats, pose: HeadPose) -> bool:
+    """Whether a click means the corner of eye or mouth that was found beside it."""
+    is_corner = name in RIM_POINTS and RIM_POINTS[name][1] in ("left", "right")
+    return is_corner and float(np.linalg.norm(click - found)) < CLICK_SNAP * pose.size
+
+
+def _part_of(steps: Generator[FitProgress, None, _T], start: float, end: float) -> Generator[FitProgress, None, _T]:
+    """Some work as the share [start, end] of a larger one."""
+    while True:
+        try:
+            step = next(steps)
+        except StopIteration as stop:
+            result: _T = stop.value
+            return result
+        yield FitProgress(start + (end - start) * step.fraction, step.text)

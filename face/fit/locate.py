@@ -1,0 +1,174 @@
+"""Which way the face of a mesh looks, where it is and how large: symmetry, coarse search, alignment, score."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from ...arrays import Bools, Floats
+from ...errors import ModelError
+from .align import align
+from .cloud import Cloud, Surface, sample
+from .head_pose import HeadPose
+from .score import FaceScore, face_score
+from .search import Guess, best_guesses, search_plane
+from .symmetry import symmetry_planes
+
+#: Points spread over the whole mesh; over the head alone; over the face alone; and those that symmetry is sought with.
+WHOLE, HEAD, FACE, SYMMETRY = 100_000, 40_000, 40_000, 2_000
+#: Boxes round the template's origin, metres: least and greatest x, y, z.
+HEAD_BOX = ((-0.12, -0.185, -0.175), (0.12, 0.135, 0.175))
+FACE_BOX = ((-0.068, -0.185, -0.09), (0.068, 0.0, 0.076))
+#: Guesses that are aligned, and those of them that are aligned twice.
+ALIGNED, FINALISTS = 16, 3
+#: From this score on a mesh is refused; beneath it, from this agreement of relief on, it is accepted.
+SCORE_LIMIT, RELIEF_LIMIT = 1.6, 0.6
+
+
+#: Least and greatest x, y, z round the template's origin, metres.
+Box: TypeAlias = tuple[tuple[float, float, float], tuple[float, float, float]]
+
+
+class FitProgress(NamedTuple):
+    """How far the finding is: `fraction` in [0, 1] and a `text` for people."""
+
+    fraction: float
+    text: str
+
+
+@dataclass(frozen=True)
+class Located:
+    """A face found in a mesh.
+
+    Attributes
+    ----------
+    pose : where the template lies, a scale for each axis.
+    surface : the mesh's surface with normals outward.
+    score : how much it looks like a face.
+    """
+
+    pose: HeadPose
+    surface: Surface
+    score: FaceScore
+
+
+def locate(surface: Surface) -> Generator[FitProgress, None, Located]:
+    """Find the face of a mesh.
+
+    Raises
+    ------
+    ModelError : when nothing in the mesh looks like a face; states the score, the limit and the remedy.
+    """
+    yield FitProgress(0.0, "planes of symmetry")
+    cloud = sample(surface, WHOLE)
+    if len(cloud) == 0:
+        raise ModelError("no face found: the mesh has no area; feature points need a surface")
+    area = float(np.linalg.norm(surface.cross(), axis=1).sum() / 2.0)
+    diagonal = float(np.linalg.norm(np.ptp(cloud.positions, axis=0)))
+    planes = symmetry_planes(cloud.positions[:: WHOLE // SYMMETRY])
+    guesses: list[Guess] = []
+    for number, plane in enumerate(planes):
+        yield FitProgress(0.15 + 0.5 * number / len(planes), "which way the face looks")
+        guesses += search_plane(cloud, area, diagonal, plane)
+    found: list[Located] = []
+    guesses = best_guesses(guesses)[:ALIGNED]
+    for number, guess in enumerate(guesses):
+        yield FitProgress(0.65 + 0.25 * number / len(guesses), "how large the face is")
+        found.append(_aligned(surface, cloud, guess.pose))
+    found.sort(key=lambda place: place.score.value)
+    finalists = _distinct(found)[:FINALISTS]
+    yield FitProgress(0.9, "a closer look")
+    best = [aligned_again(place.surface, place.pose) for place in finalists]
+    return accepted(min(best, key=lambda place: place.score.value, default=None))
+
+
+def accepted(place: Located | None) -> Located:
+    """The place, where it looks like a face.
+
+    Raises
+    ------
+    ModelError : where it does not.
+    """
+    remedy = (
+        "click its feature points 3.7, 3.12, 8.3, 8.4, 9.3 and 2.1 (outer eye corners, lip corners, nose tip, chin)"
+    )
+    if place is None:
+        raise ModelError(f"no face found in the mesh; if it has one, {remedy}")
+    score = place.score
+    if score.value > SCORE_LIMIT or score.relief < RELIEF_LIMIT:
+        raise ModelError(
+            f"the mesh does not look like a face: score {score.value:.2f} (at most {SCORE_LIMIT}), agreement of eyes, "
+            f"nose and mouth {score.relief:.2f} (at least {RELIEF_LIMIT}); if it has a face, {remedy}"
+        )
+    return place
+
+
+def aligned_again(surface: Surface, pose: HeadPose) -> Located:
+    """The place near a pose, seen with points spread over the head alone."""
+    pose = align(box_cloud(surface, pose, HEAD_BOX, HEAD), pose)
+    return Located(pose, surface, scored(surface, pose))
+
+
+def scored(surface: Surface, pose: HeadPose) -> FaceScore:
+    """How much what lies at a pose looks like a face."""
+    return face_score(pose.to_template(box_cloud(surface, pose, FACE_BOX, FACE).positions))
+
+
+def in_box(surface: Surface, pose: HeadPose, box: Box) -> Bools:
+    """(T,) which triangles touch a box round the head."""
+    corners = pose.alike().to_template(surface.vertices)[surface.triangles]
+    touches: Bools = ((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)
+    return touches
+
+
+def box_cloud(surface: Surface, pose: HeadPose, box: Box, count: int) -> Cloud:
+    """Points spread over what lies in a box round the head."""
+    chosen = in_box(surface, pose, box)
+    cloud = sample(surface.part(chosen), count)
+    whole = Cloud(cloud.positions, cloud.normals, np.flatnonzero(chosen)[cloud.triangles])
+    return whole.take(lies_in_box(cloud.positions, pose, box))
+
+
+def lies_in_box(positions: Floats, pose: HeadPose, box: Box) -> Bools:
+    """Which positions (N, 3) of the mesh lie in a box round the head."""
+    local = pose.alike().to_template(positions)
+    inside: Bools = np.all((local >= np.array(box[0])) & (local <= np.array(box[1])), axis=1)
+    return inside
+
+
+def _aligned(surface: Surface, cloud: Cloud, guess: HeadPose) -> Located:
+    """One guess aligned; the surface comes out with its normals outward."""
+    near = cloud.take(lies_in_box(cloud.positions, guess, HEAD_BOX))
+    if len(near) < HEAD // 4:
+        near = box_cloud(surface, guess, HEAD_BOX, HEAD // 2)
+    if looks_backwards(near, guess):
+        surface, near = surface.flipped(), Cloud(near.positions, -near.normals, near.triangles)
+    pose = align(near, guess)
+    return Located(pose, surface, scored(surface, pose))
+
+
+def looks_backwards(cloud: Cloud, pose: HeadPose) -> bool:
+    """Whether the normals of what is seen from the front point away from the viewer."""
+    local = pose.to_template(cloud.positions)
+    inside = (np.abs(local[:, 0]) < 0.05) & (np.abs(local[:, 2]) < 0.07)
+    if not inside.any():
+        return False
+    depth = local[inside, 1]
+    front = depth <= np.quantile(depth, 0.4)
+    return bool(np.median(cloud.normals[inside][front] @ pose.axes[1]) > 0.0)
+
+
+def _distinct(places: Sequence[Located]) -> list[Located]:
+    """Places that differ by more than a centimetre or 20 degrees."""
+    kept: list[Located] = []
+    for place in places:
+        for other in kept:
+            near = np.linalg.norm(place.pose.origin - other.pose.origin) < 0.01 * other.pose.size
+            if near and np.trace(place.pose.axes @ other.pose.axes.T) > 2.88:
+                break
+        else:
+            kept.append(place)
+    return kept

@@ -1,0 +1,54 @@
+"""How much what is seen from the front looks like a face, and what is refused."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Floats
+from .depth_map import DEPTH_CLIP, depth_map, in_oval, relief, template_depth
+
+#: Mean difference in depth that costs one point.
+DEPTH_UNIT = 4e-3
+
+
+@dataclass(frozen=True)
+class FaceScore:
+    """How well a mesh in template coordinates agrees with the template; 0 is perfect.
+
+    Attributes
+    ----------
+    depth : mean difference in depth over the oval, metres of the template.
+    relief : correlation of the finer shape (eyes, nose, mouth), -1 .. 1.
+    coverage : share of the oval that the mesh covers.
+    """
+
+    depth: float
+    relief: float
+    coverage: float
+
+    @property
+    def value(self) -> float:
+        """The gate's figure."""
+        return self.depth / DEPTH_UNIT + 2.0 * (1.0 - self.relief) + 2.0 * (1.0 - self.coverage)
+
+
+def face_score(positions: Floats) -> FaceScore:
+    """The score of points (N, 3) spread over a mesh, in template coordinates."""
+    depth, template = depth_map(positions), template_depth()
+    oval = in_oval()
+    known = np.isfinite(depth) & np.isfinite(template)
+    both = known & oval
+    if both.sum() < 0.3 * oval.sum():
+        return FaceScore(DEPTH_CLIP, 0.0, float(both.sum() / oval.sum()))
+    difference = (depth - template)[both]
+    difference = difference - np.median(difference)
+    a, b = relief(depth, known)[both], relief(template, known)[both]
+    spread = a.std() * b.std()
+    agreement = float(((a - a.mean()) * (b - b.mean())).mean() / spread) if spread > 0.0 else 0.0
+    return FaceScore(
+        depth=float(np.minimum(np.abs(difference), DEPTH_CLIP).mean()),
+        relief=agreement,
+        coverage=float(both.sum() / oval.sum()),
+    )
