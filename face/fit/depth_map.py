@@ -49,11 +49,11 @@ def template_depth() -> Floats:
 
 def relief(depth: Floats, known: Bools) -> Floats:
     """The finer shape of a depth map: eyes, nose and mouth without the head's roundness."""
-    fine, coarse = (_blurred(depth, known, width / PIXEL) for width in BLURS)
+    fine, coarse = (blurred(depth, known, width / PIXEL) for width in BLURS)
     return np.clip(fine - coarse, -RELIEF_CLIP, RELIEF_CLIP)
 
 
-def _blurred(depth: Floats, known: Bools, width: float) -> Floats:
+def blurred(depth: Floats, known: Bools, width: float) -> Floats:
     """Gaussian mean over the known pixels."""
     share = gaussian_filter(known.astype(np.float64), width, mode="constant")
     mean = gaussian_filter(np.where(known, depth, 0.0), width, mode="constant")

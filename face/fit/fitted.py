@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays import Floats, Ints
 from .bend import Stage, Wishes, bend
+from .ears import ear_wishes
 from .locate import FitProgress
 from .margins import Margin, find_margin
 from .target import Target
@@ -40,7 +41,8 @@ def fit(template: FitTemplate, target: Target, wishes: Sequence[Wishes] = ()) ->
     yield FitProgress(0.0, "the face")
     moved = bend(template, target, moved, FRONT, wishes)
     yield FitProgress(0.3, "the whole head")
-    moved = bend(template, target, moved, WHOLE, wishes)
+    skin = template.skin.vertices + template.skin.cage_matrix @ moved
+    moved = bend(template, target, moved, WHOLE, [*wishes, *ear_wishes(template, target, skin)])
     margins: dict[str, Margin] = {}
     for number, stage in enumerate((CLOSER, CLOSEST)):
         yield FitProgress(0.5 + 0.2 * number, "lids and lips")
