@@ -20,10 +20,9 @@ SHEET_TIE = 0.02
 #: Inner skin is tied to rest as weakly as this, relative to its neighbours, so that loose pieces stay put.
 REST_TIE = 1e-4
 
-#: Inner skin goes with the outer skin that it lies so far behind (metres), ever less over that depth; so many of its
-#: vertices; and the length over which the tie wins over the inner skin's own smoothness.
-FLESH_DEPTH = 7e-3
-BEHIND = 6
+#: Inner skin goes with outer skin that it lies behind at less than the reach, ever less towards it (metres); the length
+#: over which that wins over the inner skin's own smoothness.
+FLESH_REACH = 14e-3
 FLESH_LENGTH = 4e-3
 
 
@@ -59,15 +58,18 @@ class InnerSkin:
 
 
 def _flesh(inner: Floats, areas: Floats, outer: OuterSkin, count: int) -> Sparse:
-    """(i, count) how firmly each inner vertex is tied to the outer skin that it lies behind."""
-    found = cKDTree(outer.positions).query(inner, k=BEHIND)
-    distance, nearest = (np.reshape(part, (len(inner), BEHIND)) for part in found)
-    away = outer.positions[nearest] - inner[:, None]
-    behind = (away * outer.normals[nearest]).sum(axis=2) / np.maximum(distance, 1e-9)
-    firm = np.exp(-((distance / FLESH_DEPTH) ** 2)) * np.maximum(behind, 0.0) ** 2 / FLESH_LENGTH**2
-    rows = np.repeat(np.arange(len(inner)), BEHIND)
-    ties = (areas[:, None] / BEHIND * firm).ravel()
-    return sparse.csr_array((ties, (rows, outer.index[nearest.ravel()])), shape=(len(inner), count))
+    """(i, count) how firmly each inner vertex is tied to the outer skin that it lies behind.
+
+    Summed over the outer skin within reach by its area, so that neither density nor the order of neighbours matters;
+    before a flat skin at depth h the sum is (1 - (h / reach)^2)^4.
+    """
+    pairs = cKDTree(inner).sparse_distance_matrix(cKDTree(outer.positions), FLESH_REACH, output_type="coo_matrix")
+    own, other, distance = pairs.row, pairs.col, pairs.data
+    away = outer.positions[other] - inner[own]
+    behind = np.maximum((away * outer.normals[other]).sum(axis=1) / np.maximum(distance, 1e-9), 0.0) ** 2
+    near = outer.areas[other] * (1.0 - (distance / FLESH_REACH) ** 2) ** 3 * 4.0 / (np.pi * FLESH_REACH**2)
+    ties = areas[own] * near * behind / FLESH_LENGTH**2
+    return sparse.csr_array((ties, (own, outer.index[other])), shape=(len(inner), count))
 
 
 class LooseParts:

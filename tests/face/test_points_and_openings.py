@@ -10,6 +10,7 @@ import pytest
 from risorius.api import Face, Part
 from risorius.errors import ModelError
 from risorius.face.default_head import HeadMesh
+from risorius.face.mechanisms.separation import upper_lip_side
 from risorius.face.openings import edge_graph, find_opening, outer_faces
 from risorius.face.points import closest_on_triangles, lies_on_skin
 from risorius.physics import mesh
@@ -130,7 +131,7 @@ def test_lips_and_lids_are_parted(any_face: Callable[[str], Face], name: str) ->
         assert along > 0.3 * width, which
     for arc, side in ((skin.mouth.upper, 1.0), (skin.mouth.lower, 0.0)):
         half = arc[len(arc) // 4 : -len(arc) // 4]
-        np.testing.assert_allclose(skin.upper_lip_side[half], side, atol=0.05)
+        np.testing.assert_allclose(upper_lip_side(skin)[half], side, atol=0.05)
 
 
 def test_an_opening_runs_along_edges_through_its_points() -> None:

@@ -47,7 +47,7 @@ def test_a_fap_is_moved_by_what_anatomy_moves_it_with(
 
 
 def test_leaks_are_told_in_the_faces_millimetres(script: ModuleType) -> None:
-    """An opening jaw takes the lower lip along, about as far as it goes itself; twins and pairs are no leak."""
+    """An opening jaw takes the lower lip along and the tongue lies down, as far as it goes itself; twins are no leak."""
     face = api.default_face()
     frame, achieved = np.full(68, np.nan), np.zeros(68)
     frame[[5, 6]] = 100.0
@@ -59,7 +59,7 @@ def test_leaks_are_told_in_the_faces_millimetres(script: ModuleType) -> None:
     leak = script.largest_leak(face, frame, achieved)
     assert leak == (31, pytest.approx(50.0 * face.units.ens0 / face.units.mw0))
     number, value = script.measure(face, 3, 1.0).leak
-    assert number in (5, 10, 52, 57)
+    assert number in (5, 10, 44, 46, 52, 57)
     assert -200.0 < value < -50.0
 
 
