@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from ..face.parts import Part
-from ..scene import faces, refusals
+from ..scene import refusals
 from ..scene.bake import Target
+from ..scene.points_kept import has_points
 
 
 def companions_of(obj: Any) -> dict[Part, Any]:
@@ -30,6 +31,6 @@ def target_of(obj: Any) -> Target:
 def face_reason(obj: Any | None) -> str | None:
     """Why the active object cannot be baked on, or None."""
     reason = refusals.reason(obj, make_single_user=obj is not None and obj.risorius.face.make_single_user)
-    if reason is None and obj is not None and not faces.has_points(obj):
+    if reason is None and obj is not None and not has_points(obj):
         return f"{obj.name}: has no feature points yet: import them from a JSON file"
     return reason

@@ -1,8 +1,7 @@
 """From objects to a face: one mesh, or a head with eyes, teeth and tongue as objects of their own.
 
-The feature points are stored with the object, as JSON in a custom property, and so are saved with the file and need
-no registered add-on. Building a face takes a moment, so the last few are kept, found again by a fingerprint of all
-they are made of.
+The feature points are kept with the mesh (`points_kept`). Building a face takes a moment, so the last few are kept,
+found again by a fingerprint of all they are made of.
 """
 
 from __future__ import annotations
@@ -20,13 +19,16 @@ from ..arrays import Floats, Ints
 from ..errors import SceneError
 from ..face.parts import Part
 from . import mesh as meshes
-from .points_file import PointTable, points_of_table
+from .points_bound import bind, followed, table_of
+from .points_file import PointTable
+from .points_kept import Origin, read_kept, write_kept
+from .points_kept import forget_points as forget_points
+from .points_kept import has_points as has_points
 from .refusals import refuse_broken_vertices, refuse_unreadable
 
 if TYPE_CHECKING:
     from ..api import Face
 
-POINTS = "risorius_points"
 KEPT_FACES = 3
 _faces: OrderedDict[str, Face] = OrderedDict()
 
@@ -89,12 +91,12 @@ class FaceSource:
         return tuple(piece.obj for piece in self.pieces)
 
 
-def store_points(obj: Any, points: PointTable) -> None:
-    """Store feature points with `obj`: name -> vertex index, or position (3,) in the mesh's own coordinates.
+def store_points(obj: Any, points: PointTable, *, origin: Origin = Origin.FILE) -> None:
+    """Keep feature points with the mesh of `obj`: name -> vertex index, or position (3,) in the mesh's own coordinates.
 
     Raises
     ------
-    SceneError : an index beyond the mesh's vertices.
+    SceneError : an index beyond the mesh's vertices; a mesh of another file.
     """
     count = len(obj.data.vertices)
     for name, point in points.items():
@@ -103,42 +105,25 @@ def store_points(obj: Any, points: PointTable) -> None:
                 obj.name,
                 f"has {count} vertices, but feature point {name} names vertex {point}: wrong file for this mesh?",
             )
-    table = {name: point if isinstance(point, int) else list(point) for name, point in points.items()}
-    obj[POINTS] = json.dumps({"vertex_count": count, "points": table})
-
-
-def forget_points(obj: Any) -> None:
-    """Remove the stored feature points."""
-    if POINTS in obj:
-        del obj[POINTS]
-
-
-def has_points(obj: Any) -> bool:
-    """Whether feature points are stored with `obj`."""
-    return POINTS in obj
+    write_kept(obj, bind(obj.data, points, origins=origin), as_given=True)
 
 
 def stored_points(obj: Any) -> dict[str, int | tuple[float, float, float]]:
-    """Feature points stored with `obj`.
+    """Feature points kept with the mesh of `obj`, where they are on it now.
 
     Raises
     ------
-    SceneError : none stored, unreadable, or stored for another number of vertices.
+    SceneError : none there, unreadable, or the mesh was edited so that points that every face needs are lost.
     """
-    if POINTS not in obj:
-        raise SceneError(obj.name, "has no feature points: import them from a JSON file first")
-    try:
-        stored = json.loads(obj[POINTS])
-        count = int(stored["vertex_count"])
-    except (ValueError, KeyError, TypeError) as problem:
-        raise SceneError(obj.name, "has unreadable feature points: import them again") from problem
-    if count != len(obj.data.vertices):
+    from ..face.points import REQUIRED
+
+    now = followed(read_kept(obj), obj.data)
+    needed = sorted(set(now.lost) & set(REQUIRED))
+    if needed:
         raise SceneError(
-            obj.name,
-            f"has {len(obj.data.vertices)} vertices, but had {count} when its feature points were imported: "
-            "import them again",
+            obj.name, f"was edited, and its feature points {', '.join(needed)} were lost: find or import them again"
         )
-    return points_of_table(stored["points"], obj.name)
+    return table_of(now.kept, meshes.rest_vertices(obj.data))
 
 
 def read_face(

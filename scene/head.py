@@ -13,6 +13,7 @@ from ..face.default_head import HeadMesh, Material
 from . import mesh as meshes
 from .creases import draw_in
 from .faces import store_points
+from .points_kept import Origin
 
 NAME = "Risorius Head"
 
@@ -71,7 +72,7 @@ def head_object(head: HeadMesh, name: str) -> Any:
     mesh.polygons.foreach_set("material_index", np.ascontiguousarray(head.material_index, dtype=np.int32))
     meshes.write_parts(mesh, np.asarray(head.parts))
     obj = bpy.data.objects.new(name, mesh)
-    store_points(obj, {name: _place(point) for name, point in head.points.items()})
+    store_points(obj, {n: _place(point) for n, point in head.points.items()}, origin=Origin.TOPOLOGY)
     return obj
 
 

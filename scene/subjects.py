@@ -13,9 +13,10 @@ from ..errors import FormatError, SceneError
 from ..face.parts import Part
 from . import mesh as meshes
 from .creases import draw_in
-from .faces import FaceSource, face_of, has_points, read_face, store_points
+from .faces import FaceSource, face_of, read_face, store_points
 from .head import add_default_head, select_only
 from .points_file import read_points
+from .points_kept import has_points
 
 if TYPE_CHECKING:
     from ..face.face import Face

@@ -7,6 +7,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ...scene import faces, refusals
 from ...scene.points_file import read_points
+from ...scene.points_kept import forget_points, has_points
 from ..base import RisoriusOperator
 
 
@@ -71,11 +72,11 @@ class RISORIUS_OT_forget_points(RisoriusOperator, bpy.types.Operator):
     def refusal(cls, context: Any) -> str | None:
         """Only where there are points."""
         obj = context.object
-        return None if obj is not None and faces.has_points(obj) else "There are no feature points to forget"
+        return None if obj is not None and has_points(obj) else "There are no feature points to forget"
 
     def run(self, context: Any) -> str:
         """Forget them."""
-        faces.forget_points(context.object)
+        forget_points(context.object)
         return f"{context.object.name} has no feature points any more"
 
 

@@ -6,7 +6,8 @@ from typing import Any
 
 import bpy
 
-from ...scene import faces, refusals
+from ...scene import refusals
+from ...scene.points_kept import has_points
 from ..requirements import MISSING, REMEDY, has_scipy
 from ..sidebar import Sidebar
 from .ops import RISORIUS_OT_add_head, RISORIUS_OT_forget_points, RISORIUS_OT_import_points
@@ -31,7 +32,7 @@ class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
             column = layout.column(align=True)
             column.label(text="Select the mesh of a face,", icon="INFO")
             column.label(text="or start with the default head:", icon="BLANK1")
-        elif faces.has_points(obj):
+        elif has_points(obj):
             layout.label(text=obj.name, icon="CHECKMARK")
         else:
             column = layout.column(align=True)

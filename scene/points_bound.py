@@ -1,0 +1,198 @@
+"""Binding feature points to a mesh, and where they are after the mesh has been changed.
+
+A point holds on to the polygon that it lies on. As long as the mesh has the same polygons it moves with its vertices;
+once it has others, the point goes to the nearest place of the new surface, or is lost where there is none.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
+
+import numpy as np
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
+from mathutils.interpolate import poly_3d_calc
+
+from ..arrays import Floats
+from . import mesh as meshes
+from .points_file import PointTable
+from .points_kept import KeptPoint, KeptPoints, Origin, mesh_counts
+
+#: A place farther from the surface than this share of the diagonal of all points lies off it, as a pupil does.
+OFF_SURFACE = 5e-3
+#: A point farther from a changed surface than this share of that diagonal is lost.
+LOST = 1e-2
+#: Shares below this are none.
+SMALLEST_SHARE = 1e-6
+
+#: Vertices, and their shares in a place.
+Held: TypeAlias = tuple[tuple[int, ...], tuple[float, ...]]
+
+
+@dataclass(frozen=True)
+class Surface:
+    """The resting surface of a mesh, to look up places on."""
+
+    vertices: Floats
+    polygons: list[tuple[int, ...]]
+    counts: tuple[int, int, int]
+    digest: str
+    tree: Any
+
+    @classmethod
+    def of(cls, mesh: Any) -> Surface:
+        """Read a mesh's resting surface."""
+        vertices = meshes.rest_vertices(mesh)
+        polygons = meshes.polygon_sequence(*meshes.polygon_arrays(mesh))
+        tree = BVHTree.FromPolygons(vertices.tolist(), polygons)
+        return cls(vertices, polygons, mesh_counts(mesh), mesh_digest(mesh), tree)
+
+    def nearest(self, place: Floats) -> tuple[Floats, int, float] | None:
+        """The nearest place (3,), its polygon and its distance."""
+        found, _, polygon, distance = self.tree.find_nearest(Vector(place))
+        return None if found is None else (np.array(found, dtype=np.float64), int(polygon), float(distance))
+
+    def bound(self, place: Floats, reach: float) -> Held | None:
+        """Vertices and shares of the place of the surface nearest to `place`; None beyond `reach`."""
+        near = self.nearest(place)
+        if near is None or near[2] > reach:
+            return None
+        return self.shares(near[1], near[0])
+
+    def shares(self, polygon: int, place: Floats) -> Held:
+        """Vertices of a polygon, and their shares in a place on it."""
+        vertices = self.polygons[polygon]
+        weights = np.array(poly_3d_calc([Vector(self.vertices[v]) for v in vertices], Vector(place)), dtype=np.float64)
+        held = weights > SMALLEST_SHARE
+        kept = weights[held] / weights[held].sum()
+        return tuple(int(v) for v in np.array(vertices)[held]), tuple(float(w) for w in kept)
+
+    def kept(self, held: Held | None, place: Floats, confidence: float, origin: Origin) -> KeptPoint:
+        """A point held by vertices of this surface, or one at a place off it."""
+        if held is None:
+            return KeptPoint(triple(place), confidence=confidence, origin=origin)
+        return KeptPoint(triple(_place(*held, self.vertices)), *held, confidence, origin)
+
+
+@dataclass(frozen=True)
+class Followed:
+    """Points as they are on the mesh now.
+
+    Attributes
+    ----------
+    kept : bound to the mesh as it is.
+    moved_on : whether the mesh has other polygons than when they were stored.
+    lost : names of the points that the mesh has no place for any more.
+    """
+
+    kept: KeptPoints
+    moved_on: bool
+    lost: tuple[str, ...]
+
+
+def mesh_digest(mesh: Any) -> str:
+    """A name for exactly these polygons."""
+    digest = hashlib.blake2b(digest_size=12)
+    for array in meshes.polygon_arrays(mesh):
+        digest.update(array.tobytes())
+    return digest.hexdigest()
+
+
+def bind(
+    mesh: Any,
+    points: PointTable,
+    *,
+    origins: Mapping[str, Origin] | Origin = Origin.FILE,
+    confidence: Mapping[str, float] | None = None,
+) -> KeptPoints:
+    """Points of a table bound to a mesh.
+
+    Parameters
+    ----------
+    points : name -> vertex index, or position (3,) in the mesh's own coordinates.
+    origins : where they come from, each or all.
+    confidence : name -> 0 .. 1; 1 where nothing is said.
+    """
+    surface = Surface.of(mesh)
+    places = {n: surface.vertices[p] if isinstance(p, int) else np.asarray(p, float) for n, p in points.items()}
+    reach = OFF_SURFACE * _extent(places)
+    kept = {}
+    for name, point in points.items():
+        held = ((point,), (1.0,)) if isinstance(point, int) else surface.bound(places[name], reach)
+        origin = origins if isinstance(origins, Origin) else origins.get(name, Origin.FILE)
+        sure = 1.0 if confidence is None else float(np.clip(confidence.get(name, 1.0), 0.0, 1.0))
+        kept[name] = surface.kept(held, places[name], sure, origin)
+    return KeptPoints(surface.counts, surface.digest, kept)
+
+
+def moved(kept: KeptPoints, name: str, place: Floats, surface: Surface, origin: Origin) -> KeptPoints:
+    """The same points, one of them put to another place of the surface by hand."""
+    put = surface.kept(surface.bound(place, np.inf), place, 1.0, origin)
+    return replace(kept, points={**kept.points, name: put})
+
+
+def fits(kept: KeptPoints, mesh: Any) -> bool:
+    """Whether a mesh has the polygons that the points are bound to."""
+    return kept.counts == mesh_counts(mesh) and kept.digest == mesh_digest(mesh)
+
+
+def followed(kept: KeptPoints, mesh: Any) -> Followed:
+    """Points on a mesh as it is now: the same polygons carry them along; on others they go to the nearest place."""
+    if fits(kept, mesh):
+        return Followed(kept, False, ())
+    surface = Surface.of(mesh)
+    reach = LOST * _extent({name: np.array(point.at) for name, point in kept.points.items()})
+    points, lost = {}, []
+    for name, point in kept.points.items():
+        held = surface.bound(np.array(point.at), reach) if point.is_bound else None
+        if point.is_bound and held is None:
+            lost.append(name)
+        else:
+            points[name] = surface.kept(held, np.array(point.at), point.confidence, point.origin)
+    return Followed(KeptPoints(surface.counts, surface.digest, points), True, tuple(lost))
+
+
+def places(kept: KeptPoints, vertices: Floats) -> dict[str, Floats]:
+    """Name -> (3,) where points are, when the vertices (V, 3) of their mesh lie where they are given.
+
+    Bound points lie where their vertices are. Points off the surface move as the bound ones do on the whole: by the
+    affine motion that fits these best.
+    """
+    given = {name: np.array(point.at) for name, point in kept.points.items()}
+    now = {n: _place(p.vertices, p.weights, vertices) for n, p in kept.points.items() if p.is_bound}
+    was = np.array([given[name] for name in now])
+    shift = np.array(list(now.values())) - was
+    if now and np.abs(shift).max() > SMALLEST_SHARE * _extent(given):
+        turn = np.linalg.lstsq(was - was.mean(axis=0), shift - shift.mean(axis=0), rcond=1e-6)[0]
+        given = {n: at + shift.mean(axis=0) + (at - was.mean(axis=0)) @ turn for n, at in given.items()}
+    return given | now
+
+
+def table_of(kept: KeptPoints, vertices: Floats) -> dict[str, int | tuple[float, float, float]]:
+    """Points as a table: name -> vertex index, or position in the mesh's own coordinates."""
+    now = places(kept, vertices)
+    return {
+        name: point.vertices[0] if len(point.vertices) == 1 else triple(now[name])
+        for name, point in kept.points.items()
+    }
+
+
+def _extent(given: Mapping[str, Floats]) -> float:
+    """The diagonal of all points together; of one alone, no bound at all."""
+    extent = float(np.linalg.norm(np.ptp(np.array(list(given.values())), axis=0))) if given else 0.0
+    return extent if extent > 0.0 else np.inf
+
+
+def _place(vertices: tuple[int, ...], weights: tuple[float, ...], positions: Floats) -> Floats:
+    """(3,) the weighted mean of some vertices."""
+    place: Floats = np.array(weights) @ positions[list(vertices)]
+    return place
+
+
+def triple(place: Floats) -> tuple[float, float, float]:
+    """Three plain numbers."""
+    x, y, z = (float(number) for number in place)
+    return x, y, z
