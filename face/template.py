@@ -12,7 +12,6 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from scipy.interpolate import RBFInterpolator
 
 from ..arrays import Floats
 
@@ -46,6 +45,8 @@ class TemplateWarp:
 
     def __init__(self, points: Mapping[str, Floats]) -> None:
         """Fit to a face's own feature points: name -> (3,) in head space (metres)."""
+        from scipy.interpolate import RBFInterpolator  # tables are read where SciPy is missing too
+
         carriers = [n for n in TEMPLATE_POINTS if n.split(".")[0] in WARP_GROUPS and n not in TEETH_POINTS]
         names = [n for n in carriers if n in points]
         source = np.array([TEMPLATE_POINTS[n] for n in names]) / MM

@@ -47,7 +47,7 @@ def test_a_fap_is_moved_by_what_anatomy_moves_it_with(
 
 
 def test_leaks_are_told_in_the_faces_millimetres(script: ModuleType) -> None:
-    """An opening jaw takes the lower lip along and the tongue lies down, as far as it goes itself; twins are no leak."""
+    """An opening jaw takes the lower lip along, and the tongue lies down, as far as itself; twins are no leak."""
     face = api.default_face()
     frame, achieved = np.full(68, np.nan), np.zeros(68)
     frame[[5, 6]] = 100.0
