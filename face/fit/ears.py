@@ -28,7 +28,7 @@ REACH, SIZES = 36e-3, (0.75, 0.85, 0.95, 1.05, 1.15, 1.3)
 #: The ear's picture is wider than the ear by this, metres.
 FRAME = 8e-3
 #: Correlation of the reliefs from which a place is believed, and what a way of `REACH` takes off it.
-BELIEVED, FAR = 0.5, 0.15
+BELIEVED, FAR = 0.7, 0.15
 #: Points that the template's head is seen by.
 POINTS = 60_000
 

@@ -11,7 +11,7 @@ from ...arrays import Floats, Ints
 from .bend import Stage, Wishes, bend
 from .ears import ear_wishes
 from .locate import FitProgress
-from .margins import Margin, find_margin
+from .margins import Expected, Margin, find_eyes, find_mouth
 from .target import Target
 from .template import FitTemplate, Ring
 
@@ -56,12 +56,10 @@ def fit(template: FitTemplate, target: Target, wishes: Sequence[Wishes] = ()) ->
 def _margins(template: FitTemplate, target: Target, moved: Floats) -> dict[str, Margin]:
     """The rims found where the template's lie now."""
     skin = template.skin.vertices + template.skin.cage_matrix @ moved
-    found: dict[str, Margin] = {}
-    for name, ring in template.rings.items():
-        margin = find_margin(target.surface, name.split("_")[0], skin[ring.margin], skin[ring.outside])
-        if margin is not None:
-            found[name] = margin
-    return found
+    expected = {name: Expected(skin[ring.margin], skin[ring.outside]) for name, ring in template.rings.items()}
+    mouth = find_mouth(target.surface, target.outside.take(target.front), expected.pop("mouth"))
+    found = find_eyes(target.surface, expected)
+    return found if mouth is None else found | {"mouth": mouth}
 
 
 def _rim_wishes(template: FitTemplate, ring: Ring, margin: Margin) -> Wishes:

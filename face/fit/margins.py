@@ -1,34 +1,45 @@
-"""Where lids and lips end: the rims of the skin that faces the viewer round an eye or the mouth.
-
-Faces that look toward the viewer near an opening are joined over their sides; the piece that the skin round the
-opening lies on ends at the lid margin, or where the lips meet. Sockets, eyeballs, gums and the mouth's bag are not
-joined to it through faces that look outward. So no curvature is needed, and real holes are found the same way.
-"""
+"""Where lids and lips end: among the rims of the skin, those of the eyes and the mouth."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from ...arrays import Floats, Ints
-from .cloud import Surface, nearest
+from ...arrays import Bools, Floats
+from .cloud import Cloud, Surface, nearest
+from .rims import Neighbourhood
 
-#: A rim is taken for the opening's when its mean distance from where it is expected stays below, metres.
-FARTHEST = 10e-3
+#: A rim is taken for an opening's when its mean distance from where it is expected stays below, metres: mouths may gape.
+FARTHEST = {"eye": 14e-3, "mouth": 20e-3}
+#: One eye alone is believed from here on only, metres.
+FARTHEST_ALONE = 10e-3
+#: What an eye's opening that is e times larger or smaller than expected counts as, in distance: folds beside lids are
+#: thin; and the most that this may be, metres.
+UNLIKE, MOST_UNLIKE = 3e-3, 6e-3
+#: Share of the distance between one eye's corners and the other's mirrored ones that counts.
+UNEVEN = 0.5
 #: Narrowest and widest rim, times the expected width.
 WIDTHS = {"eye": (0.5, 1.8), "mouth": (0.5, 1.5)}
 #: Reach round the opening, metres; least outwardness of a face, the first being the usual one.
 REACH = {"eye": 32e-3, "mouth": 48e-3}
 FACINGS = {"eye": (0.3, 0.1, 0.45), "mouth": (0.2, 0.05, 0.4)}
-#: Another outwardness is preferred where its rim lies nearer by this ratio.
-NEARER = 0.8
-#: Parts of an opening that are filled with skin less deep than this are no opening, metres.
-FILLED_DEPTH = 2.5e-3
+#: Another outwardness than the usual one has to be nearer by this, metres.
+UNUSUAL = 0.5e-3
+#: The inner corner of an eye may lie this far beyond the rim seen from the front, metres.
+CORNER_REACH = 9e-3
+#: An opening wider than this area is filled, where most of what shows in it lies less deep than this, metres.
+WIDE, SHALLOW, MOST = 60e-6, 2.5e-3, 0.6
+
+
+@dataclass(frozen=True)
+class Expected:
+    """Where the template's rim (N, 3), and its skin round the opening (M, 3), lie now."""
+
+    margin: Floats
+    outside: Floats
 
 
 @dataclass(frozen=True)
@@ -39,12 +50,16 @@ class Margin:
     ----------
     upper : (U, 3) from the corner at the smallest x to that at the largest.
     lower : (L, 3) between the same corners.
-    misfit : mean distance from where it was expected, metres.
+    misfit : mean distance from where it was expected, metres, and what an unexpected size counts as.
     """
 
     upper: Floats
     lower: Floats
     misfit: float
+
+    def line(self) -> Floats:
+        """(N, 3) the whole rim as a closed line."""
+        return np.concatenate([self.upper, self.lower[-2:0:-1]])
 
     def corner(self, sign: float) -> Floats:
         """(3,) the corner on the subject's left (sign > 0) or right."""
@@ -59,118 +74,98 @@ class Margin:
         return np.column_stack([np.interp(shares, along, line[:, k]) for k in range(3)])
 
 
-def find_margin(surface: Surface, kind: str, expected: Floats, outside: Floats) -> Margin | None:
-    """The rim of an eye or the mouth, or None where there is none.
+def find_mouth(surface: Surface, seen: Cloud, expected: Expected) -> Margin | None:
+    """Where the lips meet, or None where the mouth has no opening.
 
     Parameters
     ----------
     surface : the head in template coordinates, normals outward.
-    kind : "eye" or "mouth".
-    expected : (N, 3) where the template's rim lies now.
-    outside : (N, 3) where its skin round the opening lies.
+    seen : points of what is seen of it from the front.
+    expected : where the template's lips lie now.
     """
-    middle = expected.mean(axis=0)
-    side = 0.25 * np.sign(middle[0]) if kind == "eye" else 0.0
-    view = np.array([side, -1.0, 0.0])
-    near = _Neighbourhood(surface, middle, REACH[kind])
-    best: Margin | None = None
-    for facing in FACINGS[kind]:
-        found = _nearest_rim(near, view, facing, kind, expected, outside)
-        if found is not None and (best is None or found.misfit < NEARER * best.misfit):
-            best = found
-    if best is None or kind == "mouth":
-        return best
-    return _with_inner_corner(near, best, np.sign(middle[0]), expected, outside)
+    near = Neighbourhood(surface, expected.margin.mean(axis=0), REACH["mouth"])
+    found = _candidates(near, np.array([0.0, -1.0, 0.0]), "mouth", expected, FACINGS["mouth"])
+    if not found:
+        return None
+    best = min(found, key=lambda margin: margin.misfit)
+    return None if _is_filled(best, seen) else best
 
 
-class _Neighbourhood:
-    """The triangles round an opening."""
+def find_eyes(surface: Surface, expected: Mapping[str, Expected]) -> dict[str, Margin]:
+    """The lid margins that are found: of each eye the rim that is near to where it is expected and like the other's.
 
-    def __init__(self, surface: Surface, middle: Floats, reach: float) -> None:
-        centres = surface.vertices[surface.triangles].mean(axis=1)
-        chosen = np.linalg.norm(centres - middle, axis=1) < reach
-        self.vertices = surface.vertices
-        self.triangles = surface.triangles[chosen]
-        self.centres = centres[chosen]
-        cross = surface.part(chosen).cross()
-        self.normals = cross / np.maximum(np.linalg.norm(cross, axis=1), 1e-30)[:, None]
-
-    def rims(self, view: Floats, facing: float, outside: Floats) -> Iterator[Ints]:
-        """Rims (closed lines of vertices) of the skin that faces a view and holds the places outside the opening."""
-        shown = np.flatnonzero(self.normals @ (view / np.linalg.norm(view)) > facing)
-        if len(shown) < 8:
-            return
-        triangles = self.triangles[shown]
-        piece = _pieces(triangles)
-        _, votes = cKDTree(self.centres[shown]).query(outside, k=3)
-        most = np.bincount(piece[np.ravel(votes)]).argmax()
-        yield from _closed_lines(triangles[piece == most])
+    Parameters
+    ----------
+    surface : the head in template coordinates, normals outward.
+    expected : "eye_l", "eye_r": where the template's lids lie now.
+    """
+    near = {name: Neighbourhood(surface, eye.margin.mean(axis=0), REACH["eye"]) for name, eye in expected.items()}
+    found = {
+        name: _candidates(near[name], _view(name, 0.25), "eye", eye, FACINGS["eye"]) for name, eye in expected.items()
+    }
+    chosen = _pair(found["eye_l"], found["eye_r"])
+    return {name: _with_inner_corner(near[name], margin, name, expected[name]) for name, margin in chosen.items()}
 
 
-def _pieces(triangles: Ints) -> Ints:
-    """(T,) number of the piece of each triangle; pieces are joined over sides."""
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    keys = sides[:, 0] * (int(triangles.max()) + 1) + sides[:, 1]
-    owner = np.tile(np.arange(len(triangles)), 3)
-    order = np.argsort(keys, kind="stable")
-    same = np.flatnonzero(keys[order][1:] == keys[order][:-1])
-    a, b = owner[order][same], owner[order][same + 1]
-    graph = sparse.coo_array((np.ones(len(a)), (a, b)), shape=(len(triangles), len(triangles)))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+def _view(eye: str, outward: float) -> Floats:
+    """The direction toward a viewer of an eye who stands to its outer side."""
+    return np.array([outward if eye == "eye_l" else -outward, -1.0, 0.0])
 
 
-def _closed_lines(triangles: Ints) -> Iterator[Ints]:
-    """The closed lines along which a piece of surface ends, with the surface to the left of the way."""
-    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    base = int(triangles.max()) + 1
-    ends = sides[~np.isin(sides[:, 0] * base + sides[:, 1], sides[:, 1] * base + sides[:, 0])]
-    onward: dict[int, list[int]] = {}
-    for a, b in ends.tolist():
-        onward.setdefault(a, []).append(b)
-    while onward:
-        start = next(iter(onward))
-        line = [start]
-        place: dict[int, int] = {start: 0}
-        while True:
-            following = onward.get(line[-1])
-            if not following:
-                break
-            step = following.pop()
-            if not following:
-                del onward[line[-1]]
-            if step in place:
-                loop = line[place[step] :]
-                for vertex in loop[1:]:
-                    del place[vertex]
-                del line[place[step] + 1 :]
-                yield np.array(loop, dtype=np.int64)
-                if not onward.get(step):
-                    break
+def _pair(left: list[Margin], right: list[Margin]) -> dict[str, Margin]:
+    """The best pair of rims, or the best one alone."""
+    if left and right:
+        pairs = [(a.misfit + b.misfit + UNEVEN * _unevenness(a, b), a, b) for a in left for b in right]
+        _, a, b = min(pairs, key=lambda pair: pair[0])
+        return {"eye_l": a, "eye_r": b}
+    alone = [
+        (name, min(side, key=lambda margin: margin.misfit))
+        for name, side in (("eye_l", left), ("eye_r", right))
+        if side
+    ]
+    return {name: margin for name, margin in alone if margin.misfit < FARTHEST_ALONE}
+
+
+def _unevenness(left: Margin, right: Margin) -> float:
+    """Mean distance between one eye's corners and the other's mirrored ones, metres."""
+    flip = np.array([-1.0, 1.0, 1.0])
+    ways = [left.corner(sign) - flip * right.corner(-sign) for sign in (1.0, -1.0)]
+    return float(np.linalg.norm(ways, axis=1).mean())
+
+
+def _candidates(
+    near: Neighbourhood, view: Floats, kind: str, expected: Expected, facings: tuple[float, ...]
+) -> list[Margin]:
+    """The rims that may be an opening's."""
+    width = float(np.ptp(expected.margin[:, 0]))
+    tree = cKDTree(expected.margin)
+    found: list[Margin] = []
+    for number, facing in enumerate(facings):
+        for line in near.rims(view, facing, expected.outside):
+            places = near.vertices[line]
+            if len(line) < 6 or not WIDTHS[kind][0] * width < np.ptp(places[:, 0]) < WIDTHS[kind][1] * width:
                 continue
-            place[step] = len(line)
-            line.append(step)
-        onward = {vertex: steps for vertex, steps in onward.items() if steps}
+            dense = _dense(places)
+            misfit = float(nearest(cKDTree(dense), expected.margin)[0].mean() + 0.7 * nearest(tree, dense)[0].mean())
+            if misfit > FARTHEST[kind]:
+                continue
+            misfit += _unlikeness(places, expected.margin) if kind == "eye" else 0.0
+            margin = _split(places, expected.margin, misfit + (UNUSUAL if number else 0.0))
+            if margin is not None:
+                found.append(margin)
+    return found
 
 
-def _nearest_rim(
-    near: _Neighbourhood, view: Floats, facing: float, kind: str, expected: Floats, outside: Floats
-) -> Margin | None:
-    """The rim that best agrees with where it is expected."""
-    width = float(np.ptp(expected[:, 0]))
-    tree = cKDTree(expected)
-    best: Margin | None = None
-    for line in near.rims(view, facing, outside):
-        if len(line) < 6:
-            continue
-        places = near.vertices[line]
-        if not WIDTHS[kind][0] * width < np.ptp(places[:, 0]) < WIDTHS[kind][1] * width:
-            continue
-        dense = _dense(places)
-        misfit = float(nearest(cKDTree(dense), expected)[0].mean() + 0.7 * nearest(tree, dense)[0].mean())
-        if misfit < (FARTHEST if best is None else best.misfit):
-            found = _split(places, expected, misfit)
-            best = best if found is None else found
-    return best
+def _unlikeness(line: Floats, expected: Floats) -> float:
+    """How much a rim's area, seen from the front, differs from what is expected, as a distance."""
+    areas = [max(abs(_area(rim)), 1e-7) for rim in (line, expected)]
+    return min(UNLIKE * abs(float(np.log(areas[0] / areas[1]))), MOST_UNLIKE)
+
+
+def _area(line: Floats) -> float:
+    """Area within a closed line, seen from the front."""
+    x, z = line[:, 0], line[:, 2]
+    return float((x * np.roll(z, -1) - np.roll(x, -1) * z).sum() / 2.0)
 
 
 def _dense(line: Floats, parts: int = 4) -> Floats:
@@ -192,16 +187,40 @@ def _split(line: Floats, expected: Floats, misfit: float) -> Margin | None:
     return None if len(upper) < 2 or len(lower) < 2 else Margin(upper, lower, misfit)
 
 
-def _with_inner_corner(near: _Neighbourhood, margin: Margin, side: float, expected: Floats, outside: Floats) -> Margin:
+def _with_inner_corner(near: Neighbourhood, margin: Margin, eye: str, expected: Expected) -> Margin:
     """An eye's rim with its inner corner, which hides behind the nose's root, taken from a view more to the middle."""
-    view = np.array([-0.3 * side, -1.0, 0.0])
-    inner = _nearest_rim(near, view, FACINGS["eye"][0], "eye", expected, outside)
-    if inner is None:
+    side = 1.0 if eye == "eye_l" else -1.0
+    inner = _candidates(near, _view(eye, -0.3), "eye", expected, FACINGS["eye"][:1])
+    if not inner:
         return margin
-    corner = inner.corner(-side)
-    if np.linalg.norm(corner - margin.corner(-side)) > 9e-3:
+    tree = cKDTree(_dense(margin.line()))
+    corner = min(inner, key=lambda other: nearest(tree, other.line())[0].mean()).corner(-side)
+    if np.linalg.norm(corner - margin.corner(-side)) > CORNER_REACH:
         return margin
     at = 0 if side > 0.0 else -1
     upper, lower = margin.upper.copy(), margin.lower.copy()
     upper[at] = lower[at] = corner
     return Margin(upper, lower, margin.misfit)
+
+
+def _is_filled(margin: Margin, seen: Cloud) -> bool:
+    """Whether skin closes an opening inside its rim: what shows in it lies hardly deeper than the rim."""
+    line = margin.line()
+    if abs(_area(line)) < WIDE:
+        return False
+    inside = seen.positions[_within(line, seen.positions)]
+    if len(inside) == 0:
+        return False
+    _, beside = nearest(cKDTree(line[:, [0, 2]]), inside[:, [0, 2]])
+    return bool((inside[:, 1] - line[beside, 1] < SHALLOW).mean() > MOST)
+
+
+def _within(line: Floats, places: Floats) -> Bools:
+    """Which places (N, 3) lie within a closed line, seen from the front (crossings of a ray upward)."""
+    inside = np.zeros(len(places), dtype=bool)
+    x, z = places[:, 0], places[:, 2]
+    for a, b in zip(line, np.roll(line, -1, axis=0), strict=True):
+        spans = (a[0] > x) != (b[0] > x)
+        if spans.any():
+            inside ^= spans & (z < a[2] + (x - a[0]) * (b[2] - a[2]) / (b[0] - a[0] if b[0] != a[0] else 1.0))
+    return inside
