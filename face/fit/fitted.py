@@ -20,6 +20,9 @@ WHOLE = Stage(8, (80.0, 15.0), (12e-3, 12e-3), (45e-3, 25e-3))
 CLOSER = Stage(6, (12.0, 0.8), (9e-3, 7e-3), (20e-3, 12e-3))
 CLOSEST = Stage(6, (3.0, 0.15), (6e-3, 5e-3), (12e-3, 8e-3))
 
+#: What lies in front of this belongs to the face, metres of the template; behind it the head's depth is told by the ears.
+STRETCH_FROM = -75e-3
+
 
 @dataclass(frozen=True)
 class Fit:
@@ -41,8 +44,8 @@ def fit(template: FitTemplate, target: Target, wishes: Sequence[Wishes] = ()) ->
     yield FitProgress(0.0, "the face")
     moved = bend(template, target, moved, FRONT, wishes)
     yield FitProgress(0.3, "the whole head")
-    skin = template.skin.vertices + template.skin.cage_matrix @ moved
-    moved = bend(template, target, moved, WHOLE, [*wishes, *ear_wishes(template, target, skin)])
+    ears = ear_wishes(template, target, template.skin.vertices + template.skin.cage_matrix @ moved)
+    moved = bend(template, target, _stretched(template, moved, ears), WHOLE, [*wishes, *ears])
     margins: dict[str, Margin] = {}
     for number, stage in enumerate((CLOSER, CLOSEST)):
         yield FitProgress(0.5 + 0.2 * number, "lids and lips")
@@ -51,6 +54,20 @@ def fit(template: FitTemplate, target: Target, wishes: Sequence[Wishes] = ()) ->
         yield FitProgress(0.6 + 0.2 * number, "the details")
         moved = bend(template, target, moved, stage, [*wishes, *rims])
     return Fit(template.skin.vertices + template.skin.cage_matrix @ moved, margins)
+
+
+def _stretched(template: FitTemplate, moved: Floats, ears: Sequence[Wishes]) -> Floats:
+    """Displacements with the head's sides and back brought along as far as the ears are off.
+
+    The face's front says little about how deep the head is; jaw angles and skull would start too near to it.
+    """
+    if not ears:
+        return moved
+    off = np.mean([(ear.offsets - ear.rows @ moved).mean(axis=0) for ear in ears], axis=0)
+    depth = template.skin.vertices[: len(moved), 1]
+    middle = np.mean([(ear.rows @ depth[:, None]).mean() for ear in ears])
+    share = np.clip((depth - STRETCH_FROM) / (middle - STRETCH_FROM), 0.0, 1.0)
+    return np.asarray(moved + share[:, None] * off * np.array([0.0, 1.0, 0.0]))
 
 
 def _margins(template: FitTemplate, target: Target, moved: Floats) -> dict[str, Margin]:
