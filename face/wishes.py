@@ -11,6 +11,7 @@ from ..mpeg4 import LIP_TWINS
 from .actuators import JAW_PRIOR
 from .inverse import EXACT_NOISE, Wish
 from .natural import Plan
+from .outer_skin import smoothstep
 from .rows import FapRows
 from .template import MM
 
@@ -36,15 +37,20 @@ FILLED_DOUBT, CARRIED_DOUBT = 1.0 * MM, 6.0 * MM
 SLIDE_ASKED, SLIDE_SILENT = 16.0 * MM, 2.0 * MM
 JAW_ASKED, JAW_SILENT = 60.0 * MM, 3.0 * MM
 
-#: One corner drawn aside leaves the lips' middle where it is, as firmly as this; the more both corners or the jaw go
-#: one way the less, and from this much on not at all.
-MIDDLE_DOUBT, MIDDLE_FREE = 0.5 * MM, 3.0 * MM
+#: The lips' middles are known as well as this; half way between staying and going along, so many times worse; and not
+#: at all where the jaw goes aside this far.
+MIDDLE_DOUBT, MIDDLE_BETWEEN, MIDDLE_FREE = 0.5 * MM, 4.0, 3.0 * MM
+
+#: Both corners together this far aside take the middles along in full.
+MIDDLE_TAKEN = 6.0 * MM
 
 
 def lip_middles(rows: FapRows, frame: Floats) -> tuple[Floats, Floats]:
     """Targets and doubts (m,) in metres of the lips' middles, sideways; NaN on other rows and where corners are silent.
 
-    The other half of the orbicularis holds the philtrum: in scanned one-sided actions it does not move aside.
+    The other half of the orbicularis holds the philtrum: in scanned one-sided actions it does not move aside. Where
+    the whole mouth is drawn aside, lips that do not stretch drag the trailing corner after them: the middles go as far
+    as it does (scanned: 16 mm of 15, while the leading corner makes 6).
     """
     targets, doubts = np.full(len(rows), np.nan), np.full(len(rows), MIDDLE_DOUBT)
     place = rows.position
@@ -54,11 +60,16 @@ def lip_middles(rows: FapRows, frame: Floats) -> tuple[Floats, Floats]:
         left, right = pairs[rows.names[row]]
         if left not in place or right not in place or np.isnan(frame[[left - 1, right - 1]]).any():
             continue
+        if jaw_aside >= MIDDLE_FREE:
+            continue
         aside = frame[left - 1] * rows.units[place[left]], -frame[right - 1] * rows.units[place[right]]
         together = min(abs(aside[0]), abs(aside[1])) if aside[0] * aside[1] > 0.0 else 0.0
-        if together + jaw_aside < MIDDLE_FREE:
-            targets[row] = 0.0
-            doubts[row] = MIDDLE_DOUBT / (1.0 - (together + jaw_aside) / MIDDLE_FREE)
+        taken = float(smoothstep(np.array(together / MIDDLE_TAKEN)))
+        trailing = aside[0] if aside[0] < 0.0 else aside[1]
+        targets[row] = taken * trailing
+        doubts[row] = (
+            MIDDLE_DOUBT * (1.0 + 4.0 * MIDDLE_BETWEEN * taken * (1.0 - taken)) / (1.0 - jaw_aside / MIDDLE_FREE)
+        )
     return targets, doubts
 
 

@@ -37,6 +37,14 @@ def test_both_corners_drawn_one_way_take_the_middle_along(face: Face) -> None:
     assert sideways(face, one_sided(-1.0)) > 3.0
 
 
+def test_a_mouth_drawn_aside_takes_its_middle_as_far_as_the_trailing_corner(face: Face) -> None:
+    """Scanned: the leading corner makes 6 mm, the trailing one 15, the lips' middles 14 to 16."""
+    frame = np.full(68, np.nan)
+    frame[[6 - 1, 53 - 1]], frame[[7 - 1, 54 - 1]] = -220.0, 110.0
+    trailing = 220.0 * face.units.mw0 / 1024.0 * 1e3
+    assert sideways(face, frame) == pytest.approx(trailing, rel=0.2)
+
+
 def test_silent_corners_say_nothing_of_the_middle(face: Face) -> None:
     rows = face.anatomy.inverse.rows
     targets, _ = lip_middles(rows, np.full(68, np.nan))
