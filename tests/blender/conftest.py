@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib.util
+import os
+import sys
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,6 +15,26 @@ if importlib.util.find_spec("bpy") is None:
 else:
     import bpy
     import risorius
+
+ended: list[int] = []
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(exitstatus: int) -> None:
+    """Keep how the session ended."""
+    ended.append(int(exitstatus))
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_unconfigure() -> None:
+    """Leave at once: Blender's module, leaving in its own order, may wait forever for its thread of sounds.
+
+    Everything is reported by now, and the exit code is the session's.
+    """
+    if ended and "bpy" in sys.modules:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(ended[0])
 
 
 @pytest.fixture(scope="session")
