@@ -20,8 +20,9 @@ WHOLE = Stage(8, (80.0, 15.0), (12e-3, 12e-3), (45e-3, 25e-3))
 CLOSER = Stage(6, (12.0, 0.8), (9e-3, 7e-3), (20e-3, 12e-3))
 CLOSEST = Stage(6, (3.0, 0.15), (6e-3, 5e-3), (12e-3, 8e-3))
 
-#: What lies in front of this belongs to the face, metres of the template; behind it the head's depth is told by the ears.
-STRETCH_FROM = -75e-3
+#: What lies in front of this belongs to the face, metres of the template, below the eyes and at the temples' height;
+#: behind it the ears tell how deep the head is.
+STRETCH_FROM, STRETCH_TEMPLES, TEMPLES = -75e-3, -40e-3, 50e-3
 
 
 @dataclass(frozen=True)
@@ -64,9 +65,10 @@ def _stretched(template: FitTemplate, moved: Floats, ears: Sequence[Wishes]) -> 
     if not ears:
         return moved
     off = np.mean([(ear.offsets - ear.rows @ moved).mean(axis=0) for ear in ears], axis=0)
-    depth = template.skin.vertices[: len(moved), 1]
+    _, depth, height = template.skin.vertices[: len(moved)].T
     middle = np.mean([(ear.rows @ depth[:, None]).mean() for ear in ears])
-    share = np.clip((depth - STRETCH_FROM) / (middle - STRETCH_FROM), 0.0, 1.0)
+    front = np.interp(height, (0.0, TEMPLES), (STRETCH_FROM, STRETCH_TEMPLES))
+    share = np.clip((depth - front) / (middle - front), 0.0, 1.0)
     return np.asarray(moved + share[:, None] * off * np.array([0.0, 1.0, 0.0]))
 
 

@@ -13,7 +13,7 @@ from .cloud import Cloud, Surface, nearest
 from .rims import Neighbourhood
 
 #: A rim is taken for an opening's when its mean distance from where it is expected stays below, metres: mouths may gape.
-FARTHEST = {"eye": 14e-3, "mouth": 20e-3}
+FARTHEST = {"eye": 17e-3, "mouth": 20e-3}
 #: One eye alone is believed from here on only, metres.
 FARTHEST_ALONE = 10e-3
 #: What an eye's opening that is e times larger or smaller than expected counts as, in distance: folds beside lids are

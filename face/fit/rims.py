@@ -36,14 +36,14 @@ class Neighbourhood:
         if len(shown) < 8:
             return
         triangles = self.triangles[shown]
-        piece = _pieces(triangles)
+        piece = joined(triangles)
         _, votes = cKDTree(self.centres[shown]).query(outside, k=3)
         most = np.bincount(piece[np.ravel(votes)]).argmax()
         yield from _closed_lines(triangles[piece == most])
 
 
-def _pieces(triangles: Ints) -> Ints:
-    """(T,) number of the piece of each triangle; pieces are joined over sides."""
+def joined(triangles: Ints) -> Ints:
+    """(T,) number of the piece that each triangle belongs to; pieces are joined over sides."""
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     keys = sides[:, 0] * (int(triangles.max()) + 1) + sides[:, 1]
     owner = np.tile(np.arange(len(triangles)), 3)

@@ -10,10 +10,15 @@ from scipy.spatial import cKDTree
 from ...arrays import Bools, Floats, Ints
 from .cloud import Cloud, Surface, first_hits
 from .head_pose import HeadPose
-from .locate import HEAD_BOX, box_cloud
+from .locate import HEAD_BOX, box_cloud, in_box
+from .rims import joined
 
 #: Points spread over the head.
 COUNT = 60_000
+#: Loose pieces smaller than this share of the largest are no skin.
+LARGE = 0.1
+#: Template coordinates as a pose.
+AT_HOME = HeadPose(np.eye(3), np.zeros(3), np.ones(3))
 #: Visibility from each side, metres.
 PIXEL, TOLERANCE = 3e-3, 3e-3
 #: Length that a whole turn of the normal counts as when points are matched, metres.
@@ -28,7 +33,7 @@ class Target:
 
     Attributes
     ----------
-    surface : the mesh, in template coordinates.
+    surface : the head's skin, in template coordinates.
     outside : points seen from the front, the sides, above or behind.
     front : which of them are seen from the front.
     edge : (N,) which of them lie too near to an open edge to be matched.
@@ -44,9 +49,9 @@ class Target:
 
 def head_target(surface: Surface, pose: HeadPose) -> Target:
     """The outside of the head that lies at a pose in a mesh."""
-    cloud = box_cloud(surface, pose, HEAD_BOX, COUNT)
     local = Surface(pose.to_template(surface.vertices), surface.triangles, pose.normals_to_template(surface.normals))
-    cloud = Cloud(pose.to_template(cloud.positions), pose.normals_to_template(cloud.normals), cloud.triangles)
+    skin = _large_pieces(local.part(in_box(surface, pose, HEAD_BOX)))
+    cloud = box_cloud(skin, AT_HOME, HEAD_BOX, COUNT)
     x, y, z = cloud.positions.T
     normal = cloud.normals
     front = first_hits(y, x, z, pixel=PIXEL, tolerance=TOLERANCE) & (normal[:, 1] < 0.3)
@@ -56,8 +61,15 @@ def head_target(surface: Surface, pose: HeadPose) -> Target:
     ):  # fmt: skip
         seen |= first_hits(depth, across, up, pixel=PIXEL, tolerance=TOLERANCE) & (facing > 0.0)
     outside, front = cloud.take(seen), front[seen]
-    openings, rim = _open_edges(local)
-    return Target(local, outside, front, _near(outside, openings, EDGE) | _near(outside, rim, RIM), rim)
+    openings, rim = _open_edges(skin)
+    return Target(skin, outside, front, _near(outside, openings, EDGE) | _near(outside, rim, RIM), rim)
+
+
+def _large_pieces(surface: Surface) -> Surface:
+    """The surface without small loose pieces: eyeballs, lashes, brows, teeth."""
+    piece = joined(surface.triangles)
+    areas = np.bincount(piece, np.linalg.norm(surface.cross(), axis=1))
+    return surface.part(areas[piece] >= LARGE * areas.max())
 
 
 def feature(positions: Floats, normals: Floats) -> Floats:
