@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...arrays import Bools, Floats
-from .cloud import Cloud, Surface, nearest
+from .cloud import Cloud, Surface, nearest, sample
 from .rims import Neighbourhood
 
 #: A rim is taken for an opening's when its mean distance from where it is expected stays below, metres: mouths may gape.
@@ -30,6 +30,8 @@ FACINGS = {"eye": (0.3, 0.1, 0.45), "mouth": (0.2, 0.05, 0.4)}
 UNUSUAL = 0.5e-3
 #: The inner corner of an eye may lie this far beyond the rim seen from the front, metres.
 CORNER_REACH = 9e-3
+#: Lips whose ends differ in depth by more than this are levelled, as far as this, metres; points that this is done with.
+LEVEL, LEVEL_REACH, LIP_POINTS = 1.0e-3, 5e-3, 12_000
 #: An opening wider than this area is filled, where most of what shows in it lies less deep than this, metres.
 WIDE, SHALLOW, MOST = 60e-6, 2.5e-3, 0.6
 
@@ -88,7 +90,7 @@ def find_mouth(surface: Surface, seen: Cloud, expected: Expected) -> Margin | No
     if not found:
         return None
     best = min(found, key=lambda margin: margin.misfit)
-    return None if _is_filled(best, seen) else best
+    return None if _is_filled(best, seen) else _levelled(best, near)
 
 
 def find_eyes(surface: Surface, expected: Mapping[str, Expected]) -> dict[str, Margin]:
@@ -201,6 +203,26 @@ def _with_inner_corner(near: Neighbourhood, margin: Margin, eye: str, expected: 
     upper, lower = margin.upper.copy(), margin.lower.copy()
     upper[at] = lower[at] = corner
     return Margin(upper, lower, margin.misfit)
+
+
+def _levelled(margin: Margin, near: Neighbourhood) -> Margin:
+    """A mouth whose lips end at the same depth: one that rolls in farther, still outward, is cut where the other ends."""
+    points = sample(Surface(near.vertices, near.triangles, np.zeros_like(near.vertices)), LIP_POINTS)
+    outward = points.positions[near.normals[points.triangles, 1] < 0.0]
+    edges = []
+    for line, other, up in ((margin.upper, margin.lower, 1.0), (margin.lower, margin.upper, -1.0)):
+        order = np.argsort(other[:, 0])
+        depth = np.interp(line[:, 0], other[order, 0], other[order, 1])
+        edge = line.copy()
+        for number in 1 + np.flatnonzero((line[:, 1] > depth + LEVEL)[1:-1]):
+            place = line[number]
+            away = outward - place
+            allowed = (outward[:, 1] <= depth[number]) & (up * away[:, 2] > 0.0) & (np.abs(away[:, 0]) < LEVEL)
+            distance = np.where(allowed, np.linalg.norm(away, axis=1), np.inf)
+            if distance.min() < LEVEL_REACH:
+                edge[number] = outward[distance.argmin()]
+        edges.append(edge)
+    return Margin(edges[0], edges[1], margin.misfit)
 
 
 def _is_filled(margin: Margin, seen: Cloud) -> bool:
