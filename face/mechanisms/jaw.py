@@ -32,6 +32,13 @@ FLOOR_BULGE = 82.7 * MM
 FLOOR_CENTRE = np.array([0.0, -72.8, -59.2]) * MM
 FLOOR_EXTENT = np.array([69.0, 23.8, 40.9]) * MM
 
+#: The cheek beside the mouth, stretched between the jaws, hollows along its normal and slips up over the mandible:
+#: metres per squared sine, place on the template (left side) and extent (side, height, depth). Fitted to a scanned jaw:
+#: one window explains 77 % of what the turning mandible leaves there.
+HOLLOW, SLIP = -51.9 * MM, 35.4 * MM
+HOLLOW_CENTRE = np.array([33.7, -23.7, -39.8]) * MM
+HOLLOW_EXTENT = np.array([22.5, 24.0, 26.2]) * MM
+
 
 @dataclass(frozen=True)
 class JawMotion:
@@ -50,7 +57,7 @@ class Jaw:
     ----------
     hinge : (3,) a point on the axis, which runs left to right.
     weights : (n,) how far each vertex of the outer skin follows, 0 to 1.
-    bulge : (n, 3) where the floor of the mouth goes besides, metres per squared sine of the opening angle.
+    bulge : (n, 3) where floor of the mouth and cheeks go besides, metres per squared sine of the opening angle.
     """
 
     hinge: Floats
@@ -139,7 +146,8 @@ def build_jaw(skin: OuterSkin, warp: TemplateWarp) -> Jaw:
     weights = Factor(stiffness).solve(skin.areas * pull)
     boss = np.argmin(np.linalg.norm(skin.positions - points["2.10"], axis=1))
     weights *= CHIN_WEIGHT / max(float(weights[boss]), 1e-6)
-    return Jaw(hinge=hinge, weights=np.clip(weights, 0.0, 1.0), bulge=_floor_bulge(skin, warp))
+    beside = _floor_bulge(skin, warp) + _cheek_hollow(skin, warp)
+    return Jaw(hinge=hinge, weights=np.clip(weights, 0.0, 1.0), bulge=beside)
 
 
 def _floor_bulge(skin: OuterSkin, warp: TemplateWarp) -> Floats:
@@ -150,6 +158,17 @@ def _floor_bulge(skin: OuterSkin, warp: TemplateWarp) -> Floats:
     window = np.exp(-(away[:, 0] ** 4) - away[:, 1] ** 2 - away[:, 2] ** 2)
     below = smoothstep((skin.points["2.3"][1] - 12 * MM - skin.positions[:, 1]) / (15 * MM))
     return FLOOR_BULGE * (window * below)[:, None] * skin.normals
+
+
+def _cheek_hollow(skin: OuterSkin, warp: TemplateWarp) -> Floats:
+    """(n, 3) hollowing and slipping of the cheeks per squared sine of the opening angle."""
+    if not skin.has(Mechanism.HOLLOW):
+        return np.zeros_like(skin.positions)
+    window = np.zeros(skin.vertex_count)
+    for side in (1.0, -1.0):
+        away = (skin.positions - warp(HOLLOW_CENTRE * np.array([side, 1.0, 1.0]))) / HOLLOW_EXTENT
+        window += np.exp(-(away**2).sum(axis=1))
+    return window[:, None] * (HOLLOW * skin.normals + np.array([0.0, SLIP, 0.0]))
 
 
 def _rest_anchor(skin: OuterSkin) -> Floats:

@@ -30,6 +30,7 @@ class Mechanism(StrEnum):
     # Additions: what turns, meets and is made exact
     JAW = "jaw"  # the mandible
     FLOOR = "floor"  # the floor of the mouth bulges as the jaw opens
+    HOLLOW = "hollow"  # the cheeks hollow beside an opening mouth
     LIDS = "lids"  # lids turn about the eyeball
     LID_SLIDE = "lid_slide"  # closing lids slide towards the nose
     CONTACT = "contact"  # lips and lids do not pass through each other, nor lids into the eyeball

@@ -194,6 +194,14 @@ def floor_of_the_mouth(face: Face) -> float:
     return float((excess * sheet.normals).sum(axis=1).max() / MM)
 
 
+def hollow_beside_the_mouth(face: Face) -> float:
+    """A wide open jaw: how far the cheeks sink below where mandible and skull take them, along their normals, mm."""
+    sheet, jaw = face.anatomy.skin, face.anatomy.jaw
+    motion = JawMotion(angle=0.4)
+    excess = jaw.skin(sheet.positions, motion) - jaw.weights[:, None] * jaw.rigid(sheet.positions, motion)
+    return float(-(excess * sheet.normals).sum(axis=1).min() / MM)
+
+
 def lid_as_one(face: Face) -> float:
     """A closing eye: drop of the least moved vertex of the lid's middle over that of the most moved."""
     moved = posed(face, {19: 550.0, 20: 550.0}, "exact")
@@ -345,6 +353,7 @@ CLAIMS = (
     Claim(Mechanism.SCALP, hairline_down, 1.0),
     Claim(Mechanism.JAW, chin_back, 5.0),
     Claim(Mechanism.FLOOR, floor_of_the_mouth, 2.0),
+    Claim(Mechanism.HOLLOW, hollow_beside_the_mouth, 3.0),
     Claim(Mechanism.LIDS, lid_as_one, 0.5),
     Claim(Mechanism.LID_SLIDE, lower_lid_to_the_nose, 1.0),
     Claim(Mechanism.CONTACT, lips_apart, -0.2),
