@@ -5,6 +5,8 @@ Everything is the object's own and saved with it. The user's attributes, modifie
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -128,6 +130,19 @@ def _write_attribute(mesh: Any, name: str, vectors: Floats) -> None:
     """A vector attribute (V, 3) of the vertices."""
     attribute = mesh.attributes.new(name, "FLOAT_VECTOR", "POINT")
     attribute.data.foreach_set("vector", np.ascontiguousarray(vectors, dtype=np.float32).ravel())
+
+
+@contextmanager
+def unmeasured(objects: Iterable[Any]) -> Iterator[None]:
+    """Renders that would not show creases, without measuring them: the modifiers rest, and are as they were after."""
+    shown = [m for obj in objects for m in obj.modifiers if _is_ours(m) and m.show_render]
+    for modifier in shown:
+        modifier.show_render = False
+    try:
+        yield
+    finally:
+        for modifier in shown:
+            modifier.show_render = True
 
 
 def _clear(obj: Any) -> None:

@@ -7,7 +7,7 @@ the whole is removed afterwards, whatever happens.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -19,6 +19,7 @@ from mathutils import Matrix, Vector
 
 from ..arrays import Floats
 from ..errors import ParameterError, SceneError
+from .creases import unmeasured
 from .framing import Framing
 from .gpu_probe import REMEDY, can_draw
 
@@ -92,7 +93,9 @@ def studio(objects: Sequence[Any], framing: Framing, look: Look) -> Iterator[Any
         for obj in objects:
             scene.collection.objects.link(obj)
         made = furnish(scene, framing, look)
-        yield scene
+        draws_wrinkles = scene.render.engine != "BLENDER_WORKBENCH"
+        with nullcontext() if draws_wrinkles else unmeasured(objects):
+            yield scene
     finally:
         bpy.data.scenes.remove(scene)
         for datablock in made:
