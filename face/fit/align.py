@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from ...arrays import Floats, Ints
 from .cloud import Cloud, first_hits, nearest
 from .head_pose import HeadPose
-from .template import fit_template
+from .template import FitTemplate
 
 #: Template points used.
 PROBES = 600
@@ -26,20 +26,20 @@ PIXEL, TOLERANCE = 4e-3, 3.5e-3
 LOOKS = (0, 8)
 
 
-def align(cloud: Cloud, pose: HeadPose) -> HeadPose:
+def align(cloud: Cloud, pose: HeadPose, template: FitTemplate) -> HeadPose:
     """The pose near a first guess in which the template fits the cloud best.
 
     Parameters
     ----------
     cloud : points spread over the mesh round the head, in mesh coordinates, normals outward.
     pose : the first guess.
+    template : what is laid onto it.
 
     Returns
     -------
     HeadPose
         with a scale for each axis.
     """
-    template = fit_template()
     chosen = np.flatnonzero(template.front)
     chosen = chosen[:: max(1, len(chosen) // PROBES)]
     model, normals = template.surface.vertices[chosen], template.surface.normals[chosen]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from ...arrays import Bools, Floats
-from .template import fit_template
 
 #: The oval in which faces are compared: half axes and the height of its middle, metres of the template.
 OVAL = (52e-3, 66e-3)
@@ -22,7 +22,7 @@ RELIEF_CLIP, DEPTH_CLIP = 8e-3, 15e-3
 def depth_map(positions: Floats) -> Floats:
     """Depth (rows upward, columns to the left) of the nearest of points (N, 3) round the oval; NaN where none is."""
     half = np.array(OVAL) + 4.0 * BLURS[0]
-    columns, rows = (np.ceil(2.0 * half / PIXEL)).astype(int)
+    columns, rows = _size()
     across = np.floor((positions[:, 0] + half[0]) / PIXEL).astype(np.int64)
     up = np.floor((positions[:, 2] - OVAL_MIDDLE + half[1]) / PIXEL).astype(np.int64)
     inside = (across >= 0) & (across < columns) & (up >= 0) & (up < rows)
@@ -32,19 +32,20 @@ def depth_map(positions: Floats) -> Floats:
     return depth.reshape(rows, columns)
 
 
+def _size() -> tuple[int, int]:
+    """Columns and rows of a depth map."""
+    columns, rows = (math.ceil(2.0 * (half + 4.0 * BLURS[0]) / PIXEL) for half in OVAL)
+    return columns, rows
+
+
+@lru_cache(maxsize=1)
 def in_oval() -> Bools:
     """Which pixels of a depth map lie in the oval."""
-    rows, columns = template_depth().shape
+    columns, rows = _size()
     across = (np.arange(columns) + 0.5) * PIXEL - OVAL[0] - 4.0 * BLURS[0]
     up = (np.arange(rows) + 0.5) * PIXEL - OVAL[1] - 4.0 * BLURS[0]
     inside: Bools = (across / OVAL[0]) ** 2 + (up[:, None] / OVAL[1]) ** 2 <= 1.0
     return inside
-
-
-@lru_cache(maxsize=1)
-def template_depth() -> Floats:
-    """The template's own depth map."""
-    return depth_map(fit_template().cloud.positions)
 
 
 def relief(depth: Floats, known: Bools) -> Floats:

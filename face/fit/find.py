@@ -73,13 +73,7 @@ def find_points(
     ModelError : where there is no face; states the score, the limit and the remedy. Broken meshes.
     ParameterError : clicks that name no point of the skin, or no place.
     """
-    steps = find_points_steps(vertices, polygons, clicks, topologies=topologies)
-    while True:
-        try:
-            next(steps)
-        except StopIteration as end:
-            found: FoundPoints = end.value
-            return found
+    return finished(find_points_steps(vertices, polygons, clicks, topologies=topologies))
 
 
 def find_points_steps(
@@ -103,7 +97,46 @@ def find_points_steps(
         located = _located_by_clicks(surface, clicked, template)
     else:
         located = yield from _part_of(locate(surface), 0.02, 0.6)
-    return (yield from _part_of(_fitted_points(located, clicked, template), 0.6, 1.0))
+    return (yield from _part_of(_fitted_points(located, clicked), 0.6, 1.0))
+
+
+@dataclass(frozen=True)
+class LocatedPoints:
+    """Where the template's points come to lie before it is bent: `positions`, and the gate's `score` and `relief`."""
+
+    positions: Mapping[str, Floats]
+    score: float
+    relief: float
+
+
+def locate_points(vertices: ArrayLike, polygons: Polygons, *, refuse: bool = True) -> LocatedPoints:
+    """Only the first half of `find_points`: where the face is, for tools that measure it.
+
+    Parameters
+    ----------
+    refuse : whether what does not look like a face raises.
+
+    Raises
+    ------
+    ModelError : where nothing is found; with `refuse` also what does not look like a face.
+    """
+    places = checked_vertices(vertices)
+    surface = _welded(places, _checked_faces(polygons, len(places)))
+    located = finished(locate(surface, refuse=refuse))
+    template = located.template
+    positions = located.pose.to_mesh(template.read(template.skin.vertices))
+    named = dict(zip(template.names, positions, strict=True))
+    return LocatedPoints(named, located.score.value, located.score.relief)
+
+
+def finished(steps: Generator[FitProgress, None, _T]) -> _T:
+    """Run some work to its end."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            result: _T = end.value
+            return result
 
 
 def _checked_faces(polygons: Polygons, vertex_count: int) -> Polygons:
@@ -151,18 +184,16 @@ def _located_by_clicks(surface: Surface, clicked: Mapping[str, Floats], template
         surface = surface.flipped()
         cloud = box_cloud(surface, pose, HEAD_BOX, HEAD)
     before = click_misses(clicked, pose, template)
-    closer = align(cloud, pose)
+    closer = align(cloud, pose, template)
     after = click_misses(clicked, closer, template)
     if all(after[name] < max(CLICK_DRIFT, CLICK_RATIO * before[name]) for name in clicked):
         pose = closer
-    return Located(pose, surface, scored(surface, pose))
+    return Located(pose, surface, scored(surface, pose, template), template)
 
 
-def _fitted_points(
-    located: Located, clicked: Mapping[str, Floats], template: FitTemplate
-) -> Generator[FitProgress, None, FoundPoints]:
+def _fitted_points(located: Located, clicked: Mapping[str, Floats]) -> Generator[FitProgress, None, FoundPoints]:
     """Bend the template onto the head and carry its points over."""
-    pose = located.pose
+    pose, template = located.pose, located.template
     target = head_target(located.surface, pose)
     wishes = [click_wishes(clicked, pose, template)] if clicked else []
     fitted = yield from _part_of(fit(template, target, wishes), 0.0, 0.95)

@@ -13,9 +13,11 @@ from ...errors import ModelError
 from .align import align
 from .cloud import Cloud, Surface, sample
 from .head_pose import HeadPose
+from .open_mouth import open_template
 from .score import FaceScore, face_score
 from .search import Guess, best_guesses, search_plane
 from .symmetry import symmetry_planes
+from .template import FitTemplate
 
 #: Points spread over the whole mesh; over the head alone; over the face alone; and those that symmetry is sought with.
 WHOLE, HEAD, FACE, SYMMETRY = 100_000, 40_000, 40_000, 2_000
@@ -28,6 +30,8 @@ ALIGNED, FINALISTS = 16, 3
 SCORE_LIMIT, RELIEF_LIMIT = 1.6, 0.6
 
 
+#: From this score on it is asked whether the mouth is open, by so many degrees; an open one must score better by this.
+GOOD_SCORE, JAW_DEGREES, OPEN_COST = 0.55, (7.0, 14.0, 21.0), 0.1
 #: Least and greatest x, y, z round the template's origin, metres.
 Box: TypeAlias = tuple[tuple[float, float, float], tuple[float, float, float]]
 
@@ -48,15 +52,17 @@ class Located:
     pose : where the template lies, a scale for each axis.
     surface : the mesh's surface with normals outward.
     score : how much it looks like a face.
+    template : the template that it looks like: with the mouth closed, or open.
     """
 
     pose: HeadPose
     surface: Surface
     score: FaceScore
+    template: FitTemplate
 
 
-def locate(surface: Surface) -> Generator[FitProgress, None, Located]:
-    """Find the face of a mesh.
+def locate(surface: Surface, *, refuse: bool = True) -> Generator[FitProgress, None, Located]:
+    """Find the face of a mesh; unless `refuse`, the best place however little it looks like a face.
 
     Raises
     ------
@@ -82,10 +88,21 @@ def locate(surface: Surface) -> Generator[FitProgress, None, Located]:
     finalists = _distinct(found)[:FINALISTS]
     yield FitProgress(0.9, "a closer look")
     best = [aligned_again(place.surface, place.pose) for place in finalists]
-    return accepted(min(best, key=lambda place: place.score.value, default=None))
+    found_place = min(best, key=lambda place: place.score.value, default=None)
+    if found_place is not None and found_place.score.value > GOOD_SCORE:
+        yield FitProgress(0.95, "whether the mouth is open")
+        found_place = _opened(found_place)
+    return accepted(found_place, refuse=refuse)
 
 
-def accepted(place: Located | None) -> Located:
+def _opened(place: Located) -> Located:
+    """The place with an open mouth, where that looks more like a face."""
+    opened = [aligned_again(place.surface, place.pose, degrees) for degrees in JAW_DEGREES]
+    best = min(opened, key=lambda other: other.score.value)
+    return best if best.score.value + OPEN_COST < place.score.value else place
+
+
+def accepted(place: Located | None, *, refuse: bool = True) -> Located:
     """The place, where it looks like a face.
 
     Raises
@@ -98,7 +115,7 @@ def accepted(place: Located | None) -> Located:
     if place is None:
         raise ModelError(f"no face found in the mesh; if it has one, {remedy}")
     score = place.score
-    if score.value > SCORE_LIMIT or score.relief < RELIEF_LIMIT:
+    if refuse and (score.value > SCORE_LIMIT or score.relief < RELIEF_LIMIT):
         raise ModelError(
             f"the mesh does not look like a face: score {score.value:.2f} (at most {SCORE_LIMIT}), agreement of eyes, "
             f"nose and mouth {score.relief:.2f} (at least {RELIEF_LIMIT}); if it has a face, {remedy}"
@@ -106,15 +123,16 @@ def accepted(place: Located | None) -> Located:
     return place
 
 
-def aligned_again(surface: Surface, pose: HeadPose) -> Located:
+def aligned_again(surface: Surface, pose: HeadPose, jaw_degrees: float = 0.0) -> Located:
     """The place near a pose, seen with points spread over the head alone."""
-    pose = align(box_cloud(surface, pose, HEAD_BOX, HEAD), pose)
-    return Located(pose, surface, scored(surface, pose))
+    template = open_template(jaw_degrees)
+    pose = align(box_cloud(surface, pose, HEAD_BOX, HEAD), pose, template)
+    return Located(pose, surface, scored(surface, pose, template), template)
 
 
-def scored(surface: Surface, pose: HeadPose) -> FaceScore:
+def scored(surface: Surface, pose: HeadPose, template: FitTemplate) -> FaceScore:
     """How much what lies at a pose looks like a face."""
-    return face_score(pose.to_template(box_cloud(surface, pose, FACE_BOX, FACE).positions))
+    return face_score(pose.to_template(box_cloud(surface, pose, FACE_BOX, FACE).positions), template)
 
 
 def in_box(surface: Surface, pose: HeadPose, box: Box) -> Bools:
@@ -146,8 +164,9 @@ def _aligned(surface: Surface, cloud: Cloud, guess: HeadPose) -> Located:
         near = box_cloud(surface, guess, HEAD_BOX, HEAD // 2)
     if looks_backwards(near, guess):
         surface, near = surface.flipped(), Cloud(near.positions, -near.normals, near.triangles)
-    pose = align(near, guess)
-    return Located(pose, surface, scored(surface, pose))
+    template = open_template(0.0)
+    pose = align(near, guess, template)
+    return Located(pose, surface, scored(surface, pose, template), template)
 
 
 def looks_backwards(cloud: Cloud, pose: HeadPose) -> bool:

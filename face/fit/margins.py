@@ -12,7 +12,7 @@ from ...arrays import Bools, Floats
 from .cloud import Cloud, Surface, nearest, sample
 from .rims import Neighbourhood
 
-#: A rim is taken for an opening's when its mean distance from where it is expected stays below, metres: mouths may gape.
+#: A rim is taken for an opening's when its mean distance from where it is expected stays below, metres; mouths gape.
 FARTHEST = {"eye": 17e-3, "mouth": 20e-3}
 #: One eye alone is believed from here on only, metres.
 FARTHEST_ALONE = 10e-3
@@ -30,7 +30,7 @@ FACINGS = {"eye": (0.3, 0.1, 0.45), "mouth": (0.2, 0.05, 0.4)}
 UNUSUAL = 0.5e-3
 #: The inner corner of an eye may lie this far beyond the rim seen from the front, metres.
 CORNER_REACH = 9e-3
-#: Lips whose ends differ in depth by more than this are levelled, as far as this, metres; points that this is done with.
+#: Lips whose ends differ in depth by more than this are levelled, as far as this, metres; points it is done with.
 LEVEL, LEVEL_REACH, LIP_POINTS = 1.0e-3, 5e-3, 12_000
 #: An opening wider than this area is filled, where most of what shows in it lies less deep than this, metres.
 WIDE, SHALLOW, MOST = 60e-6, 2.5e-3, 0.6
@@ -206,7 +206,7 @@ def _with_inner_corner(near: Neighbourhood, margin: Margin, eye: str, expected: 
 
 
 def _levelled(margin: Margin, near: Neighbourhood) -> Margin:
-    """A mouth whose lips end at the same depth: one that rolls in farther, still outward, is cut where the other ends."""
+    """A mouth whose lips end at the same depth: one that rolls in farther is cut where the other ends."""
     points = sample(Surface(near.vertices, near.triangles, np.zeros_like(near.vertices)), LIP_POINTS)
     outward = points.positions[near.normals[points.triangles, 1] < 0.0]
     edges = []

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from ...arrays import Floats
-from .depth_map import DEPTH_CLIP, depth_map, in_oval, relief, template_depth
+from .depth_map import DEPTH_CLIP, depth_map, in_oval, relief
+from .open_mouth import open_template
+from .template import FitTemplate
 
 #: Mean difference in depth that costs one point.
 DEPTH_UNIT = 4e-3
@@ -34,17 +37,17 @@ class FaceScore:
         return self.depth / DEPTH_UNIT + 2.0 * (1.0 - self.relief) + 2.0 * (1.0 - self.coverage)
 
 
-def face_score(positions: Floats) -> FaceScore:
-    """The score of points (N, 3) spread over a mesh, in template coordinates."""
-    depth, template = depth_map(positions), template_depth()
-    oval = in_oval()
-    known = np.isfinite(depth) & np.isfinite(template)
+def face_score(positions: Floats, template: FitTemplate) -> FaceScore:
+    """The score of points (N, 3) spread over a mesh, in template coordinates, against a template."""
+    depth, own = depth_map(positions), _own_depth(template.jaw_degrees)
+    oval = in_oval() & np.isfinite(own)
+    known = np.isfinite(depth) & np.isfinite(own)
     both = known & oval
     if both.sum() < 0.3 * oval.sum():
         return FaceScore(DEPTH_CLIP, 0.0, float(both.sum() / oval.sum()))
-    difference = (depth - template)[both]
+    difference = (depth - own)[both]
     difference = difference - np.median(difference)
-    a, b = relief(depth, known)[both], relief(template, known)[both]
+    a, b = relief(depth, known)[both], relief(own, known)[both]
     spread = a.std() * b.std()
     agreement = float(((a - a.mean()) * (b - b.mean())).mean() / spread) if spread > 0.0 else 0.0
     return FaceScore(
@@ -52,3 +55,9 @@ def face_score(positions: Floats) -> FaceScore:
         relief=agreement,
         coverage=float(both.sum() / oval.sum()),
     )
+
+
+@lru_cache(maxsize=4)
+def _own_depth(jaw_degrees: float) -> Floats:
+    """The template's own depth map."""
+    return depth_map(open_template(jaw_degrees).cloud.positions)

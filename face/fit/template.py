@@ -62,6 +62,8 @@ class FitTemplate:
     twins : feature point -> the one on the other side; points of the middle have none.
     cloud : the visible head, eyeballs included, as points seen from the front.
     rings : "eye_l", "eye_r", "mouth".
+    hinge : (3,) the middle of the jaw's hinge.
+    jaw_degrees : how far its jaw is open.
     """
 
     skin: HeadSkin
@@ -75,6 +77,8 @@ class FitTemplate:
     twins: Mapping[str, str]
     cloud: Cloud
     rings: Mapping[str, Ring]
+    hinge: Floats
+    jaw_degrees: float = 0.0
 
     def read(self, values: Floats, names: Sequence[str] | None = None) -> Floats:
         """(P, k) values at the feature points, or at some of them, of values (V, k) of the skin."""
@@ -88,23 +92,30 @@ def fit_template() -> FitTemplate:
     figures = read_figures()
     skin = build_skin(figures)
     surface = Surface.from_polygons(skin.vertices, skin.quads)
-    hidden = _hidden(skin)
-    seen = first_hits(skin.vertices[:, 1], skin.vertices[:, 0], skin.vertices[:, 2], pixel=4e-3, tolerance=4e-3)
-    front = ~hidden & (skin.vertices[:, 1] < FACE_FRONT) & (surface.normals[:, 1] < -0.1) & seen
+    exterior = ~_hidden(skin)
     places = skin_points(figures, skin)
     return FitTemplate(
         skin=skin,
         cage_mirror=np.asarray(skin.cage.mirror),
         laplacian=_laplacian(skin),
         surface=surface,
-        exterior=~hidden,
-        front=front,
+        exterior=exterior,
+        front=front_of(surface, exterior),
         names=tuple(places),
         points=_point_rows(places, surface),
         twins={**figures.point_pairs, **{right: left for left, right in figures.point_pairs.items()}},
-        cloud=_front_cloud(),
+        cloud=front_cloud(skin.vertices, skin.regions),
+        hinge=figures.condyle,
         rings=_rings(skin),
     )
+
+
+def front_of(surface: Surface, exterior: Bools) -> Bools:
+    """(V,) which visible vertices belong to the face seen from the front."""
+    x, y, z = surface.vertices.T
+    seen = first_hits(y, x, z, pixel=4e-3, tolerance=4e-3)
+    front: Bools = exterior & (y < FACE_FRONT) & (surface.normals[:, 1] < -0.1) & seen
+    return front
 
 
 def _hidden(skin: HeadSkin) -> Bools:
@@ -148,14 +159,18 @@ def _point_rows(places: Mapping[str, int | Floats], surface: Surface) -> Sparse:
     return sparse.csr_array((values, (rows, columns)), shape=(len(places), len(surface.vertices)))
 
 
-def _front_cloud() -> Cloud:
-    """Skin and eyeballs of the default head as points seen from the front."""
+def front_cloud(skin: Floats, regions: Sequence[Region]) -> Cloud:
+    """Skin (V, 3) and eyeballs of the default head as points seen from the front, without the mouth's inside."""
     head = build_default_head()
+    vertices = np.concatenate([skin, head.vertices[len(skin) :]])
     shown = np.isin(head.parts, [Part.SKIN, Part.EYEBALL_L, Part.EYEBALL_R])
     polygons = [polygon for polygon in head.polygons if shown[list(polygon)].all()]
-    cloud = sample(Surface.from_polygons(head.vertices, polygons), CLOUD_SIZE)
+    cloud = sample(Surface.from_polygons(vertices, polygons), CLOUD_SIZE)
     p = cloud.positions
-    return cloud.take(first_hits(p[:, 1], p[:, 0], p[:, 2], pixel=3e-3, tolerance=3e-3))
+    bag = np.zeros(len(polygons), dtype=bool)
+    bag[: len(regions)] = [region is Region.MOUTH_BAG for region in regions]
+    seen = first_hits(p[:, 1], p[:, 0], p[:, 2], pixel=3e-3, tolerance=3e-3)
+    return cloud.take(seen & ~bag[cloud.triangles // 2])  # quads have two triangles each
 
 
 def _rings(skin: HeadSkin) -> dict[str, Ring]:

@@ -1,0 +1,173 @@
+"""Heads with known feature points for measuring how well they are found.
+
+The shared heads, which the method was tuned on, and new ones that it was not: mixtures of the shared people, and the
+default head bent by smooth random fields that carry its feature points along.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import risorius.api as api
+from risorius.arrays import Floats, Ints
+
+#: Coefficients of the mixtures: person + share * (another - a third), by index.
+ICT_MIXTURES = ((0, 3, 1, 0.7), (2, 5, 4, 0.7), (4, 0, 3, 0.6), (5, 1, 2, 0.7))
+MAKEHUMAN_MIXTURES = ((0, 4, 2, 0.5), (1, 7, 5, 0.6), (2, 6, 0, 0.5), (5, 3, 1, 0.5))
+#: Seeds of the bent default heads; size of the bends, metres, their width, and how far each axis is scaled.
+BENT_SEEDS, BEND, BEND_WIDTH, BEND_SCALE = (11, 12, 13, 14), 5e-3, 45e-3, 0.12
+
+
+@dataclass(frozen=True)
+class TrueHead:
+    """A head whose feature points are known: vertices (V, 3), polygons, name -> position (3,), metres."""
+
+    name: str
+    vertices: Floats
+    polygons: Sequence[Sequence[int]] | Sequence[Ints]
+    points: Mapping[str, Floats]
+
+
+class SharedHeads:
+    """The shared heads and what is made of them.
+
+    Parameters
+    ----------
+    folder : the folder that holds `ict.npz` and so on.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def known(self) -> Iterator[TrueHead]:
+        """The heads that the method was tuned on."""
+        for name in ("ict", "ict_narrow", "makehuman", "mediapipe", "makehuman_body"):
+            yield self._head(name, name, self._arrays(name)["vertices"].astype(np.float64))
+        for number in range(6):
+            yield self._head(f"ict identity {number}", "ict", self._identity(number))
+        variants = self._arrays("makehuman_variants")
+        for label, vertices in zip(variants["names"], variants["vertices"], strict=True):
+            yield self._head(f"makehuman {label}", "makehuman", vertices.astype(np.float64))
+
+    def held_out(self) -> Iterator[TrueHead]:
+        """Heads that no parameter was chosen on."""
+        for a, b, c, share in ICT_MIXTURES:
+            mixed = self._identity(a) + share * (self._identity(b) - self._identity(c))
+            yield self._head(f"ict {a} + {share} ({b} - {c})", "ict", mixed)
+        people = self._arrays("makehuman_variants")["vertices"].astype(np.float64)
+        for a, b, c, share in MAKEHUMAN_MIXTURES:
+            mixed = people[a] + share * (people[b] - people[c])
+            yield self._head(f"makehuman {a} + {share} ({b} - {c})", "makehuman", mixed)
+        for seed in BENT_SEEDS:
+            yield bent_default_head(seed)
+
+    def hard(self) -> Iterator[TrueHead]:
+        """Expressions and coarse meshes."""
+        for name, weights in (
+            ("eyes closed", {"eyeBlink_L": 1.0, "eyeBlink_R": 1.0}),
+            ("mouth open 9 mm", {"jawOpen": 0.25}),
+            ("mouth open 19 mm", {"jawOpen": 0.5}),
+            ("smile", {"mouthSmile_L": 1.0, "mouthSmile_R": 1.0}),
+        ):
+            yield self._head(f"ict, {name}", "ict", self._expression(weights))
+        for cell in (0.010, 0.018):
+            head = self._head("", "ict_narrow", self._arrays("ict_narrow")["vertices"].astype(np.float64))
+            yield coarse(head, cell)
+
+    def ict(self) -> TrueHead:
+        """The scanned mean head."""
+        return self._head("ict", "ict", self._arrays("ict")["vertices"].astype(np.float64))
+
+    def _arrays(self, name: str) -> Mapping[str, np.ndarray]:
+        return _read(self._folder / f"{name}.npz")
+
+    def _head(self, name: str, mesh: str, vertices: Floats) -> TrueHead:
+        """A head on one of the shared meshes."""
+        arrays = self._arrays(mesh)
+        polygons = np.split(arrays["loops"].astype(np.int64), np.cumsum(arrays["face_sizes"])[:-1])
+        points = json.loads((self._folder / f"{mesh}.fp.json").read_text())["points"]
+        return TrueHead(name, vertices, polygons, {key: vertices[index] for key, index in points.items()})
+
+    def _identity(self, number: int) -> Floats:
+        """Vertices of another person on the scanned mesh."""
+        vertices = self._arrays("ict")["vertices"].astype(np.float64)
+        skin = self._arrays("ict_identities")["vertices"][number]
+        inner = next(array for array in self._arrays("ict_identities_inner").values() if array.ndim == 3)[number]
+        vertices[: len(skin)] = skin
+        vertices[len(skin) :] += inner.astype(np.float64)
+        return vertices
+
+    def _expression(self, weights: Mapping[str, float]) -> Floats:
+        """Vertices of the scanned mean head in an expression."""
+        vertices = self._arrays("ict")["vertices"].astype(np.float64)
+        skin, inner = self._arrays("ict_expressions"), self._arrays("ict_expressions_inner")
+        names = [str(name) for name in skin["names"]]
+        count = skin["displacement"].shape[1]
+        for name, weight in weights.items():
+            vertices[:count] += weight * skin["displacement"][names.index(name)]
+            vertices[count:] += weight * inner["displacement"][names.index(name)].astype(np.float64)
+        return vertices
+
+
+@lru_cache(maxsize=8)
+def _read(path: Path) -> Mapping[str, np.ndarray]:
+    """The arrays of a file."""
+    with np.load(path) as arrays:
+        return {name: arrays[name] for name in arrays.files}
+
+
+def bent_default_head(seed: int) -> TrueHead:
+    """The default head bent by a smooth random field."""
+    head = api.build_default_head()
+    random = np.random.default_rng(seed)
+    knots = head.vertices[random.choice(len(head.vertices), 24, replace=False)]
+    ways = random.normal(scale=BEND, size=(len(knots), 3))
+    scale = 1.0 + random.uniform(-BEND_SCALE, BEND_SCALE, 3)
+
+    def bent(places: Floats) -> Floats:
+        near = np.exp(-((places[:, None] - knots) ** 2).sum(axis=2) / (2.0 * BEND_WIDTH**2))
+        return np.asarray((places + near @ ways) * scale)
+
+    points = {name: bent(head.position(name)[None])[0] for name in head.points}
+    return TrueHead(f"default head, bent ({seed})", bent(head.vertices), head.polygons, points)
+
+
+def coarse(head: TrueHead, cell: float) -> TrueHead:
+    """A head whose vertices within each cell of a grid, metres wide, are one."""
+    cells = np.floor(head.vertices / cell).astype(np.int64)
+    _, same = np.unique(cells, axis=0, return_inverse=True)
+    same = same.ravel()
+    count = np.bincount(same)
+    vertices = np.column_stack([np.bincount(same, head.vertices[:, k]) / count for k in range(3)])
+    triangles = [
+        same[[polygon[0], polygon[k], polygon[k + 1]]] for polygon in head.polygons for k in range(1, len(polygon) - 1)
+    ]
+    kept = [triangle for triangle in triangles if len(set(triangle.tolist())) == 3]
+    return TrueHead(f"ict_narrow, {len(vertices)} vertices", vertices, kept, head.points)
+
+
+def subdivided(head: TrueHead) -> TrueHead:
+    """A head with every polygon cut into four from its middle and those of its sides."""
+    sides: dict[tuple[int, int], int] = {}
+    vertices = list(head.vertices)
+
+    def middle(a: int, b: int) -> int:
+        key = (min(a, b), max(a, b))
+        if key not in sides:
+            sides[key] = len(vertices)
+            vertices.append((head.vertices[a] + head.vertices[b]) / 2.0)
+        return sides[key]
+
+    polygons = []
+    for polygon in head.polygons:
+        corners = [int(corner) for corner in polygon]
+        centre = len(vertices)
+        vertices.append(head.vertices[corners].mean(axis=0))
+        halves = [middle(a, b) for a, b in zip(corners, corners[1:] + corners[:1], strict=True)]
+        polygons += [(corner, halves[k], centre, halves[k - 1]) for k, corner in enumerate(corners)]
+    return TrueHead(head.name, np.array(vertices), polygons, head.points)
