@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy import sparse
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import ModelError
 from ..physics import mesh
 from ..physics.elastic import laplacian
 from .actuators import Actuators
+from .fine_skin import SOLVED, fine_skin
 from .followers import InnerSkin, LooseParts
 from .frame import Fapu, HeadFrame
 from .inverse import Inverse, Kernel, kernel_of
@@ -95,8 +97,8 @@ class Anatomy:
         return polygons
 
     @cached_property
-    def skin(self) -> OuterSkin:
-        """The outer skin."""
+    def given_skin(self) -> OuterSkin:
+        """The outer skin with the mesh's own vertices."""
         face_mesh = self.mesh
         polygons = self._skin_polygons
         edges = mesh.unique_edges(polygons)
@@ -122,6 +124,11 @@ class Anatomy:
             eyes={"l": inside(openings[1]), "r": inside(openings[2])},
             mechanisms=self.mechanisms,
         )
+
+    @cached_property
+    def skin(self) -> OuterSkin:
+        """The outer skin as it is solved: split where the mesh is coarse, the vertices of `given_skin` first."""
+        return fine_skin(self.given_skin, SOLVED)[0]
 
     @cached_property
     def tissue(self) -> Tissue:
@@ -196,7 +203,9 @@ class Anatomy:
         rows = self.inverse_rows
         if self._same_skin is not None:
             return self._same_skin.kernel.first(len(rows))
-        return kernel_of(rows, self.mesh.points.matrix(rows.names)[:, self.skin.index], self.tissue)
+        own = self.mesh.points.matrix(rows.names)[:, self.skin.index]
+        shape = (len(rows), self.skin.vertex_count)
+        return kernel_of(rows, sparse.csr_array((own.data, own.indices, own.indptr), shape=shape), self.tissue)
 
     @cached_property
     def inverse(self) -> Inverse:
@@ -210,7 +219,7 @@ class Anatomy:
         inner[self.skin.index] = False
         positions, polygons = self.mesh.positions, self._skin_polygons
         areas = mesh.vertex_areas(positions, polygons)
-        return InnerSkin(laplacian(positions, polygons), areas, inner, positions, self.skin)
+        return InnerSkin(laplacian(positions, polygons), areas, inner, positions, self.given_skin)
 
     @cached_property
     def loose_parts(self) -> LooseParts:

@@ -47,21 +47,21 @@ class Creases:
 
     def __init__(self, face: Face, rows: Sequence[CreaseRow] | None = None) -> None:
         """Place the creases of a table (the built-in one) on a face."""
-        anatomy = face.anatomy
-        self.rest, self.index = face.vertices, anatomy.skin.index
+        anatomy, skin = face.anatomy, face.anatomy.given_skin
+        self.rest, self.index = face.vertices, skin.index
         #: (V, 3) resting vertices in head space, metres: where a renderer takes its noise from.
         self.head_positions = anatomy.mesh.positions
         self.edges = unique_edges(face.polygons)
         self.degree = np.maximum(np.bincount(self.edges.ravel(), minlength=len(self.rest)), 1)
         self.lengths = np.maximum(np.linalg.norm(self._along(self.rest), axis=1), 1e-12)
         self.areas = np.zeros(len(self.rest))
-        self.areas[self.index] = anatomy.skin.areas
-        edge = float(np.median(np.sqrt(anatomy.skin.areas)))
+        self.areas[self.index] = skin.areas
+        edge = float(np.median(np.sqrt(skin.areas)))
         #: Rounds over which compression is averaged.
         self.rounds = int(np.clip(round(2.5 * (AVERAGED / edge) ** 2), 1, MOST_ROUNDS))
         #: Crease by name.
         self.creases: Mapping[str, Crease] = {
-            row.name: Crease(row, self._spread(place_crease(anatomy.skin, anatomy.warp, row)))
+            row.name: Crease(row, self._spread(place_crease(skin, anatomy.warp, row)))
             for row in (read_creases() if rows is None else rows)
         }
 

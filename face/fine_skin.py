@@ -1,7 +1,9 @@
-"""The outer skin split finely: forces are summed over its surface, not over however few vertices a mesh has.
+"""The outer skin split finely, so that what it does hardly depends on how few vertices a mesh has.
 
-A muscle's pull changes within millimetres where its fibres end. Read off vertices alone, its sum over the skin would
-depend on where they happen to lie.
+Elastic skin bends over a centimetre: on edges as long as that its matrix is another tissue, so a coarse skin is solved
+on a split one whose first vertices are the mesh's own. A muscle's pull changes within millimetres where its fibres end:
+read off vertices alone, its sum over the skin would depend on where they happen to lie, so forces are summed over a
+skin that is split further still.
 """
 
 from __future__ import annotations
@@ -9,7 +11,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy import sparse
 
+from ..arrays import Floats
 from ..physics.elastic import diagonal_matrix
 from ..physics.mesh import Sparse
 from ..physics.split import Split, split
@@ -17,8 +21,9 @@ from .openings import Opening
 from .outer_skin import OuterSkin
 from .template import MM
 
-#: A skin is split until its vertices are no farther apart than this in the middle, metres.
-FINE = 3.5 * MM
+#: A skin is split until its vertices are no farther apart than this in the middle, metres: where it is solved, and
+#: where forces are summed over it.
+SOLVED, SUMMED = 6.0 * MM, 3.5 * MM
 
 MOST_SPLITS = 3
 
@@ -28,18 +33,34 @@ def _halved(opening: Opening, once: Split) -> Opening:
     return Opening(once.halved(opening.upper), once.halved(opening.lower))
 
 
-def fine_skin(skin: OuterSkin) -> tuple[OuterSkin, Sparse]:
-    """The same skin with vertices no farther apart than `FINE`, and the matrix (N, n) that takes fields to it."""
+def _curved(skin: OuterSkin, once: Split) -> Floats:
+    """(N, 3) positions of a split skin: new vertices bulge out of flat polygons as far as the skin there is round.
+
+    That is half-way from the middle of the vertices that they lie between to those vertices' tangent planes, as on a
+    ball (Boubekeur and Alexa 2008, "Phong Tessellation", have the planes); vertices of the skin itself stay.
+    """
+    middles = np.asarray(once.matrix @ skin.positions)
+    between = sparse.coo_array(once.matrix)
+    normals = skin.raw_normals[between.col]
+    above = (normals * (skin.positions[between.col] - middles[between.row])).sum(axis=1)
+    heights = sparse.csr_array((between.data * above, (between.row, between.col)), shape=between.shape)
+    return np.asarray(middles + 0.5 * (heights @ skin.raw_normals))
+
+
+def fine_skin(skin: OuterSkin, spacing: float) -> tuple[OuterSkin, Sparse]:
+    """The same skin with vertices no farther apart than a spacing (metres), and the matrix (N, n) that splits fields.
+
+    The skin's own n vertices stay the first ones; where they are near enough already, it is the skin itself.
+    """
     fine, matrix = skin, diagonal_matrix(np.ones(skin.vertex_count))
     for _ in range(MOST_SPLITS):
-        if float(np.median(np.sqrt(fine.areas))) <= FINE:
+        if float(np.median(np.sqrt(fine.areas))) <= spacing:
             break
         once = split(fine.polygons, fine.vertex_count)
         matrix = once.matrix @ matrix
         fine = replace(
             fine,
-            index=np.arange(once.matrix.shape[0], dtype=np.int64),
-            positions=np.asarray(once.matrix @ fine.positions),
+            positions=_curved(fine, once),
             polygons=list(once.quads),
             mouth=_halved(fine.mouth, once),
             eyes={side: _halved(opening, once) for side, opening in fine.eyes.items()},

@@ -46,7 +46,8 @@ class OuterSkin:
 
     Attributes
     ----------
-    index : (n,) vertex numbers of the face's mesh.
+    index : (g,) vertex numbers of the face's mesh. Of a skin that is split (`fine_skin`) these are the first g of its
+        vertices, of any other all of them.
     positions : (n, 3) rest positions in head space, metres.
     polygons : sequence of local vertex index arrays.
     points : feature point -> (3,) position in head space.
@@ -70,7 +71,7 @@ class OuterSkin:
     @property
     def vertex_count(self) -> int:
         """Number of skin vertices n."""
-        return len(self.index)
+        return len(self.positions)
 
     @cached_property
     def areas(self) -> Floats:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -76,7 +76,7 @@ class Poser:
     @cached_property
     def folds(self) -> Folds:
         """Where the skin folds; no FAP's point moves with it."""
-        return Folds(self.anatomy.skin, self.anatomy.warp, self._points_on_skin)
+        return Folds(self.anatomy.given_skin, self.anatomy.warp, self._points_on_skin)
 
     def pose(
         self, frame: Floats, drive: Drive, emotion: EmotionShares | None, contractions: Mapping[str, float] | None
@@ -85,7 +85,7 @@ class Poser:
         plan = self.natural.plan(frame, emotion) if drive is Drive.NATURAL else None
         amounts = self.amounts(frame, drive, plan, contractions)
         state = self.skin_state(frame, drive, plan, amounts)
-        positions = self.assemble(self.folded(state, drive), frame)
+        positions = self.assemble(state, drive, frame)
         goal = plan.goal if plan is not None else frame
         return Pose(
             positions=positions,
@@ -172,11 +172,12 @@ class Poser:
         """Where mandible and eyeballs are for a frame (68,)."""
         return Surroundings(jaw, {ball.side: ball.look(frame) for ball in self.anatomy.eyeballs})
 
-    def folded(self, state: SkinState, drive: Drive) -> SkinState:
-        """A state of the skin with its folds, in the natural mode."""
+    def folded(self, state: SkinState, drive: Drive) -> Floats:
+        """(g, 3) displacement of the outer skin's own vertices, with folds in the natural mode."""
+        own = state.displacement[: self.anatomy.given_skin.vertex_count]
         if drive is not Drive.NATURAL or not self.with_folds:
-            return state
-        return replace(state, displacement=state.displacement + self.folds.displacement(state.displacement))
+            return own
+        return own + self.folds.displacement(own)
 
     def _targets(self, frame: Floats, plan: Plan | None) -> tuple[Floats, Floats]:
         """Row targets and doubts (m,) of the elastic correction."""
@@ -192,11 +193,11 @@ class Poser:
         doubts = np.where(hidden, wish.doubts, doubts)
         return wish.targets, np.where(wish.doubts == EXACT_NOISE, 0.0, doubts)
 
-    def assemble(self, state: SkinState, frame: Floats) -> Floats:
-        """(V, 3) positions in the face's coordinates from the outer skin's displacement and the direct FAPs."""
+    def assemble(self, state: SkinState, drive: Drive, frame: Floats) -> Floats:
+        """(V, 3) positions in the face's coordinates from a state of the outer skin and the direct FAPs."""
         anatomy, face_mesh = self.anatomy, self.anatomy.mesh
         moved = np.zeros_like(face_mesh.positions)
-        moved[anatomy.skin.index] = state.displacement
+        moved[anatomy.given_skin.index] = self.folded(state, drive)
         anatomy.inner_skin.follow(moved)
         carried = anatomy.lower_teeth
         moved[carried] = anatomy.jaw.rigid(face_mesh.positions[carried], state.jaw)

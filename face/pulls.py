@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..physics.elastic import diagonal_matrix
-from .fine_skin import fine_skin
+from .fine_skin import SUMMED, fine_skin
 from .muscle_fields import force_density
 from .outer_skin import OuterSkin
 from .placement import PlacedMuscle
@@ -53,7 +53,7 @@ def pulls_of(skin: OuterSkin, tissue: Tissue, muscles: Sequence[PlacedMuscle]) -
 
 def _forces(skin: OuterSkin, muscles: Sequence[PlacedMuscle]) -> Floats:
     """(k, n, 3) force of each muscle on each vertex, summed over the skin between them."""
-    fine, carry = fine_skin(skin)
+    fine, carry = fine_skin(skin, SUMMED)
     spread = (diagonal_matrix(fine.areas) @ carry).T.tocsr()
     forces = [np.asarray(spread @ force_density(fine, muscle)) for muscle in muscles]
     return np.array(forces).reshape(-1, skin.vertex_count, 3)

@@ -133,7 +133,7 @@ class Simulation:
             before = aim
             displacement = motion.skin.positions - self.skin.rest
             state = SkinState(displacement, aim.elastic, JawMotion(*motion.jaw[0].tolist()))
-            yield self.poser.assemble(self.poser.folded(state, moment.drive), moment.frame)
+            yield self.poser.assemble(state, moment.drive, moment.frame)
 
     def _aim(self, moment: Moment) -> Aim:
         """The pose that a moment asks for, taken apart."""

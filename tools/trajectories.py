@@ -58,7 +58,7 @@ CLOSENESS, LOWER, DEEPER = 0.78, 0.03, 0.14
 
 def sampled(face: Face) -> Ints:
     """Vertices of the outer skin no nearer to one another than the spacing, the face before the back of the head."""
-    skin = face.anatomy.skin
+    skin = face.anatomy.given_skin
     front = np.flatnonzero(skin.positions[:, 2] > -75e-3)
     chosen: list[int] = []
     far = np.full(len(front), np.inf)

@@ -225,7 +225,8 @@ def muscle_differences(divisions: Divisions, other: Face) -> tuple[np.ndarray, n
             actuators = face.anatomy.actuators
             whole = np.zeros_like(face.vertices)
             number = [muscle.name for muscle in actuators.muscles].index(name)
-            whole[face.anatomy.skin.index] = actuators.fields[number]
+            own = face.anatomy.given_skin
+            whole[own.index] = actuators.fields[number][: own.vertex_count]
             return whole
 
         return displacement
@@ -247,18 +248,20 @@ def pose_differences(divisions: Divisions, other: Face) -> tuple[np.ndarray, np.
 
 
 def test_four_times_the_vertices_move_alike(divisions: Divisions) -> None:
-    """Single vertices pass 5 %: in a met disgust, and where the depressor of the lower lip has its edge."""
-    for differences, worst in ((pose_differences, 0.06), (muscle_differences, 0.065)):
+    for differences in (pose_differences, muscle_differences):
         rms, largest = differences(divisions, divisions.fourfold)
         assert rms.max() < 0.05
-        assert largest.max() < worst
-        assert np.median(largest) < 0.05
+        assert largest.max() < 0.05
 
 
-def test_a_quarter_of_the_vertices_moves_nearly_alike(divisions: Divisions) -> None:
-    """One vertex per centimetre is about the length over which the skin bends: a tenth is what is left of it there."""
-    for differences in (pose_differences, muscle_differences):
+def test_a_quarter_of_the_vertices_moves_alike(divisions: Divisions) -> None:
+    """One vertex per centimetre is solved on a finer skin.
+
+    Single vertices pass 5 %: the cheek of a smile, and where the depressor of the lower lip has its edge.
+    """
+    for differences, worst_rms, worst in ((pose_differences, 0.05, 0.06), (muscle_differences, 0.065, 0.08)):
         rms, largest = differences(divisions, divisions.quarter)
-        assert np.median(rms) < 0.06
-        assert rms.max() < 0.1
-        assert np.median(largest) < 0.08
+        assert np.median(rms) < 0.03
+        assert rms.max() < worst_rms
+        assert np.median(largest) < 0.04
+        assert largest.max() < worst
