@@ -160,6 +160,7 @@ def lies_in_box(positions: Floats, pose: HeadPose, box: Box) -> Bools:
 def _aligned(surface: Surface, cloud: Cloud, guess: HeadPose) -> Located:
     """One guess aligned; the surface comes out with its normals outward."""
     near = cloud.take(lies_in_box(cloud.positions, guess, HEAD_BOX))
+    near = near.take(np.arange(0, len(near), max(1, len(near) // (HEAD // 2))))
     if len(near) < HEAD // 4:
         near = box_cloud(surface, guess, HEAD_BOX, HEAD // 2)
     if looks_backwards(near, guess):
