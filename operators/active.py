@@ -32,5 +32,5 @@ def face_reason(obj: Any | None) -> str | None:
     """Why the active object cannot be baked on, or None."""
     reason = refusals.reason(obj, make_single_user=obj is not None and obj.risorius.face.make_single_user)
     if reason is None and obj is not None and not has_points(obj):
-        return f"{obj.name}: has no feature points yet: import them from a JSON file"
+        return f"{obj.name}: has no feature points yet: find the face, click them, or import them"
     return reason

@@ -1,4 +1,4 @@
-"""The one property that Risorius adds to objects, and the one it adds to scenes."""
+"""The one property that Risorius adds to objects, the one it adds to scenes, and the one it adds to the window."""
 
 import bpy
 
@@ -6,6 +6,7 @@ from .bake.props import RISORIUS_PG_bake
 from .emotion.props import RISORIUS_PG_emotion
 from .face.props import RISORIUS_PG_face
 from .film.props import RISORIUS_PG_film
+from .points.props import RISORIUS_PG_points
 
 
 class RISORIUS_PG_object(bpy.types.PropertyGroup):
@@ -22,16 +23,24 @@ class RISORIUS_PG_scene(bpy.types.PropertyGroup):
     film: bpy.props.PointerProperty(type=RISORIUS_PG_film)  # type: ignore[valid-type]
 
 
-CLASSES = (RISORIUS_PG_object, RISORIUS_PG_scene)
+class RISORIUS_PG_window(bpy.types.PropertyGroup):
+    """How things are shown; not saved with the file."""
+
+    points: bpy.props.PointerProperty(type=RISORIUS_PG_points)  # type: ignore[valid-type]
+
+
+CLASSES = (RISORIUS_PG_object, RISORIUS_PG_scene, RISORIUS_PG_window)
 
 
 def attach() -> None:
-    """Give objects and scenes their property."""
+    """Give objects, scenes and the window their property."""
     bpy.types.Object.risorius = bpy.props.PointerProperty(type=RISORIUS_PG_object)
     bpy.types.Scene.risorius = bpy.props.PointerProperty(type=RISORIUS_PG_scene)
+    bpy.types.WindowManager.risorius = bpy.props.PointerProperty(type=RISORIUS_PG_window)
 
 
 def detach() -> None:
     """Take it away again. What is saved in files stays there."""
+    del bpy.types.WindowManager.risorius
     del bpy.types.Scene.risorius
     del bpy.types.Object.risorius

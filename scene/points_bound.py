@@ -38,6 +38,7 @@ class Surface:
 
     vertices: Floats
     polygons: list[tuple[int, ...]]
+    triangles: list[tuple[int, int, int]]
     counts: tuple[int, int, int]
     digest: str
     tree: Any
@@ -47,28 +48,21 @@ class Surface:
         """Read a mesh's resting surface."""
         vertices = meshes.rest_vertices(mesh)
         polygons = meshes.polygon_sequence(*meshes.polygon_arrays(mesh))
-        tree = BVHTree.FromPolygons(vertices.tolist(), polygons)
-        return cls(vertices, polygons, mesh_counts(mesh), mesh_digest(mesh), tree)
+        triangles = [(p[0], p[k], p[k + 1]) for p in polygons for k in range(1, len(p) - 1)]
+        tree = BVHTree.FromPolygons(vertices.tolist(), triangles, all_triangles=True)
+        return cls(vertices, polygons, triangles, mesh_counts(mesh), mesh_digest(mesh), tree)
 
     def nearest(self, place: Floats) -> tuple[Floats, int, float] | None:
-        """The nearest place (3,), its polygon and its distance."""
-        found, _, polygon, distance = self.tree.find_nearest(Vector(place))
-        return None if found is None else (np.array(found, dtype=np.float64), int(polygon), float(distance))
+        """The nearest place (3,), its triangle and its distance."""
+        found, _, triangle, distance = self.tree.find_nearest(Vector(place))
+        return None if found is None else (np.array(found, dtype=np.float64), int(triangle), float(distance))
 
     def bound(self, place: Floats, reach: float) -> Held | None:
         """Vertices and shares of the place of the surface nearest to `place`; None beyond `reach`."""
         near = self.nearest(place)
         if near is None or near[2] > reach:
             return None
-        return self.shares(near[1], near[0])
-
-    def shares(self, polygon: int, place: Floats) -> Held:
-        """Vertices of a polygon, and their shares in a place on it."""
-        vertices = self.polygons[polygon]
-        weights = np.array(poly_3d_calc([Vector(self.vertices[v]) for v in vertices], Vector(place)), dtype=np.float64)
-        held = weights > SMALLEST_SHARE
-        kept = weights[held] / weights[held].sum()
-        return tuple(int(v) for v in np.array(vertices)[held]), tuple(float(w) for w in kept)
+        return shares(self.triangles[near[1]], self.vertices, near[0])
 
     def kept(self, held: Held | None, place: Floats, confidence: float, origin: Origin) -> KeptPoint:
         """A point held by vertices of this surface, or one at a place off it."""
@@ -91,6 +85,14 @@ class Followed:
     kept: KeptPoints
     moved_on: bool
     lost: tuple[str, ...]
+
+
+def shares(corners: tuple[int, ...], vertices: Floats, place: Floats) -> Held:
+    """Vertices of a polygon, and their shares in a place on it."""
+    weights = np.array(poly_3d_calc([Vector(vertices[v]) for v in corners], Vector(place)), dtype=np.float64)
+    held = weights > SMALLEST_SHARE
+    kept = weights[held] / weights[held].sum()
+    return tuple(int(v) for v in np.array(corners)[held]), tuple(float(w) for w in kept)
 
 
 def mesh_digest(mesh: Any) -> str:

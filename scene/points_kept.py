@@ -106,7 +106,7 @@ def read_kept(obj: Any, *, as_given: bool = False) -> KeptPoints:
     """
     text = obj.data.get(AS_GIVEN if as_given else POINTS) if obj.type == "MESH" else None
     if text is None:
-        raise SceneError(obj.name, "has no feature points: find them, or import them from a JSON file")
+        raise SceneError(obj.name, "has no feature points: find the face, click them, or import them")
     try:
         return _decoded(str(text))
     except (ValueError, KeyError, TypeError) as problem:

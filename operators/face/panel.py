@@ -1,4 +1,4 @@
-"""The panel's top: which face, its feature points, its parts."""
+"""The panel's top: which face, and its parts."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ import bpy
 
 from ...scene import refusals
 from ...scene.points_kept import has_points
+from ..points.click import RISORIUS_OT_click_points
+from ..points.ops import RISORIUS_OT_find_points
 from ..requirements import MISSING, REMEDY, has_scipy
 from ..sidebar import Sidebar
-from .ops import RISORIUS_OT_add_head, RISORIUS_OT_forget_points, RISORIUS_OT_import_points
+from .ops import RISORIUS_OT_add_head, RISORIUS_OT_import_points
 
 
 class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
@@ -38,12 +40,16 @@ class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
             column = layout.column(align=True)
             column.label(text=obj.name, icon="MESH_DATA")
             column.label(text="Needs its feature points:", icon="INFO")
+            find = column.column(align=True)
+            find.scale_y = 1.3
+            find.operator(RISORIUS_OT_find_points.bl_idname, icon="VIEWZOOM")
+            column.operator(RISORIUS_OT_click_points.bl_idname, icon="RESTRICT_SELECT_OFF")
             column.operator(RISORIUS_OT_import_points.bl_idname, icon="IMPORT")
         layout.operator(RISORIUS_OT_add_head.bl_idname, icon="USER")
 
 
 class RISORIUS_PT_face(Sidebar, bpy.types.Panel):
-    """Feature points and separate parts of the active face."""
+    """Parts of the active face that are objects of their own."""
 
     bl_label = "Face"
     bl_parent_id = "RISORIUS_PT_main"
@@ -55,13 +61,10 @@ class RISORIUS_PT_face(Sidebar, bpy.types.Panel):
         return context.object is not None and context.object.type == "MESH"
 
     def draw(self, context: Any) -> None:
-        """Points, then parts."""
+        """Which objects they are."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         obj, face = context.object, context.object.risorius.face
-        row = layout.row(align=True)
-        row.operator(RISORIUS_OT_import_points.bl_idname, icon="IMPORT")
-        row.operator(RISORIUS_OT_forget_points.bl_idname, text="", icon="X")
         column = layout.column(align=True)
         column.label(text="Parts in other objects")
         for name in ("eyeball_l", "eyeball_r", "teeth_upper", "teeth_lower", "tongue"):

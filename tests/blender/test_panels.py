@@ -33,6 +33,12 @@ class Spy:
         assert not unknown
         self.seen.append(("prop", name))
 
+    def template_list(self, kind: str, _id: str, data: Any, name: str, active: Any, index: str, **options: Any) -> None:
+        assert hasattr(bpy.types, kind)
+        assert name in data.bl_rna.properties
+        assert index in active.bl_rna.properties
+        self.seen.append(("list", name))
+
     def operator(self, name: str, **options: Any) -> Any:
         assert name.partition(".")[2] in dir(bpy.ops.risorius)
         self.seen.append(("operator", name))
@@ -72,7 +78,7 @@ def test_a_mesh_without_points_is_told_what_it_needs(cube: Any) -> None:
 
 def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     shown = drawn()
-    assert list(shown) == [f"RISORIUS_PT_{name}" for name in ("main", "face", "emotion", "bake", "film")]
+    assert list(shown) == [f"RISORIUS_PT_{name}" for name in ("main", "face", "points", "emotion", "bake", "film")]
     assert ("label", head.name) in shown["RISORIUS_PT_main"]
     assert [entry for entry in shown["RISORIUS_PT_emotion"] if entry[0] == "prop"][:2] == [
         ("prop", "word"),

@@ -39,7 +39,7 @@ def edit(obj: Any, *steps: Any) -> None:
 def test_a_position_is_bound_to_the_polygon_it_lies_on(cube: Any) -> None:
     faces.store_points(cube, {"2.1": (1.0, 0.5, -0.5), "8.4": 3, "3.5": (0.0, 0.0, 4.0)})
     kept = points_kept.read_kept(cube).points
-    assert len(kept["2.1"].vertices) == 4
+    assert 2 <= len(kept["2.1"].vertices) <= 3
     corners = meshes.rest_vertices(cube.data)[list(kept["2.1"].vertices)]
     np.testing.assert_allclose(np.array(kept["2.1"].weights) @ corners, (1.0, 0.5, -0.5), atol=1e-6)
     assert kept["8.4"].vertices == (3,)

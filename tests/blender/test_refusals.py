@@ -59,7 +59,7 @@ def test_vertices_that_are_not_numbers(head: Any) -> None:
 
 
 def test_no_feature_points(cube: Any) -> None:
-    with pytest.raises(SceneError, match=r"no feature points: find them"):
+    with pytest.raises(SceneError, match=r"no feature points: find the face"):
         bake_key(cube)
 
 

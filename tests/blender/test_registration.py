@@ -16,7 +16,7 @@ pytestmark = pytest.mark.smoke
 def found() -> set[str]:
     """All that a registration can leave in Blender."""
     names = {name for name in dir(bpy.types) if "RISORIUS" in name}
-    for owner in (bpy.types.Object, bpy.types.Scene):
+    for owner in (bpy.types.Object, bpy.types.Scene, bpy.types.WindowManager):
         names |= {f"{owner.__name__}.{p.identifier}" for p in owner.bl_rna.properties if "risorius" in p.identifier}
     return names | {f"ops.{name}" for name in dir(bpy.ops.risorius)}
 

@@ -1,0 +1,1 @@
+"""Feature points of a face: found, clicked, seen, dragged, listed, exported."""

@@ -1,0 +1,85 @@
+"""Flat shapes and text over a viewport, drawn in one go."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from math import cos, hypot, pi, sin
+from typing import Any, TypeAlias
+
+import blf
+import gpu
+from gpu_extras.batch import batch_for_shader
+
+Pixel: TypeAlias = tuple[float, float]
+Colour: TypeAlias = tuple[float, float, float, float]
+
+#: Corners of a disc.
+ROUND = 18
+
+
+class Canvas:
+    """Gathers triangles in pixels of a region; `draw` shows them, text on top."""
+
+    def __init__(self) -> None:
+        self._corners: list[tuple[float, float, float]] = []
+        self._colours: list[Colour] = []
+        self._texts: list[tuple[Pixel, str, float, Colour]] = []
+
+    def _triangle(self, corners: Iterable[Pixel], colour: Colour) -> None:
+        """One triangle."""
+        for x, y in corners:
+            self._corners.append((x, y, 0.0))
+            self._colours.append(colour)
+
+    def disc(self, centre: Pixel, radius: float, colour: Colour) -> None:
+        """A filled disc."""
+        rim = [
+            (centre[0] + radius * cos(2 * pi * k / ROUND), centre[1] + radius * sin(2 * pi * k / ROUND))
+            for k in range(ROUND + 1)
+        ]
+        for first, second in pairwise(rim):
+            self._triangle((centre, first, second), colour)
+
+    def box(self, low: Pixel, high: Pixel, colour: Colour) -> None:
+        """A filled rectangle."""
+        corners = [low, (high[0], low[1]), high, (low[0], high[1])]
+        self._triangle(corners[:3], colour)
+        self._triangle((corners[0], corners[2], corners[3]), colour)
+
+    def line(self, path: Sequence[Pixel], width: float, colour: Colour) -> None:
+        """A line through pixels."""
+        for (ax, ay), (bx, by) in pairwise(path):
+            length = hypot(bx - ax, by - ay)
+            if length > 0.0:
+                x, y = -(by - ay) / length * width / 2.0, (bx - ax) / length * width / 2.0
+                corners = [(ax + x, ay + y), (bx + x, by + y), (bx - x, by - y), (ax - x, ay - y)]
+                self._triangle(corners[:3], colour)
+                self._triangle((corners[0], corners[2], corners[3]), colour)
+
+    def text(self, at: Pixel, words: str, size: float, colour: Colour) -> None:
+        """One line of text; `at` is its lower left corner."""
+        self._texts.append((at, words, size, colour))
+
+    def draw(self) -> None:
+        """Show everything gathered."""
+        if self._corners:
+            shader: Any = gpu.shader.from_builtin("FLAT_COLOR")
+            batch = batch_for_shader(shader, "TRIS", {"pos": self._corners, "color": self._colours})
+            gpu.state.blend_set("ALPHA")
+            batch.draw(shader)
+            gpu.state.blend_set("NONE")
+        for (x, y), words, size, colour in self._texts:
+            blf.size(0, size)
+            blf.color(0, *colour)
+            blf.enable(0, blf.SHADOW)
+            blf.shadow(0, 3, 0.0, 0.0, 0.0, 0.8)
+            blf.position(0, x, y, 0.0)
+            blf.draw(0, words)
+            blf.disable(0, blf.SHADOW)
+
+
+def text_width(words: str, size: float) -> float:
+    """Pixels that a line of text takes."""
+    blf.size(0, size)
+    return float(blf.dimensions(0, words)[0])

@@ -1,0 +1,158 @@
+"""Dragging a feature point along the surface, its counterpart with it; one step of undo for each drag."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...mpeg4 import FEATURE_POINTS
+from ...scene import mesh as meshes
+from ...scene.points_bound import Surface, fits, followed, moved, places
+from ...scene.points_kept import KeptPoints, Origin, read_kept, write_kept
+from ...scene.points_mirrored import plane_of_points
+from ...scene.points_seen import Visible
+from ..base import RisoriusOperator
+from .ops import label_of, no_points_reason
+from .overlay import point_at
+from .props import mark, redraw
+from .view import Viewport
+
+TOOL = "risorius.drag_points"
+
+
+class RISORIUS_OT_drag_point(bpy.types.Operator):
+    """Drag a feature point along the surface"""
+
+    bl_idname = "risorius.drag_point"
+    bl_label = "Drag Feature Point"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Where points are drawn."""
+        return no_points_reason(context.object) is None and bool(context.window_manager.risorius.points.show)
+
+    def invoke(self, context: Any, event: Any) -> set[str]:
+        """Take hold of the point under the mouse; without one the click is for others."""
+        viewport = Viewport.of(context)
+        pixel = None if viewport is None else viewport.pixel(event)
+        name = None if pixel is None else point_at(context, pixel)
+        if name is None:
+            return {"PASS_THROUGH"}
+        obj = context.object
+        self._name, self._obj = name, obj.name
+        self._surface = Surface.of(obj.data)
+        self._before = read_kept(obj)
+        self._now = self._before if fits(self._before, obj.data) else followed(self._before, obj.data).kept
+        self._plane = plane_of_points(places(self._now, meshes.rest_vertices(obj.data)))
+        mark(context.window_manager.risorius.points, name)
+        context.window_manager.modal_handler_add(self)
+        _say(context, f"{label_of(name)}   Release: Put   Esc, right mouse: Back")
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: Any, event: Any) -> set[str]:
+        """Follow the mouse; release to put, Esc to leave all as it was."""
+        obj = bpy.data.objects[self._obj]
+        if event.type == "MOUSEMOVE":
+            viewport = Viewport.of(context)
+            pixel = None if viewport is None else viewport.pixel(event)
+            if viewport is not None and pixel is not None:
+                visible = Visible.of(obj, context.evaluated_depsgraph_get())
+                place = visible.hit(*viewport.ray(pixel), self._surface)
+                if place is not None:
+                    mirror = context.window_manager.risorius.points.mirror
+                    write_kept(obj, self.dragged(place, mirror=mirror))
+                    redraw()
+            return {"RUNNING_MODAL"}
+        if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+            write_kept(obj, self._before)
+            return self._end(context, {"CANCELLED"})
+        if event.type == "LEFTMOUSE" and event.value == "RELEASE":
+            if read_kept(obj) == self._before:
+                return self._end(context, {"CANCELLED"})
+            self.report({"INFO"}, f"Moved {label_of(self._name)}")
+            return self._end(context, {"FINISHED"})
+        return {"RUNNING_MODAL"}
+
+    def dragged(self, place: Any, *, mirror: bool) -> KeptPoints:
+        """The points with this one at a place of the resting surface, and its counterpart on the other side."""
+        return with_counterpart(self._now, self._name, place, self._surface, self._plane if mirror else None)
+
+    def _end(self, context: Any, result: set[str]) -> set[str]:
+        """Let go."""
+        _say(context, None)
+        redraw()
+        return result
+
+    def cancel(self, context: Any) -> None:
+        """Blender ends the operator itself."""
+        _say(context, None)
+
+
+def with_counterpart(kept: KeptPoints, name: str, place: Any, surface: Surface, plane: Any | None) -> KeptPoints:
+    """Points with one of them put to a place, and where there is a mirror plane its counterpart to the mirrored one."""
+    changed = moved(kept, name, np.asarray(place), surface, Origin.DRAGGED)
+    other = FEATURE_POINTS[name].mirror
+    if plane is not None and other is not None and other in kept.points:
+        put = np.array(changed.points[name].at)
+        changed = moved(changed, other, plane.reflected(put), surface, Origin.DRAGGED)
+    return changed
+
+
+def _say(context: Any, text: str | None) -> None:
+    """Text in the status bar, or Blender's own again."""
+    if context.workspace is not None:
+        context.workspace.status_text_set(text)
+
+
+class RISORIUS_OT_use_drag_tool(RisoriusOperator, bpy.types.Operator):
+    """Switch to the tool that drags feature points along the surface with the left mouse button"""
+
+    bl_idname = "risorius.use_drag_tool"
+    bl_label = "Drag Points"
+    bl_options = {"INTERNAL"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where there are points."""
+        return no_points_reason(context.object)
+
+    def run(self, context: Any) -> str:
+        """Show the points and take the tool in hand."""
+        context.window_manager.risorius.points.show = True
+        if not bpy.app.background:
+            bpy.ops.wm.tool_set_by_id(name=TOOL)
+        return "Drag points with the left mouse button; any other tool ends it"
+
+
+class DragTool(bpy.types.WorkSpaceTool):
+    """The tool in the toolbar."""
+
+    bl_space_type = "VIEW_3D"
+    bl_context_mode = "OBJECT"
+    bl_idname = TOOL
+    bl_label = "Drag Feature Points"
+    bl_description = "Drag the feature points of a face along its surface"
+    bl_icon = "ops.transform.translate"
+    bl_widget = None
+    bl_keymap = ((RISORIUS_OT_drag_point.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),)
+
+    def draw_settings(context: Any, layout: Any, tool: Any) -> None:
+        """What stands in the header."""
+        layout.prop(context.window_manager.risorius.points, "mirror")
+
+
+def attach() -> None:
+    """Put the tool into the toolbar."""
+    bpy.utils.register_tool(DragTool, after={"builtin.transform"}, separator=True)
+
+
+def detach() -> None:
+    """Take it out again."""
+    bpy.utils.unregister_tool(DragTool)
+
+
+CLASSES = (RISORIUS_OT_drag_point, RISORIUS_OT_use_drag_tool)

@@ -1,0 +1,267 @@
+"""Operators for feature points: find them, look at one, put some back, hold on to an edited mesh, export."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+from bpy_extras.io_utils import ExportHelper
+from mathutils import Vector
+
+from ...errors import RisoriusError, SceneError
+from ...mpeg4 import FAPS, FEATURE_POINTS
+from ...scene import refusals
+from ...scene.faces import stored_points
+from ...scene.points_bound import followed
+from ...scene.points_found import Finding, find_points
+from ...scene.points_kept import KeptPoint, has_points, mesh_counts, read_kept, write_kept
+from ...scene.points_seen import Visible
+from ...scene.progress import Work
+from ..base import RisoriusOperator, WorkOperator
+from .props import list_names, mark
+from .view import Viewport
+
+#: From this score on it is said that a mesh looks little like a face.
+STRANGE = 1.3
+#: How much of a face is seen after jumping to a point: times the distance between the eyes' outer corners.
+CLOSE_UP = 1.2
+
+
+def points_reason(obj: Any | None) -> str | None:
+    """Why no points can be kept with the active object, or None."""
+    reason = refusals.reason(obj, writing=False)
+    if reason is None and obj is not None and (obj.data.library is not None or obj.data.override_library is not None):
+        return f"{obj.name}: its mesh belongs to another file: make it local (Object > Relations > Make Local > All)"
+    return reason
+
+
+def no_points_reason(obj: Any | None) -> str | None:
+    """Why the active object has no points to work with, or None."""
+    reason = points_reason(obj)
+    if reason is None and obj is not None and not has_points(obj):
+        return f"{obj.name}: has no feature points yet: find, click or import them"
+    return reason
+
+
+def show_finding(context: Any, finding: Finding) -> str:
+    """Show the points, and say what was found."""
+    list_names()
+    context.window_manager.risorius.points.show = True
+    return finding.summary(context.object.name)
+
+
+class RISORIUS_OT_find_points(WorkOperator, bpy.types.Operator):
+    """Find the face of this mesh, whichever way it looks and however large it is, and its feature points"""
+
+    bl_idname = "risorius.find_points"
+    bl_label = "Find Face"
+    bl_options = {"REGISTER", "UNDO"}
+    title = "Finding the face"
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only for meshes that points can be kept with."""
+        return points_reason(context.object)
+
+    def work(self, context: Any) -> Work[Finding]:
+        """Find and keep them."""
+        return find_points(context.object, scene=context.scene)
+
+    def finish(self, context: Any, result: Finding) -> str:
+        """Show them, with a warning where the mesh hardly passes for a face."""
+        if result.score > STRANGE:
+            self.report(
+                {"WARNING"},
+                f"{context.object.name} looks little like a face (score {result.score:.2f}, faces have 0 to {STRANGE}):"
+                " look at its points, drag them, or click a few",
+            )
+        return show_finding(context, result)
+
+
+class OnePoint(RisoriusOperator):
+    """What operators about one point share: its name, and a tooltip that says what it is for."""
+
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where there are points."""
+        return no_points_reason(context.object)
+
+    @classmethod
+    def description(cls, context: Any, properties: Any) -> str:
+        """What the operator does, what the point is, and why it is needed."""
+        does = str(cls.__doc__)
+        return f"{does}.\n{why_needed(properties.point)}" if properties.point in FEATURE_POINTS else does
+
+
+def why_needed(name: str) -> str:
+    """What a feature point is for, in a few lines."""
+    point = FEATURE_POINTS[name]
+    moved = [f"{number} {FAPS[number].name}" for number in point.faps]
+    moves = f"Moved by FAP {', '.join(moved)}" if moved else "No FAP moves it: it tells where the face is and how large"
+    return f"{name}: {point.location}.\n{moves}"
+
+
+class RISORIUS_OT_jump_to_point(OnePoint, bpy.types.Operator):
+    """Look at this point"""
+
+    bl_idname = "risorius.jump_to_point"
+    bl_label = "Look at Point"
+    bl_options = {"INTERNAL"}
+
+    point: bpy.props.StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})  # type: ignore[valid-type]
+
+    def run(self, context: Any) -> str:
+        """Mark it, and turn a 3D viewport towards it."""
+        obj, state = context.object, context.window_manager.risorius.points
+        kept = followed(read_kept(obj), obj.data).kept
+        if self.point not in kept.points:
+            raise SceneError(obj.name, f"has no feature point {self.point}")
+        state.show = True
+        mark(state, self.point)
+        viewport = Viewport.of(context)
+        if viewport is not None:
+            visible = Visible.of(obj, context.evaluated_depsgraph_get())
+            places = visible.places(kept)
+            extent = float(np.linalg.norm(np.ptp(np.array(list(places.values())), axis=0)))
+            viewport.view.view_location = Vector(places[self.point])
+            viewport.view.view_distance = CLOSE_UP * extent
+            if visible.hidden({**places}, *viewport.eye())[list(places).index(self.point)]:
+                viewport.view.view_rotation = _outward(visible, places[self.point]).to_track_quat("Z", "Y")
+        return label_of(self.point)
+
+
+def _outward(visible: Visible, place: Any) -> Vector:
+    """The direction in the world in which the surface at a place looks."""
+    world = visible.obj.matrix_world
+    found, _, normal, _ = visible.shown.closest_point_on_mesh(world.inverted() @ Vector(place))
+    return (world.to_3x3().inverted().transposed() @ normal).normalized() if found else Vector((0.0, -1.0, 0.0))
+
+
+def label_of(name: str) -> str:
+    """Number and place in words."""
+    return f"{name}: {FEATURE_POINTS[name].location}"
+
+
+class RISORIUS_OT_reset_points(OnePoint, bpy.types.Operator):
+    """Put points back to where they were found, clicked or imported"""
+
+    bl_idname = "risorius.reset_points"
+    bl_label = "Reset Points"
+    bl_options = {"REGISTER", "UNDO"}
+
+    which: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Which",
+        description="Which points to put back",
+        items=(
+            ("ONE", "One", "The named point"),
+            ("LEFT", "Left Side", "All points on the subject's left"),
+            ("RIGHT", "Right Side", "All points on the subject's right"),
+            ("ALL", "All", "All points"),
+        ),
+        default="ALL",
+    )
+    point: bpy.props.StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})  # type: ignore[valid-type]
+
+    def run(self, context: Any) -> str:
+        """Put them back, and those back in that were lost."""
+        obj = context.object
+        now = followed(read_kept(obj), obj.data).kept
+        given = followed(read_kept(obj, as_given=True), obj.data).kept
+        if self.which == "ONE":
+            names = [self.point]
+        else:
+            names = [n for n in given.points if self.which == "ALL" or FEATURE_POINTS[n].side.name == self.which]
+        back = {name: given.points[name] for name in names if name in given.points}
+        if not back:
+            raise SceneError(obj.name, f"has no point {self.point} to put back")
+        changed = sum(now.points.get(name) != point for name, point in back.items())
+        write_kept(obj, replace(now, points=in_order({**now.points, **back})))
+        return f"{obj.name}: {changed} point{'s' * (changed != 1)} put back"
+
+
+def in_order(points: dict[str, KeptPoint]) -> dict[str, KeptPoint]:
+    """Points in the standard's order."""
+    return {name: points[name] for name in FEATURE_POINTS if name in points}
+
+
+class RISORIUS_OT_follow_mesh(OnePoint, bpy.types.Operator):
+    """Put the feature points onto the mesh as it was edited, and name those that it has no place for any more"""
+
+    bl_idname = "risorius.follow_mesh"
+    bl_label = "Follow Edited Mesh"
+    bl_options = {"REGISTER", "UNDO"}
+    point: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})  # type: ignore[valid-type]
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where the mesh has been edited."""
+        reason = no_points_reason(context.object)
+        if reason is None and not edited(context.object):
+            return "The mesh was not edited since its points were found"
+        return reason
+
+    def run(self, context: Any) -> str:
+        """Bind them anew."""
+        obj = context.object
+        now = followed(read_kept(obj), obj.data)
+        write_kept(obj, now.kept)
+        if now.lost:
+            self.report({"WARNING"}, f"{obj.name}: lost with the mesh that was edited: {', '.join(now.lost)}")
+        return f"{obj.name}: {len(now.kept.points)} feature points kept, {len(now.lost)} lost"
+
+
+def edited(obj: Any) -> bool:
+    """Whether the mesh has another number of vertices or polygons than when its points were kept."""
+    try:
+        return has_points(obj) and read_kept(obj).counts != mesh_counts(obj.data)
+    except RisoriusError:
+        return False
+
+
+class RISORIUS_OT_export_points(RisoriusOperator, bpy.types.Operator, ExportHelper):
+    """Write the feature points of this mesh to a JSON file that Import Feature Points reads"""
+
+    bl_idname = "risorius.export_points"
+    bl_label = "Export Feature Points"
+    bl_options = {"REGISTER"}
+    needs_scipy = False
+
+    filename_ext = ".json"
+    filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})  # type: ignore[valid-type]
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where there are points."""
+        return no_points_reason(context.object)
+
+    def run(self, context: Any) -> str:
+        """Write them with how sure they are and where they came from."""
+        obj = context.object
+        points, kept = stored_points(obj), read_kept(obj).points
+        table = {
+            "mesh": obj.data.name,
+            "vertex_count": len(obj.data.vertices),
+            "points": {name: point if isinstance(point, int) else list(point) for name, point in points.items()},
+            "confidence": {name: kept[name].confidence for name in points},
+            "origin": {name: kept[name].origin.value for name in points},
+        }
+        try:
+            Path(self.filepath).write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
+        except OSError as problem:
+            raise SceneError(self.filepath, f"cannot be written ({problem}): choose another place") from problem
+        return f"Wrote {len(points)} feature points to {self.filepath}"
+
+
+CLASSES = (
+    RISORIUS_OT_find_points,
+    RISORIUS_OT_jump_to_point,
+    RISORIUS_OT_reset_points,
+    RISORIUS_OT_follow_mesh,
+    RISORIUS_OT_export_points,
+)

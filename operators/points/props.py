@@ -1,0 +1,87 @@
+"""How feature points are shown and corrected. Kept with the window, not with the file: the points are the mesh's."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...mpeg4 import FEATURE_POINTS
+
+
+def redraw(owner: Any = None, context: Any = None) -> None:
+    """Draw all 3D viewports again."""
+    manager = bpy.context.window_manager
+    for window in manager.windows if manager is not None else ():
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+class RISORIUS_PG_point_name(bpy.types.PropertyGroup):
+    """One of the standard's feature points, by its name: what the list shows, whichever of them a mesh has."""
+
+
+class RISORIUS_PG_points(bpy.types.PropertyGroup):
+    """What the overlay and the list of feature points show."""
+
+    names: bpy.props.CollectionProperty(  # type: ignore[valid-type]
+        type=RISORIUS_PG_point_name, name="Points", description="All feature points of the standard"
+    )
+    active: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Feature Point", description="The point that is marked on the face", default=0, min=0, update=redraw
+    )
+    show: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Show Points", description="Draw the feature points on the face", default=False, update=redraw
+    )
+    labels: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Labels",
+        description="What is written beside the points; the marked one always has its name",
+        items=(
+            ("NONE", "None", "Nothing"),
+            ("NUMBERS", "Numbers", "The standard's numbers, as 8.4"),
+            ("PLACES", "Places", "Numbers and places in words"),
+        ),
+        default="NUMBERS",
+        update=redraw,
+    )
+    mirror: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Mirror", description="A point that is clicked or dragged takes its counterpart along", default=True
+    )
+    doubtful_only: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Doubtful Only", description="List and draw only the points that want to be looked at", update=redraw
+    )
+
+
+def active_name(state: Any) -> str | None:
+    """The name of the marked point."""
+    return str(state.names[state.active].name) if state.active < len(state.names) else None
+
+
+def mark(state: Any, name: str) -> None:
+    """Mark a point in the list and on the face."""
+    list_names()
+    index = state.names.find(name)
+    if index >= 0:
+        state.active = index
+
+
+def list_names() -> None:
+    """Fill the list with the standard's names; after a file was opened the window's properties are empty."""
+    if not hasattr(bpy.types.WindowManager, "risorius"):
+        return
+    for manager in bpy.data.window_managers:
+        names = manager.risorius.points.names
+        if len(names) != len(FEATURE_POINTS):
+            names.clear()
+            for name in FEATURE_POINTS:
+                names.add().name = name
+
+
+def list_names_soon() -> None:
+    """Fill the list after drawing, where nothing may be written. (A load handler makes bpy 4.5 hang at exit.)"""
+    if not bpy.app.background and not bpy.app.timers.is_registered(list_names):
+        bpy.app.timers.register(list_names, first_interval=0.0)
+
+
+CLASSES = (RISORIUS_PG_point_name, RISORIUS_PG_points)
