@@ -24,8 +24,8 @@ from .outer_skin import OuterSkin, gaussian
 from .template import MM
 from .tissue import Tissue
 
-#: The largest correction of a node that an equilibrium may leave, metres: what single precision makes of a mesh may stop
-#: the search a step earlier, and should not be seen.
+#: The largest correction of a node that an equilibrium may leave, metres: what single precision makes of a mesh may
+#: stop the search a step earlier, and should not be seen.
 TOLERANCE = 1e-7
 
 #: Loose tissue fades out over this from the cheek's centre and from the jowl, which lies so far outwards, down and

@@ -168,7 +168,7 @@ def _cheek_hollow(skin: OuterSkin, warp: TemplateWarp) -> Floats:
     for side in (1.0, -1.0):
         away = (skin.positions - warp(HOLLOW_CENTRE * np.array([side, 1.0, 1.0]))) / HOLLOW_EXTENT
         window += np.exp(-(away**2).sum(axis=1))
-    return window[:, None] * (HOLLOW * skin.normals + np.array([0.0, SLIP, 0.0]))
+    return np.asarray(window[:, None] * (HOLLOW * skin.normals + np.array([0.0, SLIP, 0.0])))
 
 
 def _rest_anchor(skin: OuterSkin) -> Floats:
