@@ -17,10 +17,10 @@ import risorius.api as api
 from risorius.arrays import Floats, Ints
 
 #: Coefficients of the mixtures: person + share * (another - a third), by index.
-ICT_MIXTURES = ((0, 3, 1, 0.7), (2, 5, 4, 0.7), (4, 0, 3, 0.6), (5, 1, 2, 0.7))
-MAKEHUMAN_MIXTURES = ((0, 4, 2, 0.5), (1, 7, 5, 0.6), (2, 6, 0, 0.5), (5, 3, 1, 0.5))
+ICT_MIXTURES = ((1, 5, 0, 0.6), (3, 2, 5, 0.7), (0, 4, 2, 0.7), (2, 1, 3, 0.6), (4, 3, 5, 0.5))
+MAKEHUMAN_MIXTURES = ((0, 2, 4, 0.4), (4, 1, 0, 0.5), (7, 0, 1, 0.5), (1, 3, 2, 0.4), (6, 5, 7, 0.5))
 #: Seeds of the bent default heads; size of the bends, metres, their width, and how far each axis is scaled.
-BENT_SEEDS, BEND, BEND_WIDTH, BEND_SCALE = (11, 12, 13, 14), 5e-3, 45e-3, 0.12
+BENT_SEEDS, BEND, BEND_WIDTH, BEND_SCALE = (21, 22, 23, 24, 25), 3.5e-3, 45e-3, 0.12
 
 
 @dataclass(frozen=True)

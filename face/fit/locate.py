@@ -25,13 +25,15 @@ WHOLE, HEAD, FACE, SYMMETRY = 100_000, 40_000, 40_000, 2_000
 HEAD_BOX = ((-0.12, -0.185, -0.175), (0.12, 0.135, 0.175))
 FACE_BOX = ((-0.068, -0.185, -0.09), (0.068, 0.0, 0.076))
 #: Guesses that are aligned, and those of them that are aligned twice.
-ALIGNED, FINALISTS = 16, 3
+ALIGNED, FINALISTS = 10, 3
 #: From this score on a mesh is refused; beneath it, from this agreement of relief on, it is accepted.
 SCORE_LIMIT, RELIEF_LIMIT = 1.6, 0.6
 
 
 #: From this score on it is asked whether the mouth is open, by so many degrees; an open one must score better by this.
 GOOD_SCORE, JAW_DEGREES, OPEN_COST = 0.55, (7.0, 14.0, 21.0), 0.1
+#: Of more triangles than this, none is so large that it crosses a box with no corner inside.
+MANY = 100_000
 #: Least and greatest x, y, z round the template's origin, metres.
 Box: TypeAlias = tuple[tuple[float, float, float], tuple[float, float, float]]
 
@@ -137,6 +139,8 @@ def scored(surface: Surface, pose: HeadPose, template: FitTemplate) -> FaceScore
 
 def in_box(surface: Surface, pose: HeadPose, box: Box) -> Bools:
     """(T,) which triangles touch a box round the head."""
+    if len(surface.triangles) > MANY:
+        return np.asarray(lies_in_box(surface.vertices, pose, box)[surface.triangles].any(axis=1), dtype=np.bool_)
     corners = pose.alike().to_template(surface.vertices)[surface.triangles]
     touches: Bools = ((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)
     return touches
