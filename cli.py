@@ -203,6 +203,7 @@ def _found_points(arguments: argparse.Namespace) -> Result:
     how = f"by its topology ({found.topology})" if found.topology else f"score {found.score:.2f}"
     doubtful = sorted((name for name, sure in found.confidence.items() if sure < DOUBTFUL), key=_point_order)
     lines = [f"{len(positions)} feature points found on {arguments.mesh}, {how}"]
+    lines += ["the face is unlike most: look at every point"] if found.is_doubtful else []
     lines += [f"look at: {', '.join(doubtful)}"] if doubtful else []
     lines += [f"wrote {arguments.out}"] if arguments.out else []
     return Result(
@@ -429,5 +430,5 @@ def _add_creases(parser: argparse.ArgumentParser) -> None:
 
 def _add_face(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--mesh", type=Path, help="the neutral face: .npz or .obj; in Blender also .blend or .glb")
-    parser.add_argument("--points", type=Path, help="its feature points, a JSON file (without both: the default head)")
+    parser.add_argument("--points", type=Path, help="its feature points, a JSON file; without it they are found")
     _add_fps(parser)

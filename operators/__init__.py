@@ -22,15 +22,18 @@ def _classes() -> list[type]:
     from .film import ops as film_ops
     from .film import panel as film_panel
     from .film import props as film_props
+    from .parts import ops as parts_ops
+    from .parts import panel as parts_panel
+    from .parts import props as parts_props
     from .points import click, drag
     from .points import ops as points_ops
     from .points import panel as points_panel
     from .points import props as points_props
 
     modules = (
-        *(face_props, emotion_props, bake_props, film_props, points_props, props),
-        *(face_ops, points_ops, click, drag, emotion_ops, bake_ops, film_ops),
-        *(face_panel, points_panel, emotion_panel, bake_panel, film_panel),
+        *(face_props, emotion_props, bake_props, film_props, points_props, parts_props, props),
+        *(face_ops, points_ops, click, drag, parts_ops, emotion_ops, bake_ops, film_ops),
+        *(face_panel, parts_panel, points_panel, emotion_panel, bake_panel, film_panel),
     )
     return [cls for module in modules for cls in module.CLASSES]
 
@@ -41,6 +44,7 @@ def register() -> None:
     import bpy
 
     from . import props
+    from .parts import overlay as parts_overlay
     from .points import drag, overlay
 
     done: list[type] = []
@@ -53,7 +57,7 @@ def register() -> None:
             bpy.utils.unregister_class(cls)
         raise
     props.attach()
-    for attached in (overlay, drag):
+    for attached in (overlay, drag, parts_overlay):
         attached.attach()
     if hasattr(bpy.utils, "register_cli_command"):
         _command = bpy.utils.register_cli_command("risorius", _run_command)
@@ -66,12 +70,13 @@ def unregister() -> None:
 
     from ..scene.faces import forget_faces
     from . import props
+    from .parts import overlay as parts_overlay
     from .points import drag, overlay
 
     if _command is not None:
         bpy.utils.unregister_cli_command(_command)
         _command = None
-    for attached in (drag, overlay):
+    for attached in (parts_overlay, drag, overlay):
         attached.detach()
     props.detach()
     for cls in reversed(_classes()):

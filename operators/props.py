@@ -6,6 +6,7 @@ from .bake.props import RISORIUS_PG_bake
 from .emotion.props import RISORIUS_PG_emotion
 from .face.props import RISORIUS_PG_face
 from .film.props import RISORIUS_PG_film
+from .parts.props import RISORIUS_PG_parts
 from .points.props import RISORIUS_PG_points
 
 
@@ -27,6 +28,7 @@ class RISORIUS_PG_window(bpy.types.PropertyGroup):
     """How things are shown; not saved with the file."""
 
     points: bpy.props.PointerProperty(type=RISORIUS_PG_points)  # type: ignore[valid-type]
+    parts: bpy.props.PointerProperty(type=RISORIUS_PG_parts)  # type: ignore[valid-type]
 
 
 CLASSES = (RISORIUS_PG_object, RISORIUS_PG_scene, RISORIUS_PG_window)

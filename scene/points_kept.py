@@ -120,14 +120,24 @@ def write_kept(obj: Any, kept: KeptPoints, *, as_given: bool = False) -> None:
     ------
     SceneError : the mesh belongs to another file.
     """
-    if obj.data.library is not None or obj.data.override_library is not None:
-        raise SceneError(
-            obj.name, "has a mesh of another file: make it local (Object > Relations > Make Local > All) first"
-        )
+    refuse_foreign_mesh(obj)
     text = _encoded(kept)
     obj.data[POINTS] = text
     if as_given:
         obj.data[AS_GIVEN] = text
+
+
+def refuse_foreign_mesh(obj: Any) -> None:
+    """Refuse a mesh that nothing can be kept with.
+
+    Raises
+    ------
+    SceneError : the mesh belongs to another file.
+    """
+    if obj.data.library is not None or obj.data.override_library is not None:
+        raise SceneError(
+            obj.name, "has a mesh of another file: make it local (Object > Relations > Make Local > All) first"
+        )
 
 
 def forget_points(obj: Any) -> None:

@@ -15,7 +15,7 @@ from .points_bound import Surface, places, shares
 from .points_kept import KeptPoints
 
 #: How far before the surface a point is looked at from, as a share of the diagonal of all points.
-BEFORE = 4e-3
+BEFORE = 1.2e-2
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,16 @@ import bpy
 import numpy as np
 
 from ..arrays import Bools, Floats, Ints
-from ..errors import FormatError, SceneError
+from ..errors import FormatError
 from ..face.parts import Part
 from . import mesh as meshes
 from .creases import draw_in
 from .faces import FaceSource, face_of, read_face, store_points
 from .head import add_default_head, select_only
 from .points_file import read_points
+from .points_found import find_points
 from .points_kept import has_points
+from .progress import run
 
 if TYPE_CHECKING:
     from ..face.face import Face
@@ -55,7 +57,7 @@ def subject(
     Parameters
     ----------
     mesh : .npz, .obj, .blend, .glb or .gltf; by default the default head.
-    points : JSON file of its feature points; may be left out for a .blend whose object has them stored.
+    points : JSON file of its feature points; left out, they are those stored in a .blend, or found on the mesh.
     creases : whether the skin of a mesh that brings no materials shows creases.
 
     Returns
@@ -64,7 +66,8 @@ def subject(
 
     Raises
     ------
-    FormatError, SceneError : a file that cannot be read, no mesh in it, or no feature points.
+    FormatError, SceneError : a file that cannot be read, or no mesh in it.
+    ModelError : no points given and no face found.
     """
     if mesh is None:
         return add_default_head()
@@ -81,7 +84,7 @@ def subject(
     if points is not None:
         store_points(obj, read_points(points))
     if not has_points(obj):
-        raise SceneError(obj.name, "has no feature points: give them with --points")
+        run(find_points(obj))
     if not obj.data.materials:
         paint_parts(obj, creases=creases)
     select_only(obj)

@@ -18,7 +18,7 @@ from ...scene import refusals
 from ...scene.faces import stored_points
 from ...scene.points_bound import followed
 from ...scene.points_found import Finding, find_points
-from ...scene.points_kept import KeptPoint, has_points, mesh_counts, read_kept, write_kept
+from ...scene.points_kept import KeptPoint, has_points, mesh_counts, read_kept, refuse_foreign_mesh, write_kept
 from ...scene.points_seen import Visible
 from ...scene.progress import Work
 from ..base import RisoriusOperator, WorkOperator
@@ -34,8 +34,11 @@ CLOSE_UP = 1.2
 def points_reason(obj: Any | None) -> str | None:
     """Why no points can be kept with the active object, or None."""
     reason = refusals.reason(obj, writing=False)
-    if reason is None and obj is not None and (obj.data.library is not None or obj.data.override_library is not None):
-        return f"{obj.name}: its mesh belongs to another file: make it local (Object > Relations > Make Local > All)"
+    if reason is None:
+        try:
+            refuse_foreign_mesh(obj)
+        except SceneError as refusal:
+            return str(refusal)
     return reason
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius import cli
-from risorius.errors import FormatError, ParameterError, RisoriusError, SceneError
+from risorius.errors import FormatError, ModelError, ParameterError, RisoriusError
 from risorius.scene import jobs
 from risorius.scene import mesh as meshes
 from risorius.scene.progress import run
@@ -120,10 +120,10 @@ def test_wrong_requests_are_refused_and_nothing_is_written(tmp_path: Path) -> No
         jobs.render_film(tmp_path, words=["joy"])
 
 
-def test_a_mesh_without_points_is_refused(tmp_path: Path) -> None:
+def test_a_mesh_without_points_and_without_a_face_is_refused(tmp_path: Path) -> None:
     obj = tmp_path / "triangle.obj"
     obj.write_text("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n")
-    with pytest.raises(SceneError, match="no feature points"):
+    with pytest.raises(ModelError, match=r"triangle: .*face"):
         subject(obj)
 
 

@@ -33,6 +33,10 @@ class Spy:
         assert not unknown
         self.seen.append(("prop", name))
 
+    def prop_search(self, data: Any, name: str, within: Any, collection: str, **options: Any) -> None:
+        assert collection in within.bl_rna.properties
+        self.prop(data, name, **options)
+
     def template_list(self, kind: str, _id: str, data: Any, name: str, active: Any, index: str, **options: Any) -> None:
         assert hasattr(bpy.types, kind)
         assert name in data.bl_rna.properties
@@ -78,7 +82,8 @@ def test_a_mesh_without_points_is_told_what_it_needs(cube: Any) -> None:
 
 def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     shown = drawn()
-    assert list(shown) == [f"RISORIUS_PT_{name}" for name in ("main", "face", "points", "emotion", "bake", "film")]
+    order = ("main", "face", "parts", "points", "emotion", "bake", "film")
+    assert list(shown) == [f"RISORIUS_PT_{name}" for name in order]
     assert ("label", head.name) in shown["RISORIUS_PT_main"]
     assert [entry for entry in shown["RISORIUS_PT_emotion"] if entry[0] == "prop"][:2] == [
         ("prop", "word"),

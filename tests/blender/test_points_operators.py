@@ -84,8 +84,9 @@ def test_what_is_no_face_is_refused_with_score_and_remedy_and_nothing_is_kept(cu
         bpy.ops.risorius.click_points()
 
 
-def test_half_a_face_with_a_mirror_modifier_says_so(cube: Any) -> None:
-    cube.modifiers.new("Mirror", "MIRROR")
+def test_half_a_face_with_a_mirror_modifier_says_so() -> None:
+    bpy.ops.mesh.primitive_plane_add()
+    bpy.context.object.modifiers.new("Mirror", "MIRROR")
     with pytest.raises(RuntimeError, match="apply the modifier"):
         bpy.ops.risorius.find_points()
 

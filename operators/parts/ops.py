@@ -1,0 +1,90 @@
+"""Operators for the parts of a face's mesh: tell them apart, correct one by a vertex group, forget them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...face.parts import Part
+from ...scene.mesh import read_parts
+from ...scene.parts_found import find_parts, forget_parts, set_part
+from ..base import RisoriusOperator
+from ..points.ops import no_points_reason, points_reason
+from .props import PARTS
+
+
+class RISORIUS_OT_find_parts(RisoriusOperator, bpy.types.Operator):
+    """Tell skin, eyeballs, teeth and tongue of this mesh apart, show them as colours, and keep that with the mesh"""
+
+    bl_idname = "risorius.find_parts"
+    bl_label = "Find Parts"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where there are feature points."""
+        return no_points_reason(context.object)
+
+    def run(self, context: Any) -> str:
+        """Tell, keep and show them."""
+        parts = find_parts(context.object)
+        context.window_manager.risorius.parts.show = True
+        return f"{context.object.name}: {', '.join(named for part in PARTS if (named := counted(parts, part)))}"
+
+
+def counted(parts: Any, part: Part) -> str:
+    """Name and number of vertices of a part; empty where there are none."""
+    count = int(np.sum(parts == int(part)))
+    return f"{PARTS[part][1].lower()} {count}" if count else ""
+
+
+class RISORIUS_OT_set_part(RisoriusOperator, bpy.types.Operator):
+    """Set the vertices of the chosen vertex group to the chosen part"""
+
+    bl_idname = "risorius.set_part"
+    bl_label = "Set Part"
+    bl_options = {"REGISTER", "UNDO"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only with a group of the mesh."""
+        reason = points_reason(context.object)
+        if reason is None and context.window_manager.risorius.parts.group not in context.object.vertex_groups:
+            return "Choose a vertex group of this mesh first"
+        return reason
+
+    def run(self, context: Any) -> str:
+        """Set and show it."""
+        chosen = context.window_manager.risorius.parts
+        part = Part[chosen.part]
+        count = set_part(context.object, chosen.group, part)
+        chosen.show = True
+        return f"{context.object.name}: {count} vertices of {chosen.group} are {PARTS[part][1].lower()}"
+
+
+class RISORIUS_OT_forget_parts(RisoriusOperator, bpy.types.Operator):
+    """Forget what was told or set of the parts: every bake tells them anew from the mesh's shape"""
+
+    bl_idname = "risorius.forget_parts"
+    bl_label = "Forget Parts"
+    bl_options = {"REGISTER", "UNDO"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where there are some."""
+        reason = points_reason(context.object)
+        if reason is None and read_parts(context.object.data) is None:
+            return "No parts are kept with this mesh"
+        return reason
+
+    def run(self, context: Any) -> str:
+        """Forget them."""
+        forget_parts(context.object)
+        return f"{context.object.name}: parts are told from its shape again"
+
+
+CLASSES = (RISORIUS_OT_find_parts, RISORIUS_OT_set_part, RISORIUS_OT_forget_parts)

@@ -1,0 +1,42 @@
+"""The panel of the parts of a face's mesh."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...scene.mesh import read_parts
+from ..sidebar import Sidebar
+from .ops import RISORIUS_OT_find_parts, RISORIUS_OT_forget_parts, RISORIUS_OT_set_part
+
+
+class RISORIUS_PT_parts(Sidebar, bpy.types.Panel):
+    """Which vertices are skin, eyes, teeth, tongue."""
+
+    bl_label = "Parts of the Mesh"
+    bl_parent_id = "RISORIUS_PT_face"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Only for meshes."""
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context: Any) -> None:
+        """Tell them, show them, correct them."""
+        layout, obj = self.layout, context.object
+        chosen = context.window_manager.risorius.parts
+        row = layout.row(align=True)
+        row.operator(RISORIUS_OT_find_parts.bl_idname, icon="VIEWZOOM")
+        row.operator(RISORIUS_OT_forget_parts.bl_idname, text="", icon="X")
+        if read_parts(obj.data) is not None:
+            layout.prop(chosen, "show", icon="HIDE_OFF" if chosen.show else "HIDE_ON", toggle=True)
+        column = layout.column(align=True)
+        column.label(text="Correct by a vertex group")
+        column.prop_search(chosen, "group", obj, "vertex_groups", text="")
+        column.prop(chosen, "part", text="")
+        column.operator(RISORIUS_OT_set_part.bl_idname, icon="CHECKMARK")
+
+
+CLASSES = (RISORIUS_PT_parts,)
