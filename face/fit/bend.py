@@ -68,7 +68,7 @@ def bend(template: FitTemplate, target: Target, moved: Floats, stage: Stage, wis
     matrix = sparse.csr_array(template.skin.cage_matrix)
     smooth = sparse.csr_array(template.laplacian.T @ template.laplacian)
     count = matrix.shape[1]
-    identity = sparse.eye_array(count, format="csr")
+    identity = sparse.csr_array(sparse.diags_array(np.ones(count)))
     mirror = identity[template.cage_mirror]
     twins = [(identity + sign * mirror).T @ (identity + sign * mirror) for sign in (1.0, -1.0, -1.0)]
     wished = sparse.csr_array((count, count))

@@ -14,7 +14,7 @@ from ...errors import ModelError, ParameterError
 from ...physics.mesh import Polygons, corners
 from ..checks import checked_polygons, checked_vertices
 from .align import align
-from .carry import RIM_POINTS, carry
+from .carry import DOUBTFUL_SCORE, RIM_POINTS, carry
 from .clicks import FEWEST, checked_clicks, click_misses, click_wishes, pose_from_clicks
 from .cloud import Surface
 from .fitted import fit
@@ -50,6 +50,11 @@ class FoundPoints:
     confidence: Mapping[str, float]
     score: float
     topology: str | None = None
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether the face is so unlike the template that every point wants to be looked at, or a few clicks given."""
+        return self.score > DOUBTFUL_SCORE
 
 
 def find_points(
