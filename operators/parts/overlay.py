@@ -29,7 +29,7 @@ COLOURS = {
 UNTOLD = (0.5, 0.5, 0.5)
 STRENGTH = 0.6
 #: How far the colours stand off the surface towards the viewer, as a share of the object's size.
-OFF = 2e-3
+OFF = 8e-4
 
 _handler: Any = None
 
