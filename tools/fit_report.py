@@ -385,6 +385,8 @@ convention, show what is left without that.
 
 ENDING = """## What is still weak
 
+- Crooked or extreme faces (score above 1): points are up to 2 cm off. They are called doubtful, their confidences are low,
+  and six clicks place them.
 - Brow tails, jaw angles and the top of the head lie on smooth skin: nothing there tells their place.
 - Closed lids: the outer corner and the lid's middle may be off along the lid line.
 - Masks without ears get estimated jaw angles and cheeks (MediaPipe; its topology is known).
