@@ -54,6 +54,16 @@ def test_points_move_with_the_vertices_and_free_ones_with_the_whole(head: Any) -
     assert_same(places(head), expected, within=1e-5)
 
 
+def test_a_point_follows_its_own_vertices(head: Any) -> None:
+    before = places(head)
+    held = points_kept.read_kept(head).points["9.3"].vertices
+    for vertex in held:
+        head.data.vertices[vertex].co.y -= 0.01
+    now = places(head)
+    np.testing.assert_allclose(now["9.3"], before["9.3"] - (0.0, 0.01, 0.0), atol=1e-6)
+    np.testing.assert_allclose(now["11.4"], before["11.4"], atol=1e-6)
+
+
 def test_applying_the_scale_keeps_them(head: Any) -> None:
     before = places(head)
     head.scale = (3.0, 3.0, 3.0)

@@ -113,11 +113,13 @@ def test_dragging_moves_the_counterpart_and_reset_puts_back(head: Any) -> None:
     np.testing.assert_allclose(now["4.3"], surface.nearest(target)[0], atol=1e-6)
     np.testing.assert_allclose(now["4.4"], now["4.3"] * (-1.0, 1.0, 1.0), atol=1e-4)
     assert kept.points["4.4"].origin is Origin.DRAGGED
+    assert bpy.ops.risorius.reset_points(which="RIGHT") == {"FINISHED"}
+    np.testing.assert_allclose(places(head)["4.4"], before["4.4"])
+    assert np.linalg.norm(places(head)["4.3"] - before["4.3"]) > 1e-3
+    points_kept.write_kept(head, kept)
     assert bpy.ops.risorius.reset_points(which="ONE", point="4.3") == {"FINISHED"}
     np.testing.assert_allclose(places(head)["4.3"], before["4.3"])
     assert np.linalg.norm(places(head)["4.4"] - before["4.4"]) > 1e-3
-    assert bpy.ops.risorius.reset_points(which="RIGHT") == {"FINISHED"}
-    np.testing.assert_allclose(places(head)["4.4"], before["4.4"])
     alone = drag.with_counterpart(points_kept.read_kept(head), "4.3", target, surface, None)
     assert alone.points["4.4"] == points_kept.read_kept(head).points["4.4"]
 
