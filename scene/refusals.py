@@ -9,6 +9,8 @@ import numpy as np
 
 from ..errors import SceneError
 from .mesh import rest_vertices
+from .points_bound import followed
+from .points_kept import has_points, read_kept
 from .shape_keys import own_names_of
 
 #: Modes in which Blender holds a copy of the mesh that would overwrite ours.
@@ -118,6 +120,11 @@ def remarks(obj: Any) -> tuple[str, ...]:
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     if evaluated.type == "MESH" and len(evaluated.data.vertices) != len(obj.data.vertices):
         found.append(f"{obj.name}: its modifiers change the number of vertices; the bake shapes the mesh below them")
+    if has_points(obj):
+        now = followed(read_kept(obj), obj.data)
+        lost = f"; {', '.join(now.lost)} were lost" if now.lost else ""
+        if now.moved_on:
+            found.append(f"{obj.name}: was edited; its feature points went to the nearest surface{lost}: look at them")
     keys = obj.data.shape_keys
     active = _active_user_keys(keys)
     if active:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from risorius.errors import SceneError
-from risorius.scene import faces, points_bound, points_kept
+from risorius.scene import faces, points_bound, points_kept, refusals
 from risorius.scene import mesh as meshes
 
 pytestmark = pytest.mark.smoke
@@ -134,3 +134,6 @@ def test_what_a_deletion_takes_away_is_lost_by_name(head: Any) -> None:
     assert "9.3" in now.kept.points
     with pytest.raises(SceneError, match=r"2\.1.*were lost"):
         faces.stored_points(head)
+    (said,) = refusals.remarks(head)
+    assert "was edited" in said
+    assert "2.1" in said

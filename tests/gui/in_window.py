@@ -23,7 +23,8 @@ state = {"ticks": 0}
 def registered():
     """Everything of Risorius that Blender knows of."""
     names = [name for name in dir(bpy.types) if "risorius" in name.lower()]
-    names += [f"{kind.__name__}.risorius" for kind in (bpy.types.Object, bpy.types.Scene) if hasattr(kind, "risorius")]
+    owners = (bpy.types.Object, bpy.types.Scene, bpy.types.WindowManager)
+    names += [f"{kind.__name__}.risorius" for kind in owners if hasattr(kind, "risorius")]
     return names
 
 
@@ -36,7 +37,7 @@ def viewport():
 
 
 def add_head_and_start_bake():
-    """Add the default head, look at it, open the sidebar's tab and press Bake as the button does."""
+    """Add the default head, show its points and parts, open the sidebar's tab and press Bake as the button does."""
     window, area, region, _ = viewport()
     with bpy.context.temp_override(window=window, area=area, region=region):
         for obj in list(bpy.data.objects):
@@ -47,6 +48,9 @@ def add_head_and_start_bake():
         bpy.ops.view3d.view_axis(type="FRONT")
         bpy.ops.view3d.view_selected()
         area.spaces.active.show_region_ui = True
+        found["find_points"] = sorted(bpy.ops.risorius.find_points())
+        found["use_drag_tool"] = sorted(bpy.ops.risorius.use_drag_tool())
+        bpy.context.window_manager.risorius.parts.show = True
         found["bake_begun"] = sorted(bpy.ops.risorius.bake_expression("INVOKE_DEFAULT"))
     return head
 
@@ -80,10 +84,14 @@ def step():
             first, last = keys.animation_data.action.frame_range
             bpy.context.scene.frame_set(round(first + 0.4 * (last - first)))
             found["values"] = [key.value for key in keys.key_blocks]
+        shown = bpy.context.window_manager.risorius
+        shown.points.show = shown.parts.show = False  # they were drawn while it was baked; the picture is of the face
         viewport()[3].active_panel_category = "Risorius"
         return 1.0
     if "shown" not in found:
         viewport()[1].tag_redraw()
+        found["listed"] = len(bpy.context.window_manager.risorius.points.names)
+        found["tool"] = bpy.context.workspace.tools.from_space_view3d_mode("OBJECT").idname
         found["shown"] = viewport()[3].active_panel_category
         write()
         return 0.5

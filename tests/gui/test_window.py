@@ -97,7 +97,8 @@ def seen(blender: Path, settings: Path, tmp_path_factory: pytest.TempPathFactory
         if "error" not in found:
             shutil.copyfile(folder / "shot.png", report.with_suffix(".png"))
             found = wait_for(report, lambda said: "after" in said or "error" in said, blender, settings)
-        yield {**found, "picture": folder / "shot.png"}
+        log = call(blender, "log", settings=settings).stdout
+        yield {**found, "picture": folder / "shot.png", "log": log}
     finally:
         call(blender, "stop", settings=settings)
 
@@ -159,6 +160,13 @@ def test_head_is_added_and_baked_while_the_window_lives(seen: dict[str, Any]) ->
 def test_tab_is_open_and_the_picture_is_not_blank(seen: dict[str, Any]) -> None:
     assert seen["shown"] == "Risorius"
     assert len(colours(seen["picture"])) > 1000
+
+
+def test_points_and_parts_are_drawn_without_a_complaint(seen: dict[str, Any]) -> None:
+    assert seen["find_points"] == seen["use_drag_tool"] == ["FINISHED"]
+    assert seen["tool"] == "risorius.drag_points"
+    assert seen["listed"] == 84
+    assert "Traceback" not in seen["log"], seen["log"]
 
 
 def test_unregister_leaves_nothing_registered(seen: dict[str, Any]) -> None:
