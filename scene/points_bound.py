@@ -19,7 +19,7 @@ from mathutils.interpolate import poly_3d_calc
 from ..arrays import Floats
 from . import mesh as meshes
 from .points_file import PointTable
-from .points_kept import KeptPoint, KeptPoints, Origin, mesh_counts
+from .points_kept import KeptPoint, KeptPoints, Origin, mesh_counts, triple
 
 #: A place farther from the surface than this share of the diagonal of all points lies off it, as a pupil does.
 OFF_SURFACE = 5e-3
@@ -65,10 +65,11 @@ class Surface:
         return shares(self.triangles[near[1]], self.vertices, near[0])
 
     def kept(self, held: Held | None, place: Floats, confidence: float, origin: Origin) -> KeptPoint:
-        """A point held by vertices of this surface, or one at a place off it."""
+        """A point at a place, held by vertices of this surface or by none."""
         if held is None:
             return KeptPoint(triple(place), confidence=confidence, origin=origin)
-        return KeptPoint(triple(_place(*held, self.vertices)), *held, confidence, origin)
+        on = triple(_place(*held, self.vertices))
+        return KeptPoint(triple(place), *held, on, confidence, origin)
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,9 @@ def bind(
 
 def moved(kept: KeptPoints, name: str, place: Floats, surface: Surface, origin: Origin) -> KeptPoints:
     """The same points, one of them put to another place of the surface by hand."""
-    put = surface.kept(surface.bound(place, np.inf), place, 1.0, origin)
+    near = surface.nearest(place)
+    at = place if near is None else near[0]
+    put = surface.kept(surface.bound(at, np.inf), at, 1.0, origin)
     return replace(kept, points={**kept.points, name: put})
 
 
@@ -160,17 +163,19 @@ def followed(kept: KeptPoints, mesh: Any) -> Followed:
 def places(kept: KeptPoints, vertices: Floats) -> dict[str, Floats]:
     """Name -> (3,) where points are, when the vertices (V, 3) of their mesh lie where they are given.
 
-    Bound points lie where their vertices are. Points off the surface move as the bound ones do on the whole: by the
-    affine motion that fits these best.
+    Bound points have moved as their vertices have. Points off the surface move as the bound ones do on the whole: by
+    the affine motion that fits these best.
     """
     given = {name: np.array(point.at) for name, point in kept.points.items()}
-    now = {n: _place(p.vertices, p.weights, vertices) for n, p in kept.points.items() if p.is_bound}
-    was = np.array([given[name] for name in now])
-    shift = np.array(list(now.values())) - was
-    if now and np.abs(shift).max() > SMALLEST_SHARE * _extent(given):
-        turn = np.linalg.lstsq(was - was.mean(axis=0), shift - shift.mean(axis=0), rcond=1e-6)[0]
-        given = {n: at + shift.mean(axis=0) + (at - was.mean(axis=0)) @ turn for n, at in given.items()}
-    return given | now
+    bound = {name: point for name, point in kept.points.items() if point.is_bound}
+    was = np.array([point.on for point in bound.values()])
+    shift = np.array([_place(point.vertices, point.weights, vertices) for point in bound.values()]) - was
+    if not bound or np.abs(shift).max() <= SMALLEST_SHARE * _extent(given):
+        return given
+    turn = np.linalg.lstsq(was - was.mean(axis=0), shift - shift.mean(axis=0), rcond=1e-6)[0]
+    whole = {n: at + shift.mean(axis=0) + (at - was.mean(axis=0)) @ turn for n, at in given.items()}
+    own = zip(bound, was + shift, was, strict=True)
+    return whole | {n: now + (given[n] - then) @ (np.eye(3) + turn) for n, now, then in own}
 
 
 def table_of(kept: KeptPoints, vertices: Floats) -> dict[str, int | tuple[float, float, float]]:
@@ -192,9 +197,3 @@ def _place(vertices: tuple[int, ...], weights: tuple[float, ...], positions: Flo
     """(3,) the weighted mean of some vertices."""
     place: Floats = np.array(weights) @ positions[list(vertices)]
     return place
-
-
-def triple(place: Floats) -> tuple[float, float, float]:
-    """Three plain numbers."""
-    x, y, z = (float(number) for number in place)
-    return x, y, z

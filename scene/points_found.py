@@ -11,8 +11,8 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ModelError, SceneError
 from . import mesh as meshes
-from .points_bound import bind, triple
-from .points_kept import KeptPoints, Origin, write_kept
+from .points_bound import bind
+from .points_kept import KeptPoints, Origin, triple, write_kept
 from .progress import Progress, Work
 from .refusals import refuse_broken_vertices, refuse_unreadable
 

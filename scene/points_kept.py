@@ -7,7 +7,7 @@ mesh, need no registered add-on, and are in the mesh's own coordinates.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import lru_cache
@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays import Floats
 from ..errors import FormatError, ParameterError, SceneError
 from ..mpeg4 import FEATURE_POINTS
 
@@ -43,12 +44,14 @@ class KeptPoint:
     ----------
     at : (3,) where it was put.
     vertices, weights : the vertices that it moves with, and their shares; empty where it lies off the surface.
+    on : (3,) the mean of these vertices then, a hair's breadth from `at`.
     confidence : 0 .. 1.
     """
 
     at: tuple[float, float, float]
     vertices: tuple[int, ...] = ()
     weights: tuple[float, ...] = ()
+    on: tuple[float, float, float] = (0.0, 0.0, 0.0)
     confidence: float = 1.0
     origin: Origin = Origin.FILE
 
@@ -85,6 +88,12 @@ class KeptPoints:
         """Names of the points that want to be looked at, the least sure first."""
         names = [name for name, point in self.points.items() if point.confidence < DOUBTFUL]
         return sorted(names, key=lambda name: self.points[name].confidence)
+
+
+def triple(place: Sequence[float] | Floats) -> tuple[float, float, float]:
+    """Three plain numbers."""
+    x, y, z = (float(number) for number in place)
+    return x, y, z
 
 
 def mesh_counts(mesh: Any) -> tuple[int, int, int]:
@@ -154,6 +163,7 @@ def _encoded(kept: KeptPoints) -> str:
             "at": list(point.at),
             "vertices": list(point.vertices),
             "weights": list(point.weights),
+            "on": list(point.on),
             "confidence": point.confidence,
             "origin": point.origin.value,
         }
@@ -170,11 +180,11 @@ def _decoded(text: str) -> KeptPoints:
     for name, entry in stored["points"].items():
         if name not in FEATURE_POINTS:
             raise FormatError("feature points", "is no name of the standard's", key=name)
-        x, y, z = entry["at"]
         points[name] = KeptPoint(
-            (float(x), float(y), float(z)),
+            triple(entry["at"]),
             tuple(int(vertex) for vertex in entry["vertices"]),
             tuple(float(weight) for weight in entry["weights"]),
+            triple(entry["on"]),
             float(entry["confidence"]),
             Origin(entry["origin"]),
         )
