@@ -20,10 +20,9 @@ from typing import Any
 import numpy as np
 
 from .errors import ParameterError, RisoriusError
+from .face.fit.doubt import DOUBTFUL
 
 DESCRIPTION = "An emotion word and an activation become a moving face."
-#: Found points that are less sure than this are named.
-DOUBTFUL = 0.4
 NEEDS_BLENDER = (
     "this verb needs Blender: run it as `blender --command risorius ...`, or `pip install bpy` into this Python"
 )

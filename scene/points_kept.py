@@ -17,13 +17,11 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import FormatError, ParameterError, SceneError
+from ..face.fit.doubt import DOUBTFUL
 from ..mpeg4 import FEATURE_POINTS
 
 #: The mesh's points, and the same as they were before anything was corrected by hand.
 POINTS, AS_GIVEN = "risorius_points", "risorius_points_as_given"
-
-#: A point that is less sure than this wants to be looked at.
-DOUBTFUL = 0.5
 
 
 class Origin(Enum):

@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 from ...arrays import Floats
 from ...errors import FormatError
 from ..points import closest_on_triangles
+from .doubt import DOUBTFUL_SCORE
 from .fitted import Fit, ring_shares
 from .target import RIM, Target, feature
 from .template import FitTemplate
@@ -29,8 +30,6 @@ HALF_ERROR = 5e-3
 ASKEW, ASTRAY = 4e-3, 4e-3
 #: What is left of the confidence of a doubtful point.
 DOUBT = 0.4
-#: A face that scores worse is a doubtful one.
-DOUBTFUL_SCORE = 1.0
 
 #: Feature points on the lid margins and where the lips meet: ring, and edge or side of the corner.
 RIM_POINTS: Mapping[str, tuple[str, str]] = {

@@ -14,9 +14,10 @@ from ...errors import ModelError, ParameterError
 from ...physics.mesh import Polygons, corners
 from ..checks import checked_polygons, checked_vertices
 from .align import align
-from .carry import DOUBTFUL_SCORE, RIM_POINTS, carry
+from .carry import RIM_POINTS, carry
 from .clicks import FEWEST, checked_clicks, click_misses, click_wishes, pose_from_clicks
 from .cloud import Surface
+from .doubt import DOUBTFUL_SCORE
 from .fitted import fit
 from .head_pose import HeadPose
 from .locate import HEAD, HEAD_BOX, FitProgress, Located, box_cloud, locate, looks_backwards, scored
