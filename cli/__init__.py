@@ -1,0 +1,60 @@
+"""The command line: argparse over `api`, and over `scene` for what needs Blender. No logic of its own.
+
+`risorius VERB`, `python -m risorius VERB` and `blender --command risorius VERB` are the same. Exit code 0 on success,
+2 on wrong usage, 1 otherwise. With `--json` the result is one JSON object on standard output.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import sys
+
+from ..errors import RisoriusError
+from .emotions import add_emotion_verbs
+from .faces import add_face_verbs
+from .films import add_film_verbs
+from .result import Result, UsageError, plain
+
+DESCRIPTION = "An emotion word and an activation become a moving face."
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run one verb and print its result.
+
+    Parameters
+    ----------
+    argv : the arguments after the program's name; by default those of this process.
+
+    Returns
+    -------
+    int
+        0 on success, 2 on wrong usage, 1 on any error that Risorius raises on purpose.
+    """
+    parser = _parser()
+    try:
+        arguments = parser.parse_args(argv)
+    except SystemExit as ended:  # argparse has said why
+        return int(ended.code or 0)
+    try:
+        result: Result = arguments.run(arguments)
+    except UsageError as error:
+        print(f"risorius {arguments.verb}: {error}", file=sys.stderr)
+        return 2
+    except (RisoriusError, OSError) as error:
+        print(f"risorius {arguments.verb}: {error}", file=sys.stderr)
+        return 1
+    with contextlib.suppress(BrokenPipeError):  # the reader (head, less) has seen enough
+        print(json.dumps(plain(result.data), indent=1) if arguments.json else "\n".join(result.lines), flush=True)
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    """All verbs and their options."""
+    parser = argparse.ArgumentParser(prog="risorius", description=DESCRIPTION)
+    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
+    add_emotion_verbs(verbs)
+    add_film_verbs(verbs)
+    add_face_verbs(verbs)
+    return parser

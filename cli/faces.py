@@ -1,0 +1,121 @@
+"""Verbs that look at a mesh: measure, recognise, points."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import ParameterError
+from ..face.fit.doubt import DOUBTFUL
+from .options import add_face, face_of, verb, vertices_of
+from .result import Result, UsageError
+
+
+def add_face_verbs(verbs: Any) -> None:
+    """Add measure, recognise and points to the verbs."""
+    measure = verb(verbs, "measure", _measure)
+    measure.add_argument("deformed", type=Path, nargs="+", help="meshes with the neutral face's vertices, moved")
+    add_face(measure)
+    measure.add_argument("--out", type=Path, help="a .fap file to write, a frame per mesh")
+
+    recognise = verb(verbs, "recognise", _recognise)
+    recognise.add_argument("file", type=Path, help="a .fap file, or a deformed mesh")
+    recognise.add_argument("--frame", type=int, help="which frame of a .fap file (default: the strongest)")
+    add_face(recognise)
+
+    points = verb(verbs, "points", _points)
+    about = 'a JSON file {"8.4": vertex index or [x, y, z], ...} to check; without it, the points are found'
+    points.add_argument("points", type=Path, nargs="?", help=about)
+    points.add_argument("--mesh", type=Path, required=True, help="the mesh they belong to, .npz or .obj")
+    points.add_argument("--out", type=Path, help="the JSON file to write found points to")
+
+
+def _measure(arguments: argparse.Namespace) -> Result:
+    """FAPs of deformed meshes against a neutral one."""
+    from .. import api
+
+    face = face_of(arguments)
+    frames = {str(path): face.measure(vertices_of(path, face)) for path in arguments.deformed}
+    if arguments.out:
+        stream = api.FapStream(frames=np.stack(list(frames.values())), fps=arguments.fps, name=arguments.out.stem)
+        api.write_fap(arguments.out, stream)
+    lines = [line for path, frame in frames.items() for line in (path, *_frame_lines(frame))]
+    return Result({path: _named(frame) for path, frame in frames.items()}, lines)
+
+
+def _recognise(arguments: argparse.Namespace) -> Result:
+    """Beliefs in the archetypes, from a .fap file or a deformed mesh."""
+    from .. import api
+
+    if arguments.file.suffix.lower() == ".fap":
+        frames = api.read_fap(arguments.file).expanded()
+        strongest = int(np.nansum(np.abs(frames), axis=1).argmax())
+        index = strongest if arguments.frame is None else arguments.frame
+        if not 0 <= index < len(frames):
+            raise ParameterError("frame", f"must lie in 0..{len(frames) - 1}", index)
+        frame = frames[index]
+    else:
+        face = face_of(arguments)
+        frame = face.measure(vertices_of(arguments.file, face))
+    beliefs = {str(name): belief for name, belief in api.recognise(frame).items()}
+    beliefs = dict(sorted(beliefs.items(), key=lambda item: -item[1]))
+    return Result(beliefs, [f"{name:<12} {belief:.3f}" for name, belief in beliefs.items()])
+
+
+def _points(arguments: argparse.Namespace) -> Result:
+    """Find the feature points of a mesh, or check a file of them against it."""
+    if arguments.points is None:
+        return _found_points(arguments)
+    if arguments.out is not None:
+        raise UsageError("--out belongs to points that are found; leave out the file to check")
+    face = face_of(arguments)
+    units = {name: getattr(face.units, name) for name in ("irisd0", "es0", "ens0", "mns0", "mw0")}
+    lines = [f"{len(face.points)} feature points fit {arguments.mesh}"]
+    lines += [f"{name.upper():<7} {1000.0 * value:7.2f} mm" for name, value in units.items()]
+    return Result({"points": len(face.points), "fapu_m": units}, lines)
+
+
+def _point_order(name: str) -> tuple[int, ...]:
+    """Feature points by group and number."""
+    return tuple(int(part) for part in name.split("."))
+
+
+def _found_points(arguments: argparse.Namespace) -> Result:
+    """Feature points found on a mesh; written as the JSON that every verb reads."""
+    from .. import api
+    from ..face.mesh_file import read_mesh
+
+    mesh = read_mesh(arguments.mesh)
+    found = api.find_points(mesh.vertices, mesh.polygons)
+    positions = {name: place.tolist() for name, place in found.positions.items()}
+    if arguments.out is not None:
+        arguments.out.write_text(json.dumps(positions, indent=1) + "\n", encoding="utf-8")
+    how = f"by its topology ({found.topology})" if found.topology else f"score {found.score:.2f}"
+    doubtful = sorted((name for name, sure in found.confidence.items() if sure < DOUBTFUL), key=_point_order)
+    lines = [f"{len(positions)} feature points found on {arguments.mesh}, {how}"]
+    lines += ["the face is unlike most: look at every point"] if found.is_doubtful else []
+    lines += [f"look at: {', '.join(doubtful)}"] if doubtful else []
+    lines += [f"wrote {arguments.out}"] if arguments.out else []
+    return Result(
+        {"points": positions, "confidence": found.confidence, "score": found.score, "topology": found.topology}, lines
+    )
+
+
+def _frame_lines(frame: Any) -> list[str]:
+    """The FAPs of a frame that have a value, a line each."""
+    from .. import api
+
+    named = ((api.fap(index + 1), value) for index, value in enumerate(frame) if not math.isnan(value))
+    return [f"F{fap.number:<3} {fap.name:<24} {value:8.1f}  {fap.unit}" for fap, value in named]
+
+
+def _named(frame: Any) -> dict[str, float]:
+    """FAP name -> value, without the FAPs that have none."""
+    from .. import api
+
+    return {api.fap(index + 1).name: float(value) for index, value in enumerate(frame) if not math.isnan(value)}

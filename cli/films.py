@@ -1,0 +1,114 @@
+"""Verbs that need Blender: bake, render, demo."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from ..errors import RisoriusError
+from .options import add_creases, add_engine, add_face, add_words, verb
+from .result import Result, UsageError
+
+NEEDS_BLENDER = (
+    "this verb needs Blender: run it as `blender --command risorius ...`, or `pip install bpy` into this Python"
+)
+
+
+def add_film_verbs(verbs: Any) -> None:
+    """Add bake, render and demo to the verbs."""
+    bake = verb(verbs, "bake", _bake)
+    add_words(bake)
+    add_face(bake)
+    add_creases(bake)
+    bake.add_argument("--dynamic", action="store_true", help="simulate the motion instead of posing the apex")
+    bake.add_argument("--out", type=Path, required=True, help="the .blend to write")
+
+    render = verb(verbs, "render", _render)
+    add_words(render)
+    add_face(render)
+    add_engine(render)
+    add_creases(render)
+    render.add_argument("--out", type=Path, required=True, help="the .mp4 to write")
+
+    demo = verb(verbs, "demo", _demo)
+    add_words(demo, nargs="*")
+    add_face(demo)
+    add_engine(demo)
+    add_creases(demo)
+    demo.add_argument("--out", type=Path, default=Path("out"), help="the folder to fill (default: out)")
+
+
+def _bake(arguments: argparse.Namespace) -> Result:
+    """Bake expressions onto a face and save the .blend."""
+    return _made("bake_file", arguments, dynamic=arguments.dynamic)
+
+
+def _render(arguments: argparse.Namespace) -> Result:
+    """Bake and film expressions."""
+    return _made("render_film", arguments, engine=arguments.engine)
+
+
+def _demo(arguments: argparse.Namespace) -> Result:
+    """The six archetypes in one film, with its .blend and contact sheet."""
+    return _made("demo", arguments, engine=arguments.engine)
+
+
+def _jobs() -> Any:
+    """The jobs that need Blender; imported only here."""
+    try:
+        from ..scene import jobs
+    except ModuleNotFoundError as missing:
+        if missing.name in ("bpy", "mathutils"):
+            raise RisoriusError(NEEDS_BLENDER) from None
+        raise
+    return jobs
+
+
+def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The options that all jobs share."""
+    if arguments.mesh is None and arguments.points is not None:
+        raise UsageError("--points needs --mesh")
+    shared = {name: getattr(arguments, name) for name in ("mesh", "points", "fps", "creases")}
+    words = {"words": tuple(arguments.words)} if arguments.words else {}
+    return {**shared, **words, "progress": _ShowProgress()}
+
+
+class _ShowProgress:
+    """One line per whole percent, on standard error so that --json stays clean."""
+
+    def __init__(self) -> None:
+        self.shown = -1
+
+    def __call__(self, step: Any) -> None:
+        percent = int(100.0 * step.fraction)
+        if percent != self.shown:
+            self.shown = percent
+            print(f"{percent:3d} %  {step.text}", file=sys.stderr, flush=True)
+
+
+@contextlib.contextmanager
+def _silent_blender() -> Iterator[None]:
+    """Keep what Blender prints for every frame it saves off standard output, at the level where it writes."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    try:
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), 1)
+        yield
+    finally:
+        sys.stdout.flush()
+        os.dup2(kept, 1)
+        os.close(kept)
+
+
+def _made(job: str, arguments: argparse.Namespace, **options: object) -> Result:
+    """Run a job, and name the files that it has written."""
+    run = getattr(_jobs(), job)
+    with _silent_blender():
+        made = dict(run(arguments.out, **_job_options(arguments), **options))
+    return Result(made, [f"{key}: {value}" for key, value in made.items()])

@@ -1,0 +1,87 @@
+"""Options that several verbs share, and what they stand for."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError
+from .result import Result, UsageError
+
+
+def verb(verbs: Any, name: str, run: Callable[[argparse.Namespace], Result]) -> argparse.ArgumentParser:
+    """A verb: its help is the docstring of the function that runs it."""
+    about = (run.__doc__ or "").strip()
+    parser: argparse.ArgumentParser = verbs.add_parser(name, help=about, description=about)
+    parser.set_defaults(run=run)
+    parser.add_argument("--json", action="store_true", help="print the result as JSON")
+    return parser
+
+
+def add_words(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
+    parser.add_argument("words", nargs=nargs, metavar="WORD", help="emotion words, shown one after another")
+
+
+def add_strength(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--activation", type=float, help="1..7 (default: the word's own)")
+    parser.add_argument("--variant", type=int, help="which of the paper's variants of the emotion")
+
+
+def add_fps(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--fps", type=float, default=25.0, help="frames per second (default: 25)")
+
+
+def add_engine(parser: argparse.ArgumentParser) -> None:
+    choices = ("WORKBENCH", "CYCLES", "EEVEE")
+    parser.add_argument("--engine", choices=choices, type=str.upper, default=choices[0], help="default: WORKBENCH")
+
+
+def add_creases(parser: argparse.ArgumentParser) -> None:
+    about = "wrinkles where skin is squeezed, in Cycles and EEVEE (default: on the default head only)"
+    parser.add_argument("--creases", action=argparse.BooleanOptionalAction, help=about)
+
+
+def add_face(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--mesh", type=Path, help="the neutral face: .npz or .obj; in Blender also .blend or .glb")
+    parser.add_argument("--points", type=Path, help="its feature points, a JSON file; without it they are found")
+    add_fps(parser)
+
+
+def expression_of(arguments: argparse.Namespace) -> Any:
+    """The profile of the word, or of the angle and activation."""
+    from .. import api
+
+    if (arguments.word is None) == (arguments.angle is None):
+        raise UsageError("give either a word, or --angle with --activation")
+    if arguments.angle is not None:
+        if arguments.activation is None:
+            raise UsageError("--angle needs --activation")
+        return api.expression(angle=arguments.angle, activation=arguments.activation)
+    return api.expression(arguments.word, activation=arguments.activation, variants=arguments.variant)
+
+
+def face_of(arguments: argparse.Namespace) -> Any:
+    """The face of --mesh and --points; the default one without them."""
+    from .. import api
+    from ..face.mesh_file import read_mesh
+    from ..scene.points_file import read_points
+
+    if (arguments.mesh is None) != (arguments.points is None):
+        raise UsageError("--mesh and --points go together")
+    if arguments.mesh is None:
+        return api.default_face()
+    mesh = read_mesh(arguments.mesh)
+    return api.Face.from_arrays(mesh.vertices, mesh.polygons, read_points(arguments.points))
+
+
+def vertices_of(path: Path, face: Any) -> Any:
+    """The vertices of a deformed mesh, as many as the face has."""
+    from ..face.mesh_file import read_mesh
+
+    vertices = read_mesh(path).vertices
+    if len(vertices) != len(face.vertices):
+        rule = f"must have the neutral face's {len(face.vertices)} vertices"
+        raise ParameterError(str(path), rule, len(vertices))
+    return vertices
