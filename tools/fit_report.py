@@ -4,7 +4,8 @@
 
 FOLDER holds the shared heads (`ict.npz` ...). Each part leaves its figures in out/fit/, so that parts can be measured
 one at a time; the page is written when all are there. `--errors` also writes presets/anatomy/point_errors.csv from
-the heads that are known: confidences are made of it.
+the heads that are known: confidences are made of it. `--only` measures the heads whose names contain a text, and leaves
+figures and page alone; `--json` writes a file of head -> point -> error in mm.
 """
 
 from __future__ import annotations
@@ -186,25 +187,38 @@ def main() -> None:
     parser.add_argument("--heads", type=Path, default=default)
     parser.add_argument("--part", nargs="*", choices=PARTS, default=PARTS)
     parser.add_argument("--errors", action="store_true", help="also write presets/anatomy/point_errors.csv")
+    parser.add_argument(
+        "--only", default="", help="the heads whose names contain this; figures and page stay as they are"
+    )
+    parser.add_argument("--json", type=Path, help="write head -> point -> error in mm there")
     arguments = parser.parse_args()
     heads = SharedHeads(arguments.heads)
     FIGURES.mkdir(parents=True, exist_ok=True)
+    errors: dict[str, Any] = {}
     for part in arguments.part:
-        rows = _measure(part, heads)
+        rows = _measure(part, heads, arguments.only)
+        errors |= {row["name"]: row["errors"] for row in rows if part in SETS and "errors" in row}
+        if arguments.only:
+            continue
         (FIGURES / f"{part}.json").write_text(json.dumps(rows, indent=1))
         if part == "known" and arguments.errors:
             write_errors(rows)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(errors, indent=1), encoding="utf-8")
+    if arguments.only:
+        return
     figures = {part: FIGURES / f"{part}.json" for part in PARTS}
     if all(path.is_file() for path in figures.values()):
         read = {part: json.loads(path.read_text()) for part, path in figures.items()}
         PAGE.write_text(page(read), encoding="utf-8")
 
 
-PARTS = ("known", "held-out", "hard", "poses", "shapes", "time", "clicks")
+SETS = ("known", "held-out", "hard", "reserved")
+PARTS = (*SETS, "poses", "shapes", "time", "clicks")
 
 
-def _measure(part: str, heads: SharedHeads) -> list[dict[str, Any]]:
-    """The rows of one part."""
+def _measure(part: str, heads: SharedHeads, only: str) -> list[dict[str, Any]]:
+    """The rows of one part; of a set of heads, those whose names contain a text."""
     if part == "shapes":
         return measure_shapes()
     if part == "time":
@@ -213,9 +227,11 @@ def _measure(part: str, heads: SharedHeads) -> list[dict[str, Any]]:
         return measure_clicks(heads)
     if part == "poses":
         return measure_poses([*heads.known(), *heads.held_out()])
-    chosen = {"known": heads.known, "held-out": heads.held_out, "hard": heads.hard}[part]()
+    sets = {"known": heads.known, "held-out": heads.held_out, "hard": heads.hard, "reserved": heads.reserved}
     rows = []
-    for number, head in enumerate(chosen):
+    for number, head in enumerate(sets[part]()):
+        if only not in head.name:
+            continue
         rows.append(measured(head, SEED + number))
         errors = list(rows[-1].get("errors", {0: np.nan}).values())
         print(
