@@ -11,14 +11,14 @@ from ...scene.motion import CueMotion
 from ...scene.progress import Work
 from ..active import face_reason, target_of
 from ..base import RisoriusOperator, WorkOperator
-from ..emotion.profile import frame_of, profile_of
+from ..emotion.profile import profile_of, title_of, wanted_of
 
 MOTION_SUFFIX = " motion"
 
 
 def clip_name(obj: Any, *, motion: bool = False) -> str:
     """The name the user gave, or the emotion's."""
-    chosen = str(obj.risorius.bake.clip).strip() or str(obj.risorius.emotion.word)
+    chosen = str(obj.risorius.bake.clip).strip() or title_of(obj.risorius.emotion)
     return chosen + MOTION_SUFFIX if motion else chosen
 
 
@@ -77,14 +77,15 @@ class RISORIUS_OT_bake_expression(BakeOperator, bpy.types.Operator):
     def work(self, context: Any) -> Work[bake.BakeResult]:
         """Pose the face and write its shape."""
         obj = context.object
-        profile = profile_of(obj.risorius.emotion)
+        wanted = wanted_of(obj)
         return bake.bake_expression(
             target_of(obj),
-            frame_of(profile, obj.risorius.emotion.seed),
+            wanted.frame,
             clip=clip_name(obj),
             timing=timing_of(obj, context),
-            drive=obj.risorius.emotion.drive,
-            emotion=profile.weights,
+            drive=wanted.drive,
+            emotion=wanted.profile.weights,
+            contractions=wanted.contractions,
             creases=creases_wanted(obj),
         )
 

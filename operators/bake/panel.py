@@ -8,6 +8,7 @@ import bpy
 
 from ...scene import shape_keys
 from ..active import face_reason
+from ..emotion.profile import title_of
 from ..sidebar import Sidebar
 from .ops import RISORIUS_OT_bake_expression, RISORIUS_OT_bake_motion, RISORIUS_OT_clear
 
@@ -29,7 +30,7 @@ class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         obj, chosen = context.object, context.object.risorius.bake
         row = layout.row()
-        row.prop(chosen, "clip", placeholder=obj.risorius.emotion.word)
+        row.prop(chosen, "clip", placeholder=title_of(obj.risorius.emotion))
         column = layout.column(align=True)
         for name in ("start", "onset", "apex", "offset"):
             column.prop(chosen, name)

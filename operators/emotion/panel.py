@@ -27,14 +27,17 @@ class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         emotion = context.object.risorius.emotion
-        layout.prop(emotion, "word")
+        layout.row().prop(emotion, "by", expand=True)
+        on_wheel = emotion.by == "WHEEL"
+        layout.prop(emotion, "angle" if on_wheel else "word")
         column = layout.column(align=True)
         column.prop(emotion, "activation", slider=True)
-        row = column.row(align=True)
-        row.alignment = "RIGHT"
-        row.label(text=f"{emotion.word.capitalize()}'s own: {own_activation(emotion.word):.1f}")
-        row.operator(RISORIUS_OT_reset_activation.bl_idname, text="", icon="LOOP_BACK")
-        layout.prop(emotion, "variant")
+        if not on_wheel:
+            row = column.row(align=True)
+            row.alignment = "RIGHT"
+            row.label(text=f"{emotion.word.capitalize()}'s own: {own_activation(emotion.word):.1f}")
+            row.operator(RISORIUS_OT_reset_activation.bl_idname, text="", icon="LOOP_BACK")
+            layout.prop(emotion, "variant")
         layout.prop(emotion, "seed")
         layout.prop(emotion, "drive")
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,10 +16,35 @@ if TYPE_CHECKING:
     from ...api import Profile
 
 
+@dataclass(frozen=True)
+class Wanted:
+    """What the user wants a face to show.
+
+    Attributes
+    ----------
+    profile : of the emotion. frame : (68,) FAPs drawn from it, NaN where it is silent. drive : see `api.Drive`.
+    contractions : muscle name -> 0..1, those set by hand.
+    """
+
+    profile: Profile
+    frame: Floats
+    drive: str
+    contractions: Mapping[str, float] = field(default_factory=dict)
+
+
+def wanted_of(obj: Any) -> Wanted:
+    """What is chosen for `obj` now."""
+    emotion = obj.risorius.emotion
+    profile = profile_of(emotion)
+    return Wanted(profile, frame_of(profile, emotion.seed), emotion.drive)
+
+
 def profile_of(emotion: Any) -> Profile:
-    """The profile of the chosen word, variant and activation."""
+    """The profile of the chosen word, or point of the wheel, at the chosen activation."""
     from ... import api
 
+    if emotion.by == "WHEEL":
+        return api.expression(angle=math.degrees(emotion.angle), activation=emotion.activation)
     variant = None if emotion.variant == DEFAULT_VARIANT else int(emotion.variant)
     return api.expression(emotion.word, activation=emotion.activation, variants=variant)
 
@@ -24,3 +52,10 @@ def profile_of(emotion: Any) -> Profile:
 def frame_of(profile: Profile, seed: int) -> Floats:
     """(68,) FAPs: the middle of the profile's ranges for seed 0, else a draw."""
     return profile.frame() if seed == 0 else profile.frame(np.random.default_rng(seed))
+
+
+def title_of(emotion: Any) -> str:
+    """The word, or the point of the wheel in words."""
+    if emotion.by == "WHEEL":
+        return f"{math.degrees(emotion.angle) % 360.0:.0f}° at {emotion.activation:.1f}"
+    return str(emotion.word)

@@ -1,13 +1,18 @@
-"""The emotion chosen for a face. Saved by number, so every word and variant keeps its number for ever."""
+"""The emotion chosen for a face. Saved by number, so every word and variant keeps its number for ever.
 
+An emotion is a word, or a point of the emotion wheel: an angle beside the activation.
+"""
+
+import math
 import zlib
 from typing import Any
 
 import bpy
 
-from ...mpeg4.archetypes import VARIANTS
+from ...mpeg4.archetypes import BASE_WORDS, VARIANTS
 from ...mpeg4.emotion_presets import WORDS
 from ...mpeg4.profile import ARCHETYPES
+from ..changes import changed
 
 #: Blender wants a dynamic enum's strings to be held somewhere.
 _word_items: list[tuple[str, str, str, str, int]] = []
@@ -22,6 +27,15 @@ def own_activation(word: str) -> float:
     """The word's own activation; the middle of the scale for a neutral word."""
     entry = WORDS.get(word)
     return float(entry.activation) if entry is not None and entry.activation is not None else FALLBACK_ACTIVATION
+
+
+def own_angle(word: str) -> float:
+    """The word's angle on the wheel, radians; 0 for a neutral word."""
+    entry = WORDS.get(word)
+    angle = entry.angle if entry is not None else None
+    if angle is None and entry is not None and entry.category is not None:
+        angle = BASE_WORDS[entry.category].angle
+    return math.radians(angle or 0.0)
 
 
 def _number(word: str) -> int:
@@ -67,19 +81,43 @@ def variant_items(owner: Any, context: Any) -> list[tuple[str, str, str, int]]:
 
 
 def _word_chosen(owner: Any, context: Any) -> None:
-    """A new word starts with its own activation and its default variant."""
+    """A new word starts with its own place on the wheel and its default variant."""
+    owner.by = "WORD"
+    owner.angle = own_angle(owner.word)
     owner.activation = own_activation(owner.word)
     owner.variant = DEFAULT_VARIANT
 
 
 class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
-    """Word, variant, activation and seed."""
+    """Word or point of the wheel, variant, activation and seed."""
 
+    by: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Choose By",
+        description="Whether the emotion is a word, or a point of the emotion wheel",
+        items=(
+            ("WORD", "Word", "One of the emotion words"),
+            ("WHEEL", "Wheel", "Any point of the emotion wheel: a direction, and how far out"),
+        ),
+        update=changed,
+    )
+    angle: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Angle",
+        description="Direction on the emotion wheel. Between two archetypes their expressions mix",
+        default=own_angle(FIRST_WORD),
+        subtype="ANGLE",
+        soft_min=0.0,
+        soft_max=2.0 * math.pi,
+        step=100,
+        update=changed,
+    )
     word: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Emotion", description="What the face expresses", items=word_items, update=_word_chosen
     )
     variant: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Variant", description="People show an emotion in several ways: which one", items=variant_items
+        name="Variant",
+        description="People show an emotion in several ways: which one",
+        items=variant_items,
+        update=changed,
     )
     activation: bpy.props.FloatProperty(  # type: ignore[valid-type]
         name="Activation",
@@ -89,12 +127,14 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
         max=7.0,
         step=10,
         precision=1,
+        update=changed,
     )
     seed: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Seed",
         description="0 is the typical face; every other number draws another one within the emotion's ranges",
         default=0,
         min=0,
+        update=changed,
     )
     drive: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Drive",
@@ -106,6 +146,7 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
             ("points", "Points Only", "Feature points are moved and the skin follows; no muscles"),
         ),
         default="natural",
+        update=changed,
     )
 
 
