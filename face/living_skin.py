@@ -7,7 +7,7 @@ of this skin under the muscles' forces, whose springs stiffen where they are str
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -27,6 +27,9 @@ from .tissue import Tissue
 #: The largest correction of a node that an equilibrium may leave, metres: what single precision makes of a mesh may
 #: stop the search a step earlier, and should not be seen.
 TOLERANCE = 1e-7
+
+#: The same for a face that is only sketched, metres.
+SKETCHED = 5e-5
 
 #: Loose tissue fades out over this from the cheek's centre and from the jowl, which lies so far outwards, down and
 #: back from the corner of the mouth, metres.
@@ -82,6 +85,13 @@ def mandible(tissue: str = "default") -> Oscillator:
     return Oscillator(figures.jaw_frequency, figures.jaw_damping_ratio)
 
 
+@dataclass
+class Memory:
+    """The balance found last: what its springs' stiffening added to the low-strain response, (n, 3) metres."""
+
+    beyond: Floats | float = 0.0
+
+
 class Relaxation:
     """Equilibria of one face's skin under its muscles."""
 
@@ -96,8 +106,10 @@ class Relaxation:
     def _membrane(self) -> float:
         return tissue_of().membrane
 
-    def settle(self, amounts: Amounts) -> Floats:
+    def settle(self, amounts: Amounts, *, memory: Memory | None = None) -> Floats:
         """(n, 3) positions of the sheet in balance with the muscles' forces, before sliding and bulging.
+
+        With a memory, it begins at the balance found last and stops a little short of the new one.
 
         Raises
         ------
@@ -105,9 +117,14 @@ class Relaxation:
         """
         low_strain = np.tensordot(amounts.muscles, self.actuators.sheets, axes=1)
         force = self._membrane * np.asarray(self.tissue.stiffness @ low_strain)
-        return self._solver.solve(force, start=self.sheet.positions + low_strain).positions
+        start = self.sheet.positions + low_strain
+        if memory is None:
+            return self._solver.solve(force, start=start).positions
+        settled = self._solver.solve(force, start=start + memory.beyond, tolerance=SKETCHED).positions
+        memory.beyond = settled - start
+        return settled
 
-    def muscular(self, amounts: Amounts) -> Floats:
+    def muscular(self, amounts: Amounts, *, memory: Memory | None = None) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, metres: what `Actuators.muscular` is at low strain.
 
         Raises
@@ -118,5 +135,5 @@ class Relaxation:
             return np.zeros_like(self.sheet.positions)
         if not self.sheet.has(Mechanism.BIPHASIC):
             return self.actuators.muscular(amounts)
-        shown: Floats = self.tissue.show((self.settle(amounts) - self.sheet.positions)[None])[0]
+        shown: Floats = self.tissue.show((self.settle(amounts, memory=memory) - self.sheet.positions)[None])[0]
         return shown

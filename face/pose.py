@@ -16,6 +16,7 @@ from .anatomy import Anatomy
 from .contact import Contact, build_contact, lip_share
 from .folds import Folds
 from .inverse import EXACT_NOISE
+from .living_skin import Memory
 from .measure import measure
 from .mechanisms import Mechanism
 from .mechanisms.jaw import JawMotion
@@ -49,6 +50,14 @@ class Pose:
     goal: Floats
     achieved: Floats
     reasons: Mapping[int, str]
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """A quickly posed face: positions (V, 3) in the face's coordinates, muscle name -> contraction in [0, 1]."""
+
+    positions: Floats
+    contractions: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -96,6 +105,20 @@ class Poser:
             reasons={} if plan is None else _reasons(plan),
         )
 
+    def sketch(
+        self,
+        frame: Floats,
+        drive: Drive,
+        emotion: EmotionShares | None,
+        contractions: Mapping[str, float] | None,
+        memory: Memory,
+    ) -> Sketch:
+        """What `pose` shows, a little short of balance and not measured."""
+        plan = self.natural.plan(frame, emotion) if drive is Drive.NATURAL else None
+        amounts = self.amounts(frame, drive, plan, contractions)
+        state = self.skin_state(frame, drive, plan, amounts, memory=memory)
+        return Sketch(self.assemble(state, drive, frame), self.anatomy.actuators.contractions(amounts))
+
     def amounts(
         self, frame: Floats, drive: Drive, plan: Plan | None, contractions: Mapping[str, float] | None
     ) -> Amounts:
@@ -129,7 +152,9 @@ class Poser:
                 raise ParameterError("muscle", f"must be one of {known}", name)
         return Amounts(muscles, lids, jaw)
 
-    def skin_state(self, frame: Floats, drive: Drive, plan: Plan | None, amounts: Amounts) -> SkinState:
+    def skin_state(
+        self, frame: Floats, drive: Drive, plan: Plan | None, amounts: Amounts, *, memory: Memory | None = None
+    ) -> SkinState:
         """The outer skin under given amounts, corrected as the drive asks, without its folds.
 
         In the natural mode contact has the last word; where FAPs are met exactly, their correction has, and only what
@@ -138,7 +163,7 @@ class Poser:
         anatomy, at = self.anatomy, self.surroundings(amounts.jaw, frame)
         actuators, inverse = anatomy.actuators, anatomy.inverse
         kinematic = actuators.kinematic(amounts)
-        elastic = anatomy.relaxation.muscular(amounts)
+        elastic = anatomy.relaxation.muscular(amounts, memory=memory)
         if drive is Drive.MUSCLES:
             return SkinState(self.contact.settle(kinematic + elastic, at=at), elastic, amounts.jaw)
         share = lip_share(frame if plan is None else plan.asked)

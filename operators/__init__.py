@@ -29,9 +29,10 @@ def _classes() -> list[type]:
     from .points import ops as points_ops
     from .points import panel as points_panel
     from .points import props as points_props
+    from .preview import props as preview_props
 
     modules = (
-        *(face_props, emotion_props, bake_props, film_props, points_props, parts_props, props),
+        *(face_props, emotion_props, bake_props, film_props, points_props, parts_props, preview_props, props),
         *(face_ops, points_ops, click, drag, parts_ops, emotion_ops, bake_ops, film_ops),
         *(face_panel, parts_panel, points_panel, emotion_panel, bake_panel, film_panel),
     )
@@ -46,6 +47,7 @@ def register() -> None:
     from . import props
     from .parts import overlay as parts_overlay
     from .points import drag, overlay
+    from .preview import live
 
     done: list[type] = []
     try:
@@ -57,7 +59,7 @@ def register() -> None:
             bpy.utils.unregister_class(cls)
         raise
     props.attach()
-    for attached in (overlay, drag, parts_overlay):
+    for attached in (overlay, drag, parts_overlay, live):
         attached.attach()
     if hasattr(bpy.utils, "register_cli_command"):
         _command = bpy.utils.register_cli_command("risorius", _run_command)
@@ -72,11 +74,12 @@ def unregister() -> None:
     from . import props
     from .parts import overlay as parts_overlay
     from .points import drag, overlay
+    from .preview import live
 
     if _command is not None:
         bpy.utils.unregister_cli_command(_command)
         _command = None
-    for attached in (parts_overlay, drag, overlay):
+    for attached in (live, parts_overlay, drag, overlay):
         attached.detach()
     props.detach()
     for cls in reversed(_classes()):

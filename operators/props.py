@@ -8,6 +8,7 @@ from .face.props import RISORIUS_PG_face
 from .film.props import RISORIUS_PG_film
 from .parts.props import RISORIUS_PG_parts
 from .points.props import RISORIUS_PG_points
+from .preview.props import RISORIUS_PG_preview
 
 
 class RISORIUS_PG_object(bpy.types.PropertyGroup):
@@ -29,6 +30,7 @@ class RISORIUS_PG_window(bpy.types.PropertyGroup):
 
     points: bpy.props.PointerProperty(type=RISORIUS_PG_points)  # type: ignore[valid-type]
     parts: bpy.props.PointerProperty(type=RISORIUS_PG_parts)  # type: ignore[valid-type]
+    preview: bpy.props.PointerProperty(type=RISORIUS_PG_preview)  # type: ignore[valid-type]
 
 
 CLASSES = (RISORIUS_PG_object, RISORIUS_PG_scene, RISORIUS_PG_window)

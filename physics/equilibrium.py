@@ -30,7 +30,14 @@ class EquilibriumSolver:
         self.skin, self.tolerance, self.max_iterations = skin, tolerance, max_iterations
         self._factor = Factor(skin.matrix())
 
-    def solve(self, force: Floats, *, anchors: Floats | None = None, start: Floats | None = None) -> Minimum:
+    def solve(
+        self,
+        force: Floats,
+        *,
+        anchors: Floats | None = None,
+        start: Floats | None = None,
+        tolerance: float | None = None,
+    ) -> Minimum:
         """Positions where elastic forces balance the load.
 
         Parameters
@@ -38,6 +45,7 @@ class EquilibriumSolver:
         force : (V, 3) N, a dead load: it does not turn with the skin.
         anchors : (V, 3) m, places on the bone; the rest positions if left out.
         start : (V, 3) m, a nearby shape; the anchors if left out.
+        tolerance : m, another one than the solver's own.
 
         Returns
         -------
@@ -49,6 +57,7 @@ class EquilibriumSolver:
         SolverError : tolerance not reached; carries the residual in m.
         """
         held = self.skin.rest if anchors is None else anchors
+        allowed = self.tolerance if tolerance is None else tolerance
         load = force_at(force, held)
 
         def objective(positions: Floats) -> tuple[float, Floats]:
@@ -60,12 +69,12 @@ class EquilibriumSolver:
             objective,
             held if start is None else start,
             self._factor,
-            tolerance=self.tolerance,
+            tolerance=allowed,
             max_iterations=self.max_iterations,
         )
         if not found.converged:
             raise SolverError(
-                f"no equilibrium within {self.tolerance:g} m after {found.iterations} iterations; "
+                f"no equilibrium within {allowed:g} m after {found.iterations} iterations; "
                 "lower the forces or allow more iterations",
                 residual=found.residual,
             )

@@ -26,7 +26,8 @@ class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
         """The choice, most important first."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
-        emotion = context.object.risorius.emotion
+        emotion, preview = context.object.risorius.emotion, context.window_manager.risorius.preview
+        layout.prop(preview, "show", icon="HIDE_OFF" if preview.show else "HIDE_ON", toggle=True)
         layout.row().prop(emotion, "by", expand=True)
         on_wheel = emotion.by == "WHEEL"
         layout.prop(emotion, "angle" if on_wheel else "word")

@@ -9,6 +9,7 @@ from ...scene import faces, refusals
 from ...scene.points_file import read_points
 from ...scene.points_kept import forget_points, has_points
 from ..base import RisoriusOperator
+from ..preview import live
 
 
 class RISORIUS_OT_add_head(RisoriusOperator, bpy.types.Operator):
@@ -34,7 +35,8 @@ class RISORIUS_OT_add_head(RisoriusOperator, bpy.types.Operator):
             with context.temp_override(region=region):
                 bpy.ops.view3d.view_axis(type="FRONT")
                 bpy.ops.view3d.view_selected()
-        return f"Added {obj.name}: choose an emotion and bake it"
+        live.ask(obj)
+        return f"Added {obj.name}: choose an emotion, and press Space to play it"
 
 
 class RISORIUS_OT_import_points(RisoriusOperator, bpy.types.Operator, ImportHelper):

@@ -85,7 +85,8 @@ def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     order = ("main", "face", "parts", "points", "emotion", "bake", "film")
     assert list(shown) == [f"RISORIUS_PT_{name}" for name in order]
     assert ("label", head.name) in shown["RISORIUS_PT_main"]
-    assert [entry for entry in shown["RISORIUS_PT_emotion"] if entry[0] == "prop"][:3] == [
+    assert [entry for entry in shown["RISORIUS_PT_emotion"] if entry[0] == "prop"][:4] == [
+            ("prop", "show"),
             ("prop", "by"),
         ("prop", "word"),
         ("prop", "activation"),

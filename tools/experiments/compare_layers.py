@@ -22,7 +22,7 @@ from risorius.api import Face, Mechanism
 from risorius.arrays import Floats
 from risorius.face.actuators import Amounts
 from risorius.face.anatomy import Anatomy
-from risorius.face.living_skin import Relaxation
+from risorius.face.living_skin import Memory, Relaxation
 
 from .two_layer_skin import Insertion, LayeredTissue, Layers
 
@@ -32,7 +32,7 @@ W = (Mechanism.SLIDING, Mechanism.BULGE)
 class LowStrain(Relaxation):
     """Muscles as their linear fields, for a fair comparison: two layers have no biphasic equilibrium yet."""
 
-    def muscular(self, amounts: Amounts) -> Floats:
+    def muscular(self, amounts: Amounts, *, memory: Memory | None = None) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, metres."""
         return self.actuators.muscular(amounts)
 

@@ -1,0 +1,1 @@
+"""The live preview: the face shows what is chosen while it is being chosen."""

@@ -1,0 +1,92 @@
+"""One face held ready for a live preview: read once, worked out bit by bit, sketched again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..arrays import Floats
+from . import preview
+from .bake import Target
+from .faces import face_of
+from .mesh import rest_vertices
+from .points_kept import POINTS
+from .progress import Progress, Work
+
+if TYPE_CHECKING:
+    from ..face.natural import EmotionShares
+
+
+def uid_of(obj: Any) -> int:
+    """A number that an object keeps while Blender runs, through renaming and undo."""
+    return int(obj.session_uid)
+
+
+def print_of(target: Target) -> str:
+    """A fingerprint of all that a face is read from; cheap."""
+    digest = blake2b(digest_size=16)
+    for obj in target.objects():
+        digest.update(f"{uid_of(obj)} {len(obj.data.polygons)}".encode())
+        digest.update(np.array(obj.matrix_world, dtype=np.float32)[:3, :3].tobytes())
+        digest.update(rest_vertices(obj.data).tobytes())
+    digest.update(str(target.obj.data.get(POINTS, "")).encode())
+    return digest.hexdigest()
+
+
+class LiveFace:
+    """A face that shows itself on its own objects without changing them; see `preview`."""
+
+    def __init__(self, target: Target) -> None:
+        """Read the face.
+
+        Raises
+        ------
+        SceneError, ModelError : as for a bake.
+        """
+        self.uid, self.print = uid_of(target.obj), print_of(target)
+        self._source = target.source()
+        self._face = face_of(self._source)
+        self._sketcher = self._face.sketcher()
+
+    def is_of(self, target: Target) -> bool:
+        """Whether the face is still as it was read."""
+        return print_of(target) == self.print
+
+    def prepare(self) -> Work[None]:
+        """Work out what the first sketch needs."""
+        for fraction, text in self._face.prepare():
+            yield Progress(fraction, text)
+
+    def sketch(
+        self,
+        frame: Floats,
+        *,
+        drive: str,
+        emotion: EmotionShares | None = None,
+        contractions: Mapping[str, float] | None = None,
+    ) -> Floats:
+        """(V, 3) displacement for one frame of FAPs, metres, nearly in balance; see `Face.sketcher`."""
+        sketched = self._sketcher.sketch(frame, drive=drive, emotion=emotion, contractions=contractions)
+        moved: Floats = sketched.positions - self._source.vertices
+        return moved
+
+    def pose(
+        self,
+        frame: Floats,
+        *,
+        drive: str,
+        emotion: EmotionShares | None = None,
+        contractions: Mapping[str, float] | None = None,
+    ) -> Floats:
+        """(V, 3) displacement in balance, as a bake writes it."""
+        posed = self._face.pose(frame, drive=drive, emotion=emotion, contractions=contractions)
+        moved: Floats = posed.positions - self._source.vertices
+        return moved
+
+    def show(self, target: Target, moved: Floats) -> None:
+        """Show a displacement on the objects of the face, which may be others than those read where undo made them."""
+        for piece, obj in zip(self._source.pieces, target.objects(), strict=True):
+            preview.show(obj, piece.local_positions(moved))
