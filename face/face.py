@@ -13,6 +13,7 @@ from ..arrays import Floats, Ints
 from ..mpeg4 import Cue
 from ..mpeg4.standard import FAP_COUNT
 from ..physics import mesh
+from ..physics.tissue import Tissue
 from .anatomy import Anatomy, Mesh
 from .checks import (
     checked_axes,
@@ -232,7 +233,7 @@ class Face:
         emotions: ArrayLike | None = None,
         integrator: str = "implicit",
         substeps: int = 2,
-        tissue: str = "default",
+        tissue: str | Tissue = "default",
     ) -> Iterator[Floats]:
         """Positions (V, 3) frame by frame of the moving face; see `simulate`."""
         checked = checked_frames(frames)
@@ -246,17 +247,19 @@ class Face:
         fps: float = 25.0,
         *,
         drive: str | Drive = Drive.NATURAL,
+        contractions: Sequence[Mapping[str, float]] | None = None,
         integrator: str = "implicit",
         substeps: int = 2,
-        tissue: str = "default",
+        tissue: str | Tissue = "default",
     ) -> Iterator[Floats]:
         """Positions (V, 3) frame by frame of expressions in time (`sequence` gives their frames).
 
         In the natural drive each cue is planned at its apex and the plans are blended, so that an apex that is held is
-        the pose of its profile. Keywords and errors as `simulate`.
+        the pose of its profile. `contractions`, one mapping per cue, are set by hand and come and go with it. Other
+        keywords and errors as `simulate`.
         """
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
-        return simulation.run(cue_moments(self._poser, cues, fps, checked_drive(drive)))
+        return simulation.run(cue_moments(self._poser, cues, fps, checked_drive(drive), contractions))
 
     def simulate(
         self,
@@ -267,7 +270,7 @@ class Face:
         emotions: ArrayLike | None = None,
         integrator: str = "implicit",
         substeps: int = 2,
-        tissue: str = "default",
+        tissue: str | Tissue = "default",
     ) -> Clip:
         """The moving face: frames of FAPs with the skin's inertia and damping.
 
@@ -278,7 +281,7 @@ class Face:
         emotions : (T, 6) strength of each archetype over time (`emotion_weights`), where the words are known.
         integrator : "implicit" (default) or "rk2", the paper's.
         substeps : steps per frame, after each of which contact is seen to; rk2 cuts them as it needs.
-        tissue : "default", "young", "aged" or "stiff" (presets/tissue.toml).
+        tissue : "default", "young", "aged" or "stiff" (presets/tissue.toml), or figures of its own.
 
         Raises
         ------

@@ -16,6 +16,8 @@ from ..arrays import Floats
 from ..physics.equilibrium import EquilibriumSolver
 from ..physics.oscillator import Oscillator
 from ..physics.skin import Skin
+from ..physics.tissue import Tissue as Figures
+from ..physics.tissue import as_tissue
 from ..physics.tissue import tissue as tissue_of
 from . import regions
 from .actuators import Actuators, Amounts
@@ -51,8 +53,8 @@ def looseness(sheet: OuterSkin) -> Floats:
     return loose
 
 
-def living_skin(sheet: OuterSkin, tissue: str = "default") -> Skin:
-    """The skin of a face, of a tissue named in presets/tissue.toml, held as its regions are.
+def living_skin(sheet: OuterSkin, tissue: str | Figures = "default") -> Skin:
+    """The skin of a face, of a tissue of its own or one named in presets/tissue.toml, held as its regions are.
 
     Where it hangs loose more tissue moves with it and is less damped.
 
@@ -60,7 +62,7 @@ def living_skin(sheet: OuterSkin, tissue: str = "default") -> Skin:
     ------
     ParameterError : an unknown tissue.
     """
-    figures, loose, anchor = tissue_of(tissue), looseness(sheet), regions.anchor(sheet)
+    figures, loose, anchor = as_tissue(tissue), looseness(sheet), regions.anchor(sheet)
     depth = figures.depth + (figures.loose_depth - figures.depth) * loose
     ratio = figures.damping_ratio + (figures.loose_damping_ratio - figures.damping_ratio) * loose
     return Skin.from_mesh(
@@ -74,14 +76,14 @@ def living_skin(sheet: OuterSkin, tissue: str = "default") -> Skin:
     )
 
 
-def mandible(tissue: str = "default") -> Oscillator:
+def mandible(tissue: str | Figures = "default") -> Oscillator:
     """How the mandible of a face follows what is asked of it.
 
     Raises
     ------
     ParameterError : an unknown tissue.
     """
-    figures = tissue_of(tissue)
+    figures = as_tissue(tissue)
     return Oscillator(figures.jaw_frequency, figures.jaw_damping_ratio)
 
 

@@ -92,8 +92,9 @@ class Poser:
     ) -> Pose:
         """The equilibrium for one frame (68,); see `Face.pose`."""
         plan = self.natural.plan(frame, emotion) if drive is Drive.NATURAL else None
-        amounts = self.amounts(frame, drive, plan, contractions)
-        state = self.skin_state(frame, drive, plan, amounts)
+        found = self.amounts(frame, drive, plan)
+        amounts = self.by_hand(found, contractions) if contractions else found
+        state = self.skin_state(frame, drive, plan, amounts, found=found)
         positions = self.assemble(state, drive, frame)
         goal = plan.goal if plan is not None else frame
         return Pose(
@@ -115,24 +116,31 @@ class Poser:
     ) -> Sketch:
         """What `pose` shows, a little short of balance and not measured."""
         plan = self.natural.plan(frame, emotion) if drive is Drive.NATURAL else None
-        amounts = self.amounts(frame, drive, plan, contractions)
-        state = self.skin_state(frame, drive, plan, amounts, memory=memory)
+        found = self.amounts(frame, drive, plan)
+        amounts = self.by_hand(found, contractions) if contractions else found
+        state = self.skin_state(frame, drive, plan, amounts, found=found, memory=memory)
         return Sketch(self.assemble(state, drive, frame), self.anatomy.actuators.contractions(amounts))
 
-    def amounts(
-        self, frame: Floats, drive: Drive, plan: Plan | None, contractions: Mapping[str, float] | None
-    ) -> Amounts:
-        """Contractions that explain the frame, with those set by hand put in their place."""
+    def amounts(self, frame: Floats, drive: Drive, plan: Plan | None) -> Amounts:
+        """Contractions that explain the frame."""
         actuators, rows = self.anatomy.actuators, self.anatomy.inverse.rows
         if drive is Drive.POINTS:
-            amounts = actuators.amounts(np.zeros(len(actuators.prior)))
-        else:
-            wish = natural_wish(rows, plan) if plan is not None else exact_wish(rows, frame)
-            amounts = self.anatomy.inverse.solve(wish)
-        return amounts if not contractions else self._by_hand(amounts, contractions)
+            return actuators.amounts(np.zeros(len(actuators.prior)))
+        return self.anatomy.inverse.solve(natural_wish(rows, plan) if plan is not None else exact_wish(rows, frame))
 
-    def _by_hand(self, amounts: Amounts, contractions: Mapping[str, float]) -> Amounts:
-        """Amounts with some contractions set by hand."""
+    def towards_hand(self, amounts: Amounts, contractions: Mapping[str, float], share: float) -> Amounts:
+        """Amounts some of whose contractions have come a share (0..1) of the way to those set by hand."""
+        now = self.anatomy.actuators.contractions(amounts)
+        part = {name: (1.0 - share) * now.get(name, 0.0) + share * value for name, value in contractions.items()}
+        return self.by_hand(amounts, {name: min(max(value, 0.0), 1.0) for name, value in part.items()})
+
+    def by_hand(self, amounts: Amounts, contractions: Mapping[str, float]) -> Amounts:
+        """Amounts with some contractions set by hand.
+
+        Raises
+        ------
+        ParameterError : an unknown muscle, or a contraction outside 0..1.
+        """
         actuators = self.anatomy.actuators
         muscles, lids, jaw = amounts.muscles.copy(), dict(amounts.lids), amounts.jaw
         index = {muscle.name: i for i, muscle in enumerate(actuators.muscles)}
@@ -153,9 +161,19 @@ class Poser:
         return Amounts(muscles, lids, jaw)
 
     def skin_state(
-        self, frame: Floats, drive: Drive, plan: Plan | None, amounts: Amounts, *, memory: Memory | None = None
+        self,
+        frame: Floats,
+        drive: Drive,
+        plan: Plan | None,
+        amounts: Amounts,
+        *,
+        found: Amounts | None = None,
+        memory: Memory | None = None,
     ) -> SkinState:
         """The outer skin under given amounts, corrected as the drive asks, without its folds.
+
+        In the natural mode what was set by hand is wanted: `found` are the amounts before, and the difference that
+        they make is not corrected away.
 
         In the natural mode contact has the last word; where FAPs are met exactly, their correction has, and only what
         lies away from the FAPs' points is cleared once more.
@@ -171,6 +189,8 @@ class Poser:
         if Mechanism.CORRECTION not in anatomy.mechanisms:
             return SkinState(shown, elastic, amounts.jaw)
         target, doubts = self._targets(frame, plan)
+        if plan is not None and found is not None and found is not amounts:
+            target = target + np.asarray(inverse.matrix @ self._low_strain_change(found, amounts).ravel())
         for number in range(1, CORRECTION_ROUNDS + 1):
             change = inverse.correction(target - np.asarray(inverse.matrix @ shown.ravel()), doubts)
             elastic = elastic + change
@@ -180,6 +200,13 @@ class Poser:
             if number < CORRECTION_ROUNDS:
                 shown = self.contact.settle(shown, share, at)
         return SkinState(self.contact.clear(shown, at, self._measured), elastic, amounts.jaw)
+
+    def _low_strain_change(self, before: Amounts, after: Amounts) -> Floats:
+        """(n, 3) how much further other amounts move the outer skin, metres."""
+        actuators = self.anatomy.actuators
+        moved = [actuators.kinematic(amounts) + actuators.muscular(amounts) for amounts in (before, after)]
+        change: Floats = moved[1] - moved[0]
+        return change
 
     @cached_property
     def _points_on_skin(self) -> Ints:

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TypeAlias
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from ..mpeg4 import ARCHETYPES, Cue, sequence, strengths
 from ..physics.implicit import ImplicitSolver
 from ..physics.rk2 import Rk2Solver
 from ..physics.skin import State
+from ..physics.tissue import Tissue
 from .actuators import Amounts
 from .contact import Slack, lip_share
 from .living_skin import living_skin, mandible
@@ -28,6 +30,9 @@ from .mechanisms.lids import LidMove
 from .natural import Plan, blend
 from .pose import Poser, SkinState
 from .wishes import Drive
+
+#: Muscle name -> contraction in [0, 1].
+Contractions: TypeAlias = Mapping[str, float]
 
 
 class Integrator(StrEnum):
@@ -39,11 +44,15 @@ class Integrator(StrEnum):
 
 @dataclass(frozen=True)
 class Moment:
-    """What is asked of one frame: FAPs (68,), how they drive the face, and the plan where the drive is natural."""
+    """What is asked of one frame: FAPs (68,), how they drive the face, and the plan where the drive is natural.
+
+    `by_hand` are contractions set by hand, and how far each set has come, 0..1.
+    """
 
     frame: Floats
     drive: Drive
     plan: Plan | None
+    by_hand: tuple[tuple[Contractions, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -89,7 +98,7 @@ class Motion:
 class Simulation:
     """The moving skin of one face."""
 
-    def __init__(self, poser: Poser, *, fps: float, integrator: str, substeps: int, tissue: str) -> None:
+    def __init__(self, poser: Poser, *, fps: float, integrator: str, substeps: int, tissue: str | Tissue) -> None:
         """Prepare a simulation.
 
         Parameters
@@ -97,7 +106,7 @@ class Simulation:
         poser : poses the same face.
         fps : frames per second, above 0.
         integrator : a name of `Integrator`. substeps : steps per frame, 1 or more; contact is seen to after each.
-        tissue : a name in presets/tissue.toml.
+        tissue : a name in presets/tissue.toml, or figures of its own.
 
         Raises
         ------
@@ -138,8 +147,10 @@ class Simulation:
     def _aim(self, moment: Moment) -> Aim:
         """The pose that a moment asks for, taken apart."""
         poser = self.poser
-        amounts = poser.amounts(moment.frame, moment.drive, moment.plan, None)
-        state = poser.skin_state(moment.frame, moment.drive, moment.plan, amounts)
+        amounts = found = poser.amounts(moment.frame, moment.drive, moment.plan)
+        for contractions, share in moment.by_hand:
+            amounts = poser.towards_hand(amounts, contractions, share)
+        state = poser.skin_state(moment.frame, moment.drive, moment.plan, amounts, found=found)
         kinematic = poser.anatomy.actuators.kinematic(amounts)
         return Aim(
             lids=amounts.lids,
@@ -194,13 +205,21 @@ def stream_moments(poser: Poser, frames: Floats, drive: Drive, weights: Floats |
         yield Moment(frame, drive, poser.natural.plan(frame, emotion) if drive is Drive.NATURAL else None)
 
 
-def cue_moments(poser: Poser, cues: Sequence[Cue], fps: float, drive: Drive) -> Iterator[Moment]:
+def cue_moments(
+    poser: Poser, cues: Sequence[Cue], fps: float, drive: Drive, contractions: Sequence[Contractions] | None = None
+) -> Iterator[Moment]:
     """Moments of cues: each cue is planned once at its apex, and the plans are blended by the cues' strengths.
 
-    So what a face adds by itself to one expression is not contradicted by FAPs that another cue asks for.
+    So what a face adds by itself to one expression is not contradicted by FAPs that another cue asks for. Contractions
+    set by hand, one set per cue, come and go with it.
     """
+    hands = [{} for _ in cues] if contractions is None else contractions
+    if len(hands) != len(cues):
+        raise ParameterError("contractions", f"must be one set for each of the {len(cues)} cues", len(hands))
     frames = sequence(cues, fps=fps)
     plans = [poser.natural.plan(cue.profile.frame(cue.seed), cue.profile.weights) for cue in cues]
     for frame, weights in zip(frames, strengths(cues, fps=fps), strict=True):
         plan = blend(plans, weights.tolist()) if drive is Drive.NATURAL else None
-        yield Moment(frame, drive, plan)
+        shares = (weights / max(1.0, weights.sum())).tolist()
+        by_hand = tuple((hand, share) for hand, share in zip(hands, shares, strict=True) if hand and share > 0.0)
+        yield Moment(frame, drive, plan, by_hand)

@@ -139,6 +139,11 @@ def tissue(name: str = "default") -> Tissue:
     return tissues()[name]
 
 
+def as_tissue(given: str | Tissue) -> Tissue:
+    """A tissue, or the bundled one of that name; ParameterError lists the names."""
+    return given if isinstance(given, Tissue) else tissue(given)
+
+
 @cache
 def _figures() -> tuple[str, ...]:
     """Names of the numeric fields."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -12,6 +12,7 @@ from ..mpeg4 import Cue, strengths
 
 if TYPE_CHECKING:
     from ..face.face import Face
+    from ..physics.tissue import Tissue
 
 
 class Motion(Protocol):
@@ -28,9 +29,14 @@ class Motion(Protocol):
 
 @dataclass(frozen=True)
 class CueMotion:
-    """Expressions in time, each planned at its apex; see `Face.performance`."""
+    """Expressions in time, each planned at its apex; see `Face.performance`.
+
+    `contractions` are those set by hand, a set per cue; `tissue` a name or figures.
+    """
 
     cues: Sequence[Cue]
+    contractions: Sequence[Mapping[str, float]] | None = None
+    tissue: str | Tissue = "default"
 
     def frame_count(self, fps: float) -> int:
         """Frames to the end of the last cue."""
@@ -38,7 +44,7 @@ class CueMotion:
 
     def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
         """The performance."""
-        return face.performance(self.cues, fps, drive=drive)
+        return face.performance(self.cues, fps, drive=drive, contractions=self.contractions, tissue=self.tissue)
 
 
 @dataclass(frozen=True)

@@ -100,7 +100,7 @@ class Bench:
 
     def moved(self, shape: Shape) -> Floats:
         """Displacement (ICT_SKIN, 3) that the shape's FAPs alone give."""
-        amounts = self.poser.amounts(shape.frame, Drive.EXACT, None, None)
+        amounts = self.poser.amounts(shape.frame, Drive.EXACT, None)
         state = self.poser.skin_state(shape.frame, Drive.EXACT, None, amounts)
         moved = np.zeros_like(self.anatomy.mesh.positions)
         moved[self.anatomy.skin.index] = state.displacement

@@ -106,7 +106,7 @@ def mechanisms(face: api.Face, frame: Floats, number: int) -> dict[str, float]:
     anatomy = face.anatomy
     rows, actuators = anatomy.inverse.rows, anatomy.actuators
     poser = Poser(anatomy)
-    amounts = poser.amounts(frame, api.Drive.NATURAL, poser.natural.plan(frame), None)
+    amounts = poser.amounts(frame, api.Drive.NATURAL, poser.natural.plan(frame))
     row = rows.position[number]
     lids = [amounts.lids.get(key, 0.0) for key in actuators.lid_moves]
     opening = amounts.jaw.angle * actuators.chin_lever
