@@ -2,41 +2,62 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any
+
+#: Modules with classes to register, in this order: what others refer to comes first.
+_PROPERTIES = (
+    "face.props",
+    "emotion.props",
+    "muscles.props",
+    "tissue.props",
+    "timeline.props",
+    "bake.props",
+    "film.props",
+    "points.props",
+    "parts.props",
+    "preview.props",
+    "props",
+)
+_OPERATORS = (
+    "face.ops",
+    "points.ops",
+    "points.click",
+    "points.drag",
+    "parts.ops",
+    "emotion.ops",
+    "muscles.ops",
+    "tissue.ops",
+    "timeline.ops",
+    "bake.ops",
+    "film.ops",
+)
+#: In the order of work, which is that of the sidebar.
+_PANELS = (
+    "face.panel",
+    "parts.panel",
+    "points.panel",
+    "emotion.panel",
+    "muscles.panel",
+    "tissue.panel",
+    "timeline.panel",
+    "bake.panel",
+    "film.panel",
+)
+#: Modules that draw or listen from registration on: attached in this order, detached in the opposite one.
+_ATTACHED = ("points.overlay", "points.drag", "parts.overlay", "timeline.linked", "preview.live")
 
 _command: Any = None
 
 
-def _classes() -> list[type]:
-    """All classes, in the order of registration: what others refer to comes first."""
-    from . import props
-    from .bake import ops as bake_ops
-    from .bake import panel as bake_panel
-    from .bake import props as bake_props
-    from .emotion import ops as emotion_ops
-    from .emotion import panel as emotion_panel
-    from .emotion import props as emotion_props
-    from .face import ops as face_ops
-    from .face import panel as face_panel
-    from .face import props as face_props
-    from .film import ops as film_ops
-    from .film import panel as film_panel
-    from .film import props as film_props
-    from .parts import ops as parts_ops
-    from .parts import panel as parts_panel
-    from .parts import props as parts_props
-    from .points import click, drag
-    from .points import ops as points_ops
-    from .points import panel as points_panel
-    from .points import props as points_props
-    from .preview import props as preview_props
+def _modules(names: tuple[str, ...]) -> list[Any]:
+    """Modules of this package."""
+    return [import_module(f".{name}", __package__) for name in names]
 
-    modules = (
-        *(face_props, emotion_props, bake_props, film_props, points_props, parts_props, preview_props, props),
-        *(face_ops, points_ops, click, drag, parts_ops, emotion_ops, bake_ops, film_ops),
-        *(face_panel, parts_panel, points_panel, emotion_panel, bake_panel, film_panel),
-    )
-    return [cls for module in modules for cls in module.CLASSES]
+
+def _classes() -> list[type]:
+    """All classes, in the order of registration."""
+    return [cls for module in _modules((*_PROPERTIES, *_OPERATORS, *_PANELS)) for cls in module.CLASSES]
 
 
 def register() -> None:
@@ -45,9 +66,6 @@ def register() -> None:
     import bpy
 
     from . import props
-    from .parts import overlay as parts_overlay
-    from .points import drag, overlay
-    from .preview import live
 
     done: list[type] = []
     try:
@@ -59,7 +77,7 @@ def register() -> None:
             bpy.utils.unregister_class(cls)
         raise
     props.attach()
-    for attached in (overlay, drag, parts_overlay, live):
+    for attached in _modules(_ATTACHED):
         attached.attach()
     if hasattr(bpy.utils, "register_cli_command"):
         _command = bpy.utils.register_cli_command("risorius", _run_command)
@@ -72,14 +90,11 @@ def unregister() -> None:
 
     from ..scene.faces import forget_faces
     from . import props
-    from .parts import overlay as parts_overlay
-    from .points import drag, overlay
-    from .preview import live
 
     if _command is not None:
         bpy.utils.unregister_cli_command(_command)
         _command = None
-    for attached in (live, parts_overlay, drag, overlay):
+    for attached in reversed(_modules(_ATTACHED)):
         attached.detach()
     props.detach()
     for cls in reversed(_classes()):

@@ -6,9 +6,12 @@ from .bake.props import RISORIUS_PG_bake
 from .emotion.props import RISORIUS_PG_emotion
 from .face.props import RISORIUS_PG_face
 from .film.props import RISORIUS_PG_film
+from .muscles.props import RISORIUS_PG_muscle_list, RISORIUS_PG_muscles
 from .parts.props import RISORIUS_PG_parts
 from .points.props import RISORIUS_PG_points
 from .preview.props import RISORIUS_PG_preview
+from .timeline.props import RISORIUS_PG_timeline
+from .tissue.props import RISORIUS_PG_tissue
 
 
 class RISORIUS_PG_object(bpy.types.PropertyGroup):
@@ -16,6 +19,9 @@ class RISORIUS_PG_object(bpy.types.PropertyGroup):
 
     face: bpy.props.PointerProperty(type=RISORIUS_PG_face)  # type: ignore[valid-type]
     emotion: bpy.props.PointerProperty(type=RISORIUS_PG_emotion)  # type: ignore[valid-type]
+    timeline: bpy.props.PointerProperty(type=RISORIUS_PG_timeline)  # type: ignore[valid-type]
+    muscles: bpy.props.PointerProperty(type=RISORIUS_PG_muscles)  # type: ignore[valid-type]
+    tissue: bpy.props.PointerProperty(type=RISORIUS_PG_tissue)  # type: ignore[valid-type]
     bake: bpy.props.PointerProperty(type=RISORIUS_PG_bake)  # type: ignore[valid-type]
 
 
@@ -30,6 +36,7 @@ class RISORIUS_PG_window(bpy.types.PropertyGroup):
 
     points: bpy.props.PointerProperty(type=RISORIUS_PG_points)  # type: ignore[valid-type]
     parts: bpy.props.PointerProperty(type=RISORIUS_PG_parts)  # type: ignore[valid-type]
+    muscles: bpy.props.PointerProperty(type=RISORIUS_PG_muscle_list)  # type: ignore[valid-type]
     preview: bpy.props.PointerProperty(type=RISORIUS_PG_preview)  # type: ignore[valid-type]
 
 

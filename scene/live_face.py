@@ -37,7 +37,10 @@ def print_of(target: Target) -> str:
 
 
 class LiveFace:
-    """A face that shows itself on its own objects without changing them; see `preview`."""
+    """A face that shows itself on its own objects without changing them; see `preview`.
+
+    `contractions` are those of the last sketch or pose.
+    """
 
     def __init__(self, target: Target) -> None:
         """Read the face.
@@ -50,6 +53,7 @@ class LiveFace:
         self._source = target.source()
         self._face = face_of(self._source)
         self._sketcher = self._face.sketcher()
+        self.contractions: Mapping[str, float] = {}
 
     def is_of(self, target: Target) -> bool:
         """Whether the face is still as it was read."""
@@ -70,6 +74,7 @@ class LiveFace:
     ) -> Floats:
         """(V, 3) displacement for one frame of FAPs, metres, nearly in balance; see `Face.sketcher`."""
         sketched = self._sketcher.sketch(frame, drive=drive, emotion=emotion, contractions=contractions)
+        self.contractions = sketched.contractions
         moved: Floats = sketched.positions - self._source.vertices
         return moved
 
@@ -83,6 +88,7 @@ class LiveFace:
     ) -> Floats:
         """(V, 3) displacement in balance, as a bake writes it."""
         posed = self._face.pose(frame, drive=drive, emotion=emotion, contractions=contractions)
+        self.contractions = posed.contractions
         moved: Floats = posed.positions - self._source.vertices
         return moved
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...arrays import Floats
+from ..muscles.props import by_hand_of
 from .props import DEFAULT_VARIANT
 
 if TYPE_CHECKING:
@@ -32,11 +33,12 @@ class Wanted:
     contractions: Mapping[str, float] = field(default_factory=dict)
 
 
-def wanted_of(obj: Any) -> Wanted:
-    """What is chosen for `obj` now."""
-    emotion = obj.risorius.emotion
-    profile = profile_of(emotion)
-    return Wanted(profile, frame_of(profile, emotion.seed), emotion.drive)
+def wanted_of(obj: Any, emotion: Any | None = None) -> Wanted:
+    """What is chosen for `obj` now, or an emotion (of a clip) shown as all that is chosen for `obj` besides it."""
+    chosen = obj.risorius.emotion
+    shown = chosen if emotion is None else emotion
+    profile = profile_of(shown)
+    return Wanted(profile, frame_of(profile, shown.seed), chosen.drive, by_hand_of(obj))
 
 
 def profile_of(emotion: Any) -> Profile:

@@ -19,9 +19,10 @@ from ...scene import preview, shape_keys
 from ...scene.live_face import LiveFace, uid_of
 from ...scene.progress import Progress, Work
 from ..active import face_reason, target_of
-from ..changes import listen, unlisten
+from ..changes import listen, listen_to_time, unlisten
 from ..emotion.performance import performance_of
 from ..emotion.profile import Wanted, wanted_of
+from ..muscles.props import shown
 
 #: Seconds without a change after which the face is shown in balance, and between two shares of long work.
 REST, PAUSE = 0.3, 0.01
@@ -163,6 +164,7 @@ def show(obj: Any, face: LiveFace | None = None, *, exact: bool = False) -> None
     """
     ready = face if face is not None else _face_of(obj)
     ready.show(target_of(obj), _moved(ready, wanted_of(obj), exact=exact))
+    shown[uid_of(obj)] = ready.contractions
     _live.trouble = ""
 
 
@@ -221,14 +223,27 @@ def _after_frame(scene: Any, *_: Any) -> None:
         obj = object_of(uid)
         if obj is None or _live.work is not None:
             continue
-        try:
-            if shape_keys.has_own(obj) or face_reason(obj) is not None or not face.is_of(target_of(obj)):
-                rest(obj)
-            else:
-                play(obj, face, scene)
-        except RisoriusError as refusal:
-            _live.trouble = str(refusal)
+        _play_or_rest(obj, face, scene)
+
+
+def _play_or_rest(obj: Any, face: LiveFace, scene: Any) -> None:
+    """Show `obj` as it is laid out, or as it is where that is baked or cannot be shown."""
+    try:
+        if shape_keys.has_own(obj) or face_reason(obj) is not None or not face.is_of(target_of(obj)):
             rest(obj)
+        else:
+            play(obj, face, scene)
+    except RisoriusError as refusal:
+        _live.trouble = str(refusal)
+        rest(obj)
+
+
+def replay(obj: Any) -> None:
+    """Show the scene's frame again: something on the timeline of `obj` has moved."""
+    face = _live.faces.get(uid_of(obj))
+    if is_on() and face is not None and _live.work is None:
+        _live.asked = _live.rough = None
+        _play_or_rest(obj, face, bpy.context.scene)
 
 
 def _before_save(*_: Any) -> None:
@@ -272,6 +287,7 @@ def _handlers() -> tuple[tuple[Any, Any], ...]:
 def attach() -> None:
     """Begin to listen; a Blender without a window shows no preview."""
     listen(ask)
+    listen_to_time(replay)
     if not bpy.app.background:
         for event, action in _handlers():
             event.append(persistent(action))
@@ -280,6 +296,7 @@ def attach() -> None:
 def detach() -> None:
     """Listen no more, and clear up."""
     unlisten(ask)
+    unlisten(replay)
     for event, action in _handlers():
         if action in event:
             event.remove(action)

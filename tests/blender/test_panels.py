@@ -9,6 +9,7 @@ import bpy
 import pytest
 from risorius import operators
 from risorius.operators import requirements
+from risorius.operators.sidebar import Sidebar
 
 pytestmark = pytest.mark.smoke
 
@@ -43,6 +44,10 @@ class Spy:
         assert index in active.bl_rna.properties
         self.seen.append(("list", name))
 
+    def menu(self, name: str, **options: Any) -> None:
+        assert hasattr(bpy.types, name)
+        self.seen.append(("menu", name))
+
     def operator(self, name: str, **options: Any) -> Any:
         assert name.partition(".")[2] in dir(bpy.ops.risorius)
         self.seen.append(("operator", name))
@@ -54,8 +59,8 @@ def drawn() -> dict[str, list[tuple[str, str]]]:
     context = bpy.context
     shown = {}
     for cls in operators._classes():
-        if not issubclass(cls, bpy.types.Panel):
-            continue
+        if not issubclass(cls, bpy.types.Panel) or not issubclass(cls, Sidebar):
+            continue  # Blender itself draws the popovers of presets
         if not getattr(cls, "poll", lambda _: True)(context):
             continue
         spy = Spy()
@@ -82,12 +87,12 @@ def test_a_mesh_without_points_is_told_what_it_needs(cube: Any) -> None:
 
 def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     shown = drawn()
-    order = ("main", "face", "parts", "points", "emotion", "bake", "film")
+    order = ("main", "face", "parts", "points", "emotion", "muscles", "tissue", "timeline", "bake", "film")
     assert list(shown) == [f"RISORIUS_PT_{name}" for name in order]
     assert ("label", head.name) in shown["RISORIUS_PT_main"]
     assert [entry for entry in shown["RISORIUS_PT_emotion"] if entry[0] == "prop"][:4] == [
-            ("prop", "show"),
-            ("prop", "by"),
+        ("prop", "show"),
+        ("prop", "by"),
         ("prop", "word"),
         ("prop", "activation"),
     ]

@@ -1,0 +1,99 @@
+"""The panel of muscles: a slider each."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..active import face_reason
+from ..requirements import has_scipy
+from ..sidebar import Sidebar
+from .ops import RISORIUS_OT_reset_muscles
+from .props import by_hand_of, list_muscles_soon
+
+#: Rows of the list; a muscle that does less than this does nothing.
+ROWS, BUSY = 8, 0.005
+
+
+class RISORIUS_UL_muscles(bpy.types.UIList):
+    """Muscles of the active face: how far each is contracted, and whether by hand."""
+
+    def draw_item(
+        self, context: Any, layout: Any, data: Any, item: Any, icon: int, active_data: Any, active_property: str
+    ) -> None:
+        """One muscle."""
+        by_hand = item.name in by_hand_of(context.object)
+        row = layout.row(align=True)
+        row.prop(item, "contraction", text=label(item.name, context.object.risorius.muscles.linked), slider=True)
+        back = row.row(align=True)
+        back.enabled = by_hand
+        icon_name = "LOOP_BACK" if by_hand else "BLANK1"
+        back.operator(RISORIUS_OT_reset_muscles.bl_idname, text="", icon=icon_name, emboss=False).muscle = item.name
+
+    def filter_items(self, context: Any, data: Any, property: str) -> tuple[list[int], list[int]]:
+        """What is asked for; one of each pair where the sides are linked."""
+        from ...face.contractible import contractibles
+
+        linked, wanted = context.object.risorius.muscles.linked, self.filter_name.casefold()
+        by_hand = by_hand_of(context.object)
+        flags = []
+        for item in getattr(data, property):
+            entry = contractibles()[item.name]
+            shown = not (linked and item.name.endswith("_r") and item.name != entry.mirror)
+            if data.busy_only and item.contraction < BUSY and item.name not in by_hand:
+                shown = False
+            words = f"{item.name} {entry.title} {entry.group} AU{entry.action_unit}".casefold()
+            flags.append(self.bitflag_filter_item if shown and wanted in words else 0)
+        return flags, []
+
+
+def label(name: str, linked: bool) -> str:
+    """A muscle's name for people."""
+    base, side = (name[:-2], name[-2:]) if name[-2:] in ("_l", "_r") else (name, "")
+    words = base.replace("_", " ").capitalize()
+    return words if linked or not side else f"{words} {side[1].upper()}"
+
+
+class RISORIUS_PT_muscles(Sidebar, bpy.types.Panel):
+    """Which muscles make the face, and how far."""
+
+    bl_label = "Muscles"
+    bl_parent_id = "RISORIUS_PT_main"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Only for meshes."""
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context: Any) -> None:
+        """The list, the marked muscle in words, and the way back."""
+        layout, obj = self.layout, context.object
+        reason = face_reason(obj)
+        if reason is not None or not has_scipy():
+            layout.label(text="Needs a face with feature points", icon="INFO")
+            return
+        from ...face.contractible import contractibles
+
+        state = context.window_manager.risorius.muscles
+        if len(state.names) != len(contractibles()):
+            list_muscles_soon()
+            return
+        row = layout.row(align=True)
+        row.prop(obj.risorius.muscles, "linked", icon="MOD_MIRROR", toggle=True)
+        row.prop(state, "busy_only", text="", icon="FILTER", toggle=True)
+        layout.template_list("RISORIUS_UL_muscles", "", state, "names", state, "active", rows=ROWS)
+        if state.active < len(state.names):
+            entry = contractibles()[state.names[state.active].name]
+            unit = f" (AU {entry.action_unit})" if entry.action_unit else ""
+            layout.label(text=f"{entry.title[0].upper()}{entry.title[1:]}{unit}")
+        count = len(by_hand_of(obj))
+        layout.operator(
+            RISORIUS_OT_reset_muscles.bl_idname,
+            text=f"Reset {count} Set by Hand" if count else "Reset All",
+            icon="LOOP_BACK",
+        ).muscle = ""
+
+
+CLASSES = (RISORIUS_UL_muscles, RISORIUS_PT_muscles)

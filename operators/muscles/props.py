@@ -1,0 +1,130 @@
+"""Contractions set by hand, kept with the object; and the list that shows and sets them, kept with the window."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import bpy
+
+from ..changes import changed
+from ..names import fill_soon
+
+#: Contractions that the faces show now, as the preview has found them: object's name in the session -> muscle -> 0..1.
+shown: dict[int, Mapping[str, float]] = {}
+
+
+class RISORIUS_PG_by_hand(bpy.types.PropertyGroup):
+    """One contraction set by hand; its name is the muscle's."""
+
+    contraction: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Contraction", description="From 0 (slack) to 1 (as far as the muscle goes)", min=0.0, max=1.0
+    )
+
+
+class RISORIUS_PG_muscles(bpy.types.PropertyGroup):
+    """What is set by hand on one face."""
+
+    by_hand: bpy.props.CollectionProperty(  # type: ignore[valid-type]
+        type=RISORIUS_PG_by_hand,
+        name="By Hand",
+        description="Contractions set by hand; they stay when the emotion changes",
+    )
+    linked: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Link Sides", description="Both sides of the face contract alike", default=True
+    )
+
+
+def by_hand_of(obj: Any) -> dict[str, float]:
+    """Muscle name -> contraction that is set by hand on `obj`."""
+    return {str(entry.name): float(entry.contraction) for entry in obj.risorius.muscles.by_hand}
+
+
+def set_by_hand(obj: Any, name: str, value: float | None) -> None:
+    """Set the contraction of a muscle, or leave it to the emotion again (None); with its twin where sides are linked.
+
+    Raises
+    ------
+    ParameterError : there is no such muscle.
+    """
+    from ...errors import ParameterError
+    from ...face.contractible import contractibles
+
+    muscles, known = obj.risorius.muscles, contractibles()
+    if name not in known:
+        raise ParameterError("muscle", f"must be one of {', '.join(known)}", name)
+    for each in dict.fromkeys((name, known[name].mirror) if muscles.linked else (name,)):
+        index = muscles.by_hand.find(each)
+        if value is None:
+            if index >= 0:
+                muscles.by_hand.remove(index)
+            continue
+        entry = muscles.by_hand[index] if index >= 0 else muscles.by_hand.add()
+        entry.name, entry.contraction = each, value
+
+
+def _get(item: Any) -> float:
+    """What the active face does with this muscle."""
+    obj = bpy.context.object
+    if obj is None:
+        return 0.0
+    index = obj.risorius.muscles.by_hand.find(item.name)
+    if index >= 0:
+        return float(obj.risorius.muscles.by_hand[index].contraction)
+    return float(shown.get(obj.session_uid, {}).get(item.name, 0.0))
+
+
+def _set(item: Any, value: float) -> None:
+    """A slider was moved: from now on the contraction is the user's."""
+    obj = bpy.context.object
+    if obj is not None:
+        set_by_hand(obj, item.name, value)
+        changed(obj.risorius.muscles, bpy.context)
+
+
+class RISORIUS_PG_muscle_name(bpy.types.PropertyGroup):
+    """A muscle in the list, and its slider on the active face; nothing is stored in it."""
+
+    contraction: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Contraction",
+        description="How far this muscle is contracted, 0 to 1. Moving the slider sets it by hand: it then stays when "
+        "the emotion changes, until you reset it",
+        min=0.0,
+        max=1.0,
+        get=_get,
+        set=_set,
+    )
+
+
+class RISORIUS_PG_muscle_list(bpy.types.PropertyGroup):
+    """How the list of muscles is shown."""
+
+    names: bpy.props.CollectionProperty(  # type: ignore[valid-type]
+        type=RISORIUS_PG_muscle_name, name="Muscles", description="All muscles, lids and the jaw"
+    )
+    active: bpy.props.IntProperty(name="Muscle", description="The marked muscle", default=0, min=0)  # type: ignore[valid-type]
+    busy_only: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Contracted Only", description="List only muscles that do something now, or are set by hand"
+    )
+
+
+def list_muscles() -> None:
+    """Fill the list; after a file was opened the window's properties are empty."""
+    if not hasattr(bpy.types.WindowManager, "risorius"):
+        return
+    from ...face.contractible import contractibles
+
+    for manager in bpy.data.window_managers:
+        names = manager.risorius.muscles.names
+        if len(names) != len(contractibles()):
+            names.clear()
+            for name in contractibles():
+                names.add().name = name
+
+
+def list_muscles_soon() -> None:
+    """Fill the list after drawing, where nothing may be written."""
+    fill_soon(list_muscles)
+
+
+CLASSES = (RISORIUS_PG_by_hand, RISORIUS_PG_muscles, RISORIUS_PG_muscle_name, RISORIUS_PG_muscle_list)

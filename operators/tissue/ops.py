@@ -1,0 +1,25 @@
+"""Saving the figures of a tissue as one of Blender's presets."""
+
+from __future__ import annotations
+
+import bpy
+from bl_operators.presets import AddPresetBase
+
+from .props import FIGURES
+
+FOLDER = "risorius/tissue"
+
+
+class RISORIUS_OT_add_tissue_preset(AddPresetBase, bpy.types.Operator):
+    """Save these figures as a preset, or remove the chosen preset"""
+
+    bl_idname = "risorius.add_tissue_preset"
+    bl_label = "Add Tissue Preset"
+
+    preset_menu = "RISORIUS_PT_tissue_presets"
+    preset_subdir = FOLDER
+    preset_defines = ["tissue = bpy.context.object.risorius.tissue"]
+    preset_values = [f"tissue.{name}" for name in FIGURES]
+
+
+CLASSES = (RISORIUS_OT_add_tissue_preset,)

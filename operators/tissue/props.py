@@ -1,0 +1,150 @@
+"""The tissue chosen for a face: a bundled one by name, or figures of its own."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ..changes import changed
+
+if TYPE_CHECKING:
+    from ...physics.tissue import Tissue
+
+OWN = "OWN"
+FIRST = "default"
+#: The bundled tissues as they stand in their table: registration must not need SciPy, which `physics` does.
+_TABLE = Path(__file__).resolve().parents[2] / "presets" / "tissue.toml"
+_TISSUES: dict[str, dict[str, Any]] = tomllib.loads(_TABLE.read_text(encoding="utf-8"))["tissues"]
+_DEFAULT = _TISSUES[FIRST]
+_loading = False
+
+#: Blender wants a dynamic enum's strings to be held somewhere; here they never change.
+_ITEMS = [
+    (name, name.capitalize(), figures["description"], number) for number, (name, figures) in enumerate(_TISSUES.items())
+]
+
+
+def _chosen(owner: Any, context: Any) -> None:
+    """A bundled tissue brings its figures."""
+    global _loading
+    if owner.kind != OWN:
+        _loading = True
+        try:
+            for name in FIGURES:
+                setattr(owner, name, _TISSUES[owner.kind][name])
+        finally:
+            _loading = False
+    changed(owner, context)
+
+
+def _edited(owner: Any, context: Any) -> None:
+    """A figure that was changed makes the tissue one's own."""
+    if not _loading and owner.kind != OWN:
+        owner.kind = OWN
+
+
+def _figure(name: str, title: str, description: str, *, least: float, most: float, precision: int = 2) -> Any:
+    """A figure of the tissue, in SI units."""
+    return bpy.props.FloatProperty(
+        name=title,
+        description=description,
+        default=_DEFAULT[name],
+        min=least,
+        soft_max=most,
+        precision=precision,
+        update=_edited,
+    )
+
+
+class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
+    """Tissue of one face. It shapes how the skin moves (Bake Motion); an expression that is held stays the same."""
+
+    kind: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Tissue",
+        description="What the skin is made of: how it swings and comes to rest in a baked motion",
+        items=[*_ITEMS, (OWN, "Own", "Figures of your own, below; save them as a preset above", len(_ITEMS))],
+        default=FIRST,
+        update=_chosen,
+    )
+    youngs_modulus: _figure(  # type: ignore[valid-type]
+        "youngs_modulus", "Stiffness (Pa)", "Young's modulus of the skin at low strain, pascals", least=1.0, most=1e5
+    )
+    thickness: _figure(  # type: ignore[valid-type]
+        "thickness",
+        "Thickness (m)",
+        "Thickness of the sheet that carries tension, metres",
+        least=1e-5,
+        most=0.01,
+        precision=5,
+    )
+    depth: _figure(  # type: ignore[valid-type]
+        "depth",
+        "Depth (m)",
+        "Depth of soft tissue that moves with the skin, metres",
+        least=1e-4,
+        most=0.05,
+        precision=4,
+    )
+    density: _figure("density", "Density (kg/m³)", "Density of that tissue", least=1.0, most=3000.0)  # type: ignore[valid-type]
+    stiffening: _figure(  # type: ignore[valid-type]
+        "stiffening", "Stiffening", "How many times stiffer the skin gets beyond the threshold", least=1.0, most=20.0
+    )
+    threshold: _figure(  # type: ignore[valid-type]
+        "threshold", "Threshold", "Strain beyond which the skin stiffens", least=0.001, most=1.0, precision=3
+    )
+    bending_length: _figure(  # type: ignore[valid-type]
+        "bending_length",
+        "Bending Length (m)",
+        "Length below which the skin smooths what moves it, metres",
+        least=0.0,
+        most=0.05,
+        precision=4,
+    )
+    anchor_length: _figure(  # type: ignore[valid-type]
+        "anchor_length",
+        "Anchor Length (m)",
+        "Length over which a pull dies away along the skin, metres",
+        least=1e-3,
+        most=0.05,
+        precision=4,
+    )
+    damping_ratio: _figure(  # type: ignore[valid-type]
+        "damping_ratio", "Damping", "Damping where skin is firmly held; 1 is critical: no swinging", least=0.0, most=3.0
+    )
+    loose_depth: _figure(  # type: ignore[valid-type]
+        "loose_depth",
+        "Loose Depth (m)",
+        "Depth of the soft tissue that moves with cheek and jowl, metres",
+        least=1e-4,
+        most=0.06,
+        precision=4,
+    )
+    loose_damping_ratio: _figure(  # type: ignore[valid-type]
+        "loose_damping_ratio", "Loose Damping", "Damping in cheek and jowl; below 1 they swing", least=0.0, most=3.0
+    )
+    jaw_frequency: _figure(  # type: ignore[valid-type]
+        "jaw_frequency", "Jaw (Hz)", "Frequency of the mandible in its muscles", least=0.5, most=20.0
+    )
+    jaw_damping_ratio: _figure(  # type: ignore[valid-type]
+        "jaw_damping_ratio", "Jaw Damping", "Damping of the mandible; 1 is critical", least=0.0, most=3.0
+    )
+
+
+#: Names of the figures, as `physics.tissue.Tissue` has them.
+FIGURES = tuple(name for name in RISORIUS_PG_tissue.__annotations__ if name != "kind")
+
+
+def tissue_of(obj: Any) -> str | Tissue:
+    """What the skin of `obj` is made of: a bundled tissue's name, or figures."""
+    from ...physics.tissue import Tissue
+
+    chosen = obj.risorius.tissue
+    if chosen.kind != OWN:
+        return str(chosen.kind)
+    return Tissue(**{name: float(getattr(chosen, name)) for name in FIGURES})
+
+
+CLASSES = (RISORIUS_PG_tissue,)
