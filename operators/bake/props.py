@@ -9,10 +9,10 @@ from ...mpeg4.timing import load_timings
 _TIMING = load_timings()["natural"]
 
 
-def _seconds(name: str, description: str, default: float) -> Any:
+def seconds(name: str, description: str, default: float, **options: Any) -> Any:
     """A duration."""
     return bpy.props.FloatProperty(
-        name=name, description=description, default=default, min=0.0, soft_max=10.0, step=5, precision=2
+        name=name, description=description, default=default, min=0.0, soft_max=10.0, step=5, precision=2, **options
     )
 
 
@@ -27,9 +27,9 @@ class RISORIUS_PG_bake(bpy.types.PropertyGroup):
     start: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Start Frame", description="Frame at which the expression begins to show", default=1
     )
-    onset: _seconds("Onset (s)", "Seconds until the expression is full", _TIMING.onset)  # type: ignore[valid-type]
-    apex: _seconds("Apex (s)", "Seconds that the expression is held", _TIMING.apex)  # type: ignore[valid-type]
-    offset: _seconds("Offset (s)", "Seconds until the face is at rest again", _TIMING.offset)  # type: ignore[valid-type]
+    onset: seconds("Onset (s)", "Seconds until the expression is full", _TIMING.onset)  # type: ignore[valid-type]
+    apex: seconds("Apex (s)", "Seconds that the expression is held", _TIMING.apex)  # type: ignore[valid-type]
+    offset: seconds("Offset (s)", "Seconds until the face is at rest again", _TIMING.offset)  # type: ignore[valid-type]
     creases: bpy.props.BoolProperty(  # type: ignore[valid-type]
         name="Creases",
         description="With the next bake, mark on the mesh where squeezed skin wrinkles, and add a modifier that "

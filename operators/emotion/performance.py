@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...arrays import Floats
+from ...mpeg4.timing import Cue, Ramp
 from ...scene.bake import scene_fps
-from .profile import Wanted, wanted_of
-
-if TYPE_CHECKING:
-    from ...api import Cue
+from ..timeline.props import sounding
+from .profile import Wanted, profile_of, wanted_of
 
 
 @dataclass(frozen=True)
@@ -39,9 +38,23 @@ class Performance:
 
 
 def performance_of(obj: Any, scene: Any) -> Performance:
-    """What is laid out for `obj`: the chosen emotion with its timing."""
-    from ... import api
+    """What is laid out for `obj`: the clips of its timeline, or without any the chosen emotion with its timing."""
+    timeline, fps = obj.risorius.timeline, scene_fps(scene)
+    if not timeline.clips:
+        timing = obj.risorius.bake
+        return Performance(float(timing.start), fps, (_cue(timing, obj.risorius.emotion, fps),), (wanted_of(obj),))
+    clips = sounding(timeline)
+    first = min((clip.start for clip in clips), default=0)
+    cues = tuple(
+        _cue(clip, clip.emotion, fps, start=(clip.start - first) / fps, peak=clip.peak, ramp=Ramp(clip.ramp))
+        for clip in clips
+    )
+    return Performance(float(first), fps, cues, tuple(wanted_of(obj, clip.emotion) for clip in clips))
 
-    timing, wanted, fps = obj.risorius.bake, wanted_of(obj), scene_fps(scene)
-    cue = api.Cue(wanted.profile, onset=timing.onset, apex=timing.apex, offset=max(timing.offset, 1.0 / fps))
-    return Performance(float(timing.start), fps, (cue,), (wanted,))
+
+def _cue(timing: Any, emotion: Any, fps: float, **options: Any) -> Cue:
+    """An emotion with its times; it takes a frame at least to go."""
+    # Blender keeps single precision: 1.2 s would come out a little longer, and the motion a frame.
+    onset, apex, offset = (round(getattr(timing, name), 6) for name in ("onset", "apex", "offset"))
+    seed = emotion.seed or None
+    return Cue(profile_of(emotion), onset=onset, apex=apex, offset=max(offset, 1.0 / fps), seed=seed, **options)

@@ -1,0 +1,1 @@
+"""The timeline: a list of expressions, each with its own time."""

@@ -1,0 +1,250 @@
+"""Operators on the clips of a timeline."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...mpeg4.timing import load_timings
+from ..active import face_reason
+from ..base import RisoriusOperator
+from ..changes import retimed
+from ..emotion.profile import title_of
+from .linked import copy_choice
+from .props import active_clip
+
+#: What of a clip a timing preset says.
+TIMES = ("onset", "apex", "offset", "peak", "ramp")
+
+
+def clip_title(clip: Any) -> str:
+    """The name the user gave, or the emotion's."""
+    return str(clip.name).strip() or title_of(clip.emotion)
+
+
+def copy_clip(source: Any, target: Any) -> None:
+    """Copy a clip, all but its name."""
+    copy_choice(source.emotion, target.emotion)
+    for name in (*TIMES, "start", "mute", "solo"):
+        setattr(target, name, getattr(source, name))
+
+
+def end_of(clip: Any, fps: float) -> int:
+    """The first frame at which a clip is over."""
+    return int(clip.start + round((clip.onset + clip.apex + clip.offset) * fps))
+
+
+class _ClipOperator(RisoriusOperator):
+    """What the operators on the active clip share."""
+
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where a clip is selected."""
+        if context.object is None:
+            return "There is no active object"
+        if active_clip(context.object.risorius.timeline) is None:
+            return "There is no clip yet: add one with +"
+        return None
+
+
+class RISORIUS_OT_add_clip(RisoriusOperator, bpy.types.Operator):
+    """Add what the Emotion panel shows as a clip that begins at the current frame"""
+
+    bl_idname = "risorius.add_clip"
+    bl_label = "Add Clip"
+    bl_options = {"REGISTER", "UNDO"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only on a face."""
+        return face_reason(context.object)
+
+    def run(self, context: Any) -> str:
+        """Add it, with the times of the clip that was selected."""
+        obj = context.object
+        timeline = obj.risorius.timeline
+        before = timeline.active if timeline.clips else None
+        clip = timeline.clips.add()
+        copy_choice(obj.risorius.emotion, clip.emotion)
+        if before is not None:
+            for name in TIMES:
+                setattr(clip, name, getattr(timeline.clips[before], name))
+        clip.start = context.scene.frame_current
+        timeline.active = len(timeline.clips) - 1
+        return f"Added {clip_title(clip)} at frame {clip.start}"
+
+
+class RISORIUS_OT_duplicate_clip(_ClipOperator, bpy.types.Operator):
+    """Add a copy of the selected clip that begins where it ends"""
+
+    bl_idname = "risorius.duplicate_clip"
+    bl_label = "Duplicate Clip"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def run(self, context: Any) -> str:
+        """Copy it."""
+        from ...scene.bake import scene_fps
+
+        timeline = context.object.risorius.timeline
+        place = timeline.active
+        timeline.clips.add()
+        source, clip = timeline.clips[place], timeline.clips[len(timeline.clips) - 1]
+        copy_clip(source, clip)
+        clip.name, clip.start = source.name, end_of(source, scene_fps(context.scene))
+        timeline.clips.move(len(timeline.clips) - 1, place + 1)
+        timeline.active = place + 1
+        return f"Duplicated {clip_title(timeline.clips[place + 1])}"
+
+
+class RISORIUS_OT_remove_clip(_ClipOperator, bpy.types.Operator):
+    """Remove the selected clip from the timeline. What has been baked stays until the next bake"""
+
+    bl_idname = "risorius.remove_clip"
+    bl_label = "Remove Clip"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def run(self, context: Any) -> str:
+        """Remove it; the one after it, or the last, is selected then."""
+        timeline = context.object.risorius.timeline
+        place = timeline.active
+        title = clip_title(timeline.clips[place])
+        timeline.clips.remove(place)
+        timeline.active = max(0, min(place, len(timeline.clips) - 1))
+        retimed(timeline, context)
+        return f"Removed {title}"
+
+
+class RISORIUS_OT_move_clip(_ClipOperator, bpy.types.Operator):
+    """Move the selected clip up or down in the list. Its time stays"""
+
+    bl_idname = "risorius.move_clip"
+    bl_label = "Move Clip"
+    bl_options = {"REGISTER", "UNDO"}
+
+    direction: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Direction",
+        description="Where to in the list",
+        items=(("UP", "Up", "One place up"), ("DOWN", "Down", "One place down")),
+        options={"SKIP_SAVE"},
+    )
+
+    def run(self, context: Any) -> str:
+        """Move it, and keep it selected."""
+        timeline = context.object.risorius.timeline
+        to = timeline.active + (1 if self.direction == "DOWN" else -1)
+        if 0 <= to < len(timeline.clips):
+            timeline.clips.move(timeline.active, to)
+            timeline.active = to
+        return f"{clip_title(timeline.clips[timeline.active])} is number {timeline.active + 1}"
+
+
+class RISORIUS_OT_sort_clips(_ClipOperator, bpy.types.Operator):
+    """Put the clips in the order in which they begin"""
+
+    bl_idname = "risorius.sort_clips"
+    bl_label = "Sort by Start"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def run(self, context: Any) -> str:
+        """Sort them; the selected one stays selected."""
+        timeline = context.object.risorius.timeline
+        for place in range(len(timeline.clips)):
+            first = min(range(place, len(timeline.clips)), key=lambda k: timeline.clips[k].start)
+            if first != place:
+                timeline.clips.move(first, place)
+                active = timeline.active
+                if active == first:
+                    timeline.active = place
+                elif place <= active < first:
+                    timeline.active = active + 1
+        return f"Sorted {len(timeline.clips)} clips"
+
+
+class RISORIUS_OT_clear_clips(_ClipOperator, bpy.types.Operator):
+    """Remove all clips from the timeline. What has been baked stays"""
+
+    bl_idname = "risorius.clear_clips"
+    bl_label = "Remove All Clips"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def run(self, context: Any) -> str:
+        """Remove them."""
+        timeline = context.object.risorius.timeline
+        count = len(timeline.clips)
+        timeline.clips.clear()
+        timeline.active = 0
+        retimed(timeline, context)
+        return f"Removed {count} clip{'s' * (count != 1)}"
+
+
+class RISORIUS_OT_time_clip(_ClipOperator, bpy.types.Operator):
+    """Give the selected clip the times of a kind of expression"""
+
+    bl_idname = "risorius.time_clip"
+    bl_label = "Timing"
+    bl_options = {"REGISTER", "UNDO"}
+
+    timing: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Timing",
+        description="The kind of expression whose times are taken",
+        items=[(name, name.capitalize(), timing.reason) for name, timing in load_timings().items()],
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def description(cls, context: Any, properties: Any) -> str:
+        """What the preset says of itself, with its times."""
+        timing = load_timings()[properties.timing]
+        times = f"onset {timing.onset:g} s, apex {timing.apex:g} s, offset {timing.offset:g} s"
+        return f"{timing.reason} {times[0].upper()}{times[1:]}, peak {timing.peak:g}"
+
+    def run(self, context: Any) -> str:
+        """Take them."""
+        clip = active_clip(context.object.risorius.timeline)
+        timing = load_timings()[self.timing]
+        for name in TIMES:
+            setattr(clip, name, getattr(timing, name))
+        return f"{clip_title(clip)}: {self.timing}"
+
+
+class RISORIUS_MT_clip_timing(bpy.types.Menu):
+    """Kinds of expressions, by how they go through time"""
+
+    bl_idname = "RISORIUS_MT_clip_timing"
+    bl_label = "Timing"
+
+    def draw(self, context: Any) -> None:
+        """One entry for each."""
+        for name in load_timings():
+            self.layout.operator(RISORIUS_OT_time_clip.bl_idname, text=name.capitalize()).timing = name
+
+
+class RISORIUS_MT_clips(bpy.types.Menu):
+    """More to do with the clips"""
+
+    bl_idname = "RISORIUS_MT_clips"
+    bl_label = "Clips"
+
+    def draw(self, context: Any) -> None:
+        """What concerns all of them."""
+        self.layout.operator(RISORIUS_OT_duplicate_clip.bl_idname, icon="DUPLICATE")
+        self.layout.operator(RISORIUS_OT_sort_clips.bl_idname, icon="SORTTIME")
+        self.layout.separator()
+        self.layout.operator(RISORIUS_OT_clear_clips.bl_idname, icon="TRASH")
+
+
+CLASSES = (
+    RISORIUS_OT_add_clip,
+    RISORIUS_OT_duplicate_clip,
+    RISORIUS_OT_remove_clip,
+    RISORIUS_OT_move_clip,
+    RISORIUS_OT_sort_clips,
+    RISORIUS_OT_clear_clips,
+    RISORIUS_OT_time_clip,
+    RISORIUS_MT_clip_timing,
+    RISORIUS_MT_clips,
+)

@@ -1,0 +1,108 @@
+"""The panel of the timeline: the list of clips, and the times of the selected one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...mpeg4.profile import Archetype
+from ..emotion.profile import profile_of
+from ..sidebar import Sidebar
+from .ops import (
+    RISORIUS_MT_clip_timing,
+    RISORIUS_MT_clips,
+    RISORIUS_OT_add_clip,
+    RISORIUS_OT_duplicate_clip,
+    RISORIUS_OT_move_clip,
+    RISORIUS_OT_remove_clip,
+    clip_title,
+)
+from .props import active_clip
+
+_ICON_OF_ARCHETYPE = {
+    Archetype.JOY: "STRIP_COLOR_03",
+    Archetype.SADNESS: "STRIP_COLOR_05",
+    Archetype.ANGER: "STRIP_COLOR_01",
+    Archetype.FEAR: "STRIP_COLOR_06",
+    Archetype.DISGUST: "STRIP_COLOR_04",
+    Archetype.SURPRISE: "STRIP_COLOR_02",
+}
+
+#: Rows of the list.
+ROWS = 5
+
+
+def emotion_icon(clip: Any) -> str:
+    """A colour for the archetype that a clip's emotion is nearest to; grey for none."""
+    weights = profile_of(clip.emotion).weights
+    return _ICON_OF_ARCHETYPE[max(weights, key=lambda name: weights[name])] if weights else "STRIP_COLOR_09"
+
+
+class RISORIUS_UL_clips(bpy.types.UIList):
+    """Clips of the active face: name, first frame, solo, mute."""
+
+    def draw_item(
+        self, context: Any, layout: Any, data: Any, item: Any, icon: int, active_data: Any, active_property: str
+    ) -> None:
+        """One clip."""
+        silent = (item.mute and not item.solo) or (not item.solo and any(clip.solo for clip in data.clips))
+        split = layout.split(factor=0.6, align=True)
+        split.active = not silent
+        split.label(text=clip_title(item), icon=emotion_icon(item))
+        row = split.row(align=True)
+        row.label(text=str(item.start))
+        row.prop(item, "solo", text="", icon="SOLO_ON" if item.solo else "SOLO_OFF", emboss=False)
+        row.prop(item, "mute", text="", icon="HIDE_ON" if item.mute else "HIDE_OFF", emboss=False)
+
+
+class RISORIUS_PT_timeline(Sidebar, bpy.types.Panel):
+    """Expressions in time."""
+
+    bl_label = "Timeline"
+    bl_parent_id = "RISORIUS_PT_main"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Only for meshes."""
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context: Any) -> None:
+        """The list, then what is selected in it."""
+        layout, timeline = self.layout, context.object.risorius.timeline
+        if not timeline.clips:
+            column = layout.column(align=True)
+            column.scale_y = 1.2
+            column.operator(RISORIUS_OT_add_clip.bl_idname, icon="ADD")
+            hint = layout.column(align=True)
+            hint.label(text="Without clips the emotion above", icon="INFO")
+            hint.label(text="plays from its start frame.", icon="BLANK1")
+            return
+        row = layout.row()
+        row.template_list("RISORIUS_UL_clips", "", timeline, "clips", timeline, "active", rows=ROWS)
+        side = row.column(align=True)
+        side.operator(RISORIUS_OT_add_clip.bl_idname, text="", icon="ADD")
+        side.operator(RISORIUS_OT_remove_clip.bl_idname, text="", icon="REMOVE")
+        side.operator(RISORIUS_OT_duplicate_clip.bl_idname, text="", icon="DUPLICATE")
+        side.menu(RISORIUS_MT_clips.bl_idname, text="", icon="DOWNARROW_HLT")
+        side.operator(RISORIUS_OT_move_clip.bl_idname, text="", icon="TRIA_UP").direction = "UP"
+        side.operator(RISORIUS_OT_move_clip.bl_idname, text="", icon="TRIA_DOWN").direction = "DOWN"
+        self._draw_clip(layout, timeline)
+
+    def _draw_clip(self, layout: Any, timeline: Any) -> None:
+        """Times of the selected clip."""
+        clip = active_clip(timeline)
+        if clip is None:
+            return
+        layout.prop(timeline, "linked", icon="LINKED" if timeline.linked else "UNLINKED", toggle=True)
+        column = layout.column(align=True)
+        column.use_property_split, column.use_property_decorate = True, False
+        column.prop(clip, "name", placeholder=clip_title(clip))
+        column.menu(RISORIUS_MT_clip_timing.bl_idname, icon="PRESET")
+        for name in ("start", "onset", "apex", "offset"):
+            column.prop(clip, name)
+        column.prop(clip, "peak", slider=True)
+        column.prop(clip, "ramp")
+
+
+CLASSES = (RISORIUS_UL_clips, RISORIUS_PT_timeline)

@@ -1,0 +1,94 @@
+"""The clips of a face's timeline: an emotion each, and when it shows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...mpeg4.timing import Ramp, load_timings
+from ..bake.props import seconds
+from ..changes import retimed
+from ..emotion.props import RISORIUS_PG_emotion
+
+_TIMING = load_timings()["natural"]
+
+
+def _chosen(owner: Any, context: Any) -> None:
+    """Another clip is the one being edited."""
+    from .linked import show_clip
+
+    show_clip(owner.id_data)
+
+
+class RISORIUS_PG_clip(bpy.types.PropertyGroup):
+    """One expression in time."""
+
+    name: bpy.props.StringProperty(  # type: ignore[valid-type]
+        name="Name",
+        description="What the clip, its marker and its strip are called. Empty: named after the emotion",
+        update=retimed,
+    )
+    emotion: bpy.props.PointerProperty(type=RISORIUS_PG_emotion)  # type: ignore[valid-type]
+    start: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Start Frame", description="Frame at which the expression begins to show", default=1, update=retimed
+    )
+    onset: seconds("Onset (s)", "Seconds until it is full", _TIMING.onset, update=retimed)  # type: ignore[valid-type]
+    apex: seconds("Apex (s)", "Seconds that it is held", _TIMING.apex, update=retimed)  # type: ignore[valid-type]
+    offset: seconds("Offset (s)", "Seconds until it is gone", _TIMING.offset, update=retimed)  # type: ignore[valid-type]
+    peak: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Peak",
+        description="How much of the expression shows at its apex, from 0 (nothing) to 1 (all of it)",
+        default=_TIMING.peak,
+        min=0.0,
+        max=1.0,
+        update=retimed,
+    )
+    ramp: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Ramp",
+        description="How the expression comes and goes",
+        items=(
+            (Ramp.MINIMUM_JERK.value, "Brisk", "As aimed movements go: still at both ends, quick in between"),
+            (Ramp.COSINE.value, "Gentle", "More evenly, as felt expressions come and go"),
+        ),
+        default=_TIMING.ramp.value,
+        update=retimed,
+    )
+    mute: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Mute", description="Leave this clip out of playback and of bakes", update=retimed
+    )
+    solo: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Solo", description="Play and bake only this clip, and others that are solo too", update=retimed
+    )
+
+
+class RISORIUS_PG_timeline(bpy.types.PropertyGroup):
+    """The clips of one face, and which of them is being edited."""
+
+    clips: bpy.props.CollectionProperty(  # type: ignore[valid-type]
+        type=RISORIUS_PG_clip, name="Clips", description="Expressions in time; where they overlap they blend"
+    )
+    active: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Active Clip", description="The clip that is being edited", default=0, min=0, update=_chosen
+    )
+    linked: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Edit in Emotion Panel",
+        description="The Emotion panel shows the emotion of the selected clip, and what is changed there changes the "
+        "clip. Off: the panel is free to try something out, and clips stay as they are",
+        default=True,
+        update=_chosen,
+    )
+
+
+def active_clip(timeline: Any) -> Any | None:
+    """The clip that is being edited, or None."""
+    return timeline.clips[timeline.active] if timeline.active < len(timeline.clips) else None
+
+
+def sounding(timeline: Any) -> list[Any]:
+    """The clips that play: those that are solo where any is, else those that are not muted."""
+    solo = [clip for clip in timeline.clips if clip.solo]
+    return solo or [clip for clip in timeline.clips if not clip.mute]
+
+
+CLASSES = (RISORIUS_PG_clip, RISORIUS_PG_timeline)
