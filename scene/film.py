@@ -19,9 +19,9 @@ from .studio import Look, render_frame, studio, usable_engine
 
 @dataclass(frozen=True)
 class FilmResult:
-    """A rendered film: the MP4, its number of frames, the PNG folder where kept, and remarks."""
+    """A rendered film: the MP4 where one was asked for, its number of frames, the PNG folder where kept, remarks."""
 
-    path: Path
+    path: Path | None
     frame_count: int
     frames: Path | None = None
     remarks: tuple[str, ...] = ()
@@ -51,7 +51,7 @@ def refuse_unwritable_output(path: Path) -> None:
 
 def render_film(
     objects: Sequence[Any],
-    path: str | Path,
+    path: str | Path | None,
     *,
     start: int,
     end: int,
@@ -63,7 +63,7 @@ def render_film(
     Parameters
     ----------
     objects : the face's objects, the head first.
-    path : the MP4 to write; an older one is replaced only once the new one is complete.
+    path : the MP4 to write; an older one is replaced only once the new one is complete. None: pictures only.
     start, end : first and last frame of the timeline.
     frames : a folder to keep the PNG frames in; by default they are thrown away.
 
@@ -72,21 +72,23 @@ def render_film(
     SceneError : an output that cannot be written, no frames, or an engine that is not there.
     """
     look = look or Look()
-    path = Path(path)
+    film = Path(path) if path is not None else None
+    kept = Path(frames) if frames is not None else None
+    if film is None and kept is None:
+        raise SceneError("Film", "neither a film nor pictures are wanted: choose one of them")
     if end < start:
-        raise SceneError(path.name, f"would have no frames: its end {end} lies before its start {start}")
-    refuse_unwritable_output(path)
-    if frames is not None:
-        refuse_unwritable_output(Path(frames) / "0001.png")
+        raise SceneError("Film", f"would have no frames: its end {end} lies before its start {start}")
+    for output in (film, kept / "0001.png" if kept is not None else None):
+        if output is not None:
+            refuse_unwritable_output(output)
     _, remark = usable_engine(look.engine)
     with tempfile.TemporaryDirectory(prefix="risorius-") as temporary:
-        folder = Path(frames) if frames is not None else Path(temporary)
+        folder = kept if kept is not None else Path(temporary)
         pictures = yield from render_frames(objects, folder, start=start, end=end, look=look)
-        yield Progress(0.95, "Encoding the film")
-        encoded = encode(pictures, Path(temporary) / "film.mp4", look=look)
-        shutil.copyfile(encoded, path)
-    kept = Path(frames) if frames is not None else None
-    return FilmResult(path, len(pictures), kept, (remark,) if remark else ())
+        if film is not None:
+            yield Progress(0.95, "Encoding the film")
+            shutil.copyfile(encode(pictures, Path(temporary) / "film.mp4", look=look), film)
+    return FilmResult(film, len(pictures), kept, (remark,) if remark else ())
 
 
 def render_frames(

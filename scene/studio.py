@@ -34,6 +34,14 @@ class Engine(StrEnum):
     EEVEE = "EEVEE"
     CYCLES = "CYCLES"
 
+
+class Camera(StrEnum):
+    """Who looks: a portrait camera on the face, or the one of the user's scene, with all that is in it."""
+
+    FACE = "FACE"
+    SCENE = "SCENE"
+
+
 #: Stops by which Workbench's studio light is too dark for skin.
 EXPOSURE = 0.45
 
@@ -51,6 +59,7 @@ class Look:
     width, height : pixels.
     yaw : how far the camera stands to the subject's left, radians.
     background : linear RGB.
+    camera : on the face, or the scene's own with its lights, world, objects and view settings.
     fine : for stills: twice the smoothing, and shading that shows every fold. Three times as long without a GPU.
     """
 
@@ -59,6 +68,7 @@ class Look:
     height: int = 512
     yaw: float = 0.17
     background: tuple[float, float, float] = (0.42, 0.45, 0.48)
+    camera: Camera = Camera.FACE
     fine: bool = False
 
     def __post_init__(self) -> None:
@@ -81,7 +91,7 @@ def studio(objects: Sequence[Any], framing: Framing, look: Look) -> Iterator[Any
 
     Raises
     ------
-    SceneError : the engine is not available.
+    SceneError : the engine is not available, or the scene's own camera is wanted and there is none.
     """
     made: list[Any] = []
     scene = bpy.data.scenes.new("Risorius Studio")
@@ -90,9 +100,12 @@ def studio(objects: Sequence[Any], framing: Framing, look: Look) -> Iterator[Any
         scene.unit_settings.scale_length = source.unit_settings.scale_length
         scene.frame_set(source.frame_current)
         scene.render.fps, scene.render.fps_base = source.render.fps, source.render.fps_base
-        for obj in objects:
-            scene.collection.objects.link(obj)
-        made = furnish(scene, framing, look)
+        if look.camera is Camera.SCENE:
+            _borrow(scene, source, look)
+        else:
+            for obj in objects:
+                scene.collection.objects.link(obj)
+            made = furnish(scene, framing, look)
         draws_wrinkles = scene.render.engine != "BLENDER_WORKBENCH"
         with nullcontext() if draws_wrinkles else unmeasured(objects):
             yield scene
@@ -100,6 +113,20 @@ def studio(objects: Sequence[Any], framing: Framing, look: Look) -> Iterator[Any
         bpy.data.scenes.remove(scene)
         for datablock in made:
             _discard(datablock)
+
+
+def _borrow(scene: Any, source: Any, look: Look) -> None:
+    """Show all that the user's scene shows, through its own camera."""
+    if source.camera is None:
+        raise SceneError(source.name, "has no camera: add one (Add > Camera), or choose the camera on the face")
+    for obj in source.collection.objects:
+        scene.collection.objects.link(obj)
+    for collection in source.collection.children:
+        scene.collection.children.link(collection)
+    _settings(scene, look)
+    scene.camera, scene.world = source.camera, source.world
+    for name in ("view_transform", "look", "exposure", "gamma"):
+        setattr(scene.view_settings, name, getattr(source.view_settings, name))
 
 
 def furnish(scene: Any, framing: Framing, look: Look) -> list[Any]:

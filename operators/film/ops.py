@@ -1,4 +1,4 @@
-"""The operator that renders a film."""
+"""Operators that render a film and export a model."""
 
 from __future__ import annotations
 
@@ -8,15 +8,19 @@ from typing import Any
 import bpy
 
 from ...errors import SceneError
-from ...scene import action, film, refusals
-from ...scene.progress import Work
-from ...scene.studio import Engine, Look
-from ..active import target_of
-from ..base import WorkOperator
+from ...scene import action, bake, film, gltf, refusals, shape_keys
+from ...scene.motion import CueMotion
+from ...scene.progress import Work, part_of
+from ...scene.studio import Camera, Engine, Look
+from ..active import face_reason, target_of
+from ..bake.ops import clip_name, creases_wanted
+from ..base import RisoriusOperator, WorkOperator
+from ..emotion.performance import performance_of
+from ..tissue.props import tissue_of
 
 
 class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
-    """Render the face as a film: framed, lit and encoded as MP4. Your own camera, lights and settings stay untouched"""
+    """Render the face as a film; where nothing moves it yet, its timeline is baked first. Your scene stays as it is"""
 
     bl_idname = "risorius.render_film"
     bl_label = "Render Film"
@@ -26,49 +30,119 @@ class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
-        """Only for meshes that can be read."""
-        return refusals.reason(context.object, writing=False)
+        """Only for meshes that can be read, with something to show or to bake."""
+        reason = refusals.reason(context.object, writing=False)
+        return face_reason(context.object) if reason is None and not moves(context.object) else reason
 
     def work(self, context: Any) -> Work[film.FilmResult]:
-        """Render and encode."""
-        chosen = context.scene.risorius.film
-        path = output_path(chosen)
+        """Bake what is laid out where nothing is baked yet, then render and encode."""
+        obj, chosen = context.object, context.scene.risorius.film
+        path = film_path(chosen)
+        rendered_share = 0.0
+        if not moves(obj):
+            rendered_share = 0.3
+            yield from part_of(_bake_first(context), 0.0, rendered_share)
         start, end = frame_range(context)
-        return film.render_film(
-            target_of(context.object).objects(),
-            path,
+        pictures = None if chosen.output == "MP4" else path.with_suffix("")
+        work = film.render_film(
+            target_of(obj).objects(),
+            path if chosen.output != "PNG" else None,
             start=start,
             end=end,
             look=look_of(chosen),
-            frames=path.with_suffix("") if chosen.keep_pictures else None,
+            frames=pictures,
         )
+        return (yield from part_of(work, rendered_share, 1.0))
 
     def finish(self, context: Any, result: film.FilmResult) -> str:
         """Say where it is."""
         for remark in result.remarks:
             self.report({"WARNING"}, remark)
-        return f"Rendered {result.frame_count} frames to {result.path}"
+        where = " and ".join(str(place) for place in (result.path, result.frames) if place is not None)
+        return f"Rendered {result.frame_count} frames to {where}"
+
+
+class RISORIUS_OT_export_gltf(RisoriusOperator, bpy.types.Operator):
+    """Export the face with all its baked clips as glTF: a morph target per shape key, an animation per clip"""
+
+    bl_idname = "risorius.export_gltf"
+    bl_label = "Export glTF"
+    bl_options = {"REGISTER"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where something is baked."""
+        reason = refusals.reason(context.object, writing=False)
+        if reason is None and not shape_keys.has_own(context.object):
+            return "Nothing has been baked on this face yet"
+        return reason
+
+    def run(self, context: Any) -> str:
+        """Export."""
+        path = absolute(context.scene.risorius.film.model, ".glb", keep=(".glb", ".gltf"))
+        exported = gltf.export_gltf(target_of(context.object).objects(), path)
+        return f"Exported {', '.join(exported.clips)} to {exported.path}"
+
+
+def moves(obj: Any) -> bool:
+    """Whether anything moves the face already: a bake, or an animation of the user's."""
+    animated = any(
+        owner is not None and owner.animation_data is not None for owner in (obj, obj.data, obj.data.shape_keys)
+    )
+    return animated or any(modifier.type == "ARMATURE" for modifier in obj.modifiers)
+
+
+def _bake_first(context: Any) -> Work[bake.BakeResult]:
+    """Bake the motion that is laid out on the face."""
+    obj = context.object
+    performance = performance_of(obj, context.scene)
+    hands = [wanted.contractions for wanted in performance.wanted]
+    return bake.bake_motion(
+        target_of(obj),
+        CueMotion(performance.cues, hands, tissue_of(obj)),
+        clip=clip_name(obj, motion=True),
+        start=performance.first_frame,
+        fps=performance.fps,
+        drive=obj.risorius.emotion.drive,
+        creases=creases_wanted(obj),
+    )
 
 
 def look_of(chosen: Any) -> Look:
     """The look chosen; with a window there is a graphics card that affords the fine one."""
-    size = chosen.size // 2 * 2
-    return Look(engine=Engine(chosen.engine), width=size, height=size, fine=not bpy.app.background)
+    width, height = (size // 2 * 2 for size in (chosen.width, chosen.height))
+    return Look(
+        engine=Engine(chosen.engine),
+        width=width,
+        height=height,
+        fine=not bpy.app.background,
+        camera=Camera(chosen.camera),
+    )
 
 
-def output_path(chosen: Any) -> Path:
+def film_path(chosen: Any) -> Path:
     """The film's absolute path, ending in .mp4.
 
     Raises
     ------
-    SceneError : no path, or a path beside a .blend that was never saved.
+    SceneError : no path.
     """
-    if not chosen.path.strip():
-        raise SceneError("Film", "has no file to be written to: choose one")
-    if chosen.path.startswith("//") and not bpy.data.filepath:
-        raise SceneError("Film", f"{chosen.path} lies beside the .blend file: save that first, or choose a full path")
-    path = Path(bpy.path.abspath(chosen.path))
-    return path if path.suffix.lower() == ".mp4" else path.with_name(path.name + ".mp4")
+    return absolute(chosen.path, ".mp4", keep=(".mp4",))
+
+
+def absolute(name: str, suffix: str, *, keep: tuple[str, ...]) -> Path:
+    """An output's absolute path; beside a .blend that was never saved means the home folder.
+
+    Raises
+    ------
+    SceneError : no name.
+    """
+    if not name.strip():
+        raise SceneError("Output", "has no file to be written to: choose one")
+    homeless = name.startswith("//") and not bpy.data.filepath
+    path = Path.home() / name[2:] if homeless else Path(bpy.path.abspath(name))
+    return path if path.suffix.lower() in keep else path.with_name(path.name + suffix)
 
 
 def frame_range(context: Any) -> tuple[int, int]:
@@ -80,4 +154,4 @@ def frame_range(context: Any) -> tuple[int, int]:
     return int(scene.frame_start), int(scene.frame_end)
 
 
-CLASSES = (RISORIUS_OT_render_film,)
+CLASSES = (RISORIUS_OT_render_film, RISORIUS_OT_export_gltf)

@@ -7,13 +7,13 @@ from typing import Any
 import bpy
 
 from ..sidebar import Sidebar
-from .ops import RISORIUS_OT_render_film
+from .ops import RISORIUS_OT_export_gltf, RISORIUS_OT_render_film
 
 
 class RISORIUS_PT_film(Sidebar, bpy.types.Panel):
     """Where to, who draws, how large."""
 
-    bl_label = "Film"
+    bl_label = "Film and Export"
     bl_parent_id = "RISORIUS_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -27,11 +27,17 @@ class RISORIUS_PT_film(Sidebar, bpy.types.Panel):
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         chosen = context.scene.risorius.film
-        for name in ("path", "engine", "size", "frames", "keep_pictures"):
+        for name in ("path", "output", "engine", "camera", "frames"):
             layout.prop(chosen, name)
+        column = layout.column(align=True)
+        column.prop(chosen, "width")
+        column.prop(chosen, "height")
         row = layout.row()
         row.scale_y = 1.3
         row.operator(RISORIUS_OT_render_film.bl_idname, icon="RENDER_ANIMATION")
+        column = layout.column(align=True)
+        column.prop(chosen, "model")
+        column.operator(RISORIUS_OT_export_gltf.bl_idname, icon="EXPORT")
 
 
 CLASSES = (RISORIUS_PT_film,)

@@ -1,4 +1,4 @@
-"""How a film is rendered. Kept with the scene."""
+"""How a film is rendered and a model exported. Kept with the scene."""
 
 import bpy
 
@@ -11,7 +11,8 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
 
     path: bpy.props.StringProperty(  # type: ignore[valid-type]
         name="File",
-        description="The film to write, an MP4",
+        description="The film to write. A name that begins with // lies beside the .blend file, or in your home folder "
+        "where that was never saved",
         default="//risorius.mp4",
         subtype="FILE_PATH",
         options=_RELATIVE,
@@ -26,8 +27,20 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
         ),
         default="WORKBENCH",
     )
-    size: bpy.props.IntProperty(  # type: ignore[valid-type]
-        name="Size", description="Width and height in pixels", default=720, min=64, max=4096, step=2, subtype="PIXEL"
+    width: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Width", description="Width in pixels", default=720, min=64, max=8192, step=2, subtype="PIXEL"
+    )
+    height: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Height", description="Height in pixels", default=720, min=64, max=8192, step=2, subtype="PIXEL"
+    )
+    camera: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Camera",
+        description="Who looks at the face",
+        items=(
+            ("FACE", "On the Face", "A portrait camera with lights of its own; nothing but the face is seen"),
+            ("SCENE", "Scene's Own", "The camera, lights, world and objects of your scene"),
+        ),
+        default="FACE",
     )
     frames: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Frames",
@@ -38,8 +51,23 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
         ),
         default="CLIP",
     )
-    keep_pictures: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Keep Pictures", description="Keep the frames as PNG files too, in a folder named after the film"
+    output: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Output",
+        description="What to write",
+        items=(
+            ("MP4", "MP4", "A film"),
+            ("PNG", "Pictures", "A picture per frame, as PNG files in a folder named after the film"),
+            ("BOTH", "Both", "A film, and a picture per frame"),
+        ),
+        default="MP4",
+    )
+    model: bpy.props.StringProperty(  # type: ignore[valid-type]
+        name="glTF",
+        description="The glTF file to export the face with its clips to: .glb, or .gltf for separate files. A name "
+        "that begins with // lies beside the .blend file, or in your home folder where that was never saved",
+        default="//risorius.glb",
+        subtype="FILE_PATH",
+        options=_RELATIVE,
     )
 
 

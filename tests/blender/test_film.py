@@ -16,7 +16,7 @@ from risorius.scene.contact_sheet import Exhibit, write_sheet
 from risorius.scene.framing import framing_of
 from risorius.scene.lettering import Text, read_picture, write_picture, write_text
 from risorius.scene.progress import run
-from risorius.scene.studio import Engine, Look, usable_engine
+from risorius.scene.studio import Camera, Engine, Look, usable_engine
 
 SMALL = Look(width=96, height=96)
 
@@ -65,9 +65,60 @@ def test_a_film_is_written_and_the_scene_is_as_it_was(nodding: Any, tmp_path: Pa
 def test_the_operator_films_the_clip(nodding: Any, tmp_path: Path) -> None:
     bpy.context.scene.frame_end = 2
     chosen = bpy.context.scene.risorius.film
-    chosen.path, chosen.size = str(tmp_path / "film"), 64
+    chosen.path, chosen.width, chosen.height = str(tmp_path / "film"), 64, 64
     assert bpy.ops.risorius.render_film() == {"FINISHED"}
     assert (tmp_path / "film.mp4").stat().st_size > 0
+
+
+def test_beside_a_file_that_was_never_saved_is_the_home_folder(tmp_path: Path) -> None:
+    from risorius.operators.film.ops import film_path
+
+    chosen = bpy.context.scene.risorius.film
+    chosen.path = "//a film"
+    assert film_path(chosen) == Path.home() / "a film.mp4"
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    assert film_path(bpy.context.scene.risorius.film) == tmp_path / "a film.mp4"
+
+
+def test_pictures_alone_and_both(nodding: Any, tmp_path: Path) -> None:
+    chosen = bpy.context.scene.risorius.film
+    chosen.path, chosen.width, chosen.height = str(tmp_path / "film.mp4"), 96, 64
+    chosen.output, chosen.frames = "PNG", "SCENE"
+    bpy.context.scene.frame_start, bpy.context.scene.frame_end = 3, 4
+    assert bpy.ops.risorius.render_film() == {"FINISHED"}
+    assert not (tmp_path / "film.mp4").exists()
+    assert sorted(path.name for path in (tmp_path / "film").iterdir()) == ["0003.png", "0004.png"]
+    assert read_picture(tmp_path / "film" / "0003.png").shape == (64, 96, 3)
+    chosen.output = "BOTH"
+    assert bpy.ops.risorius.render_film() == {"FINISHED"}
+    assert (tmp_path / "film.mp4").stat().st_size > 0
+
+
+def test_the_scenes_own_camera_shows_the_whole_scene(nodding: Any, tmp_path: Path) -> None:
+    look = Look(width=64, height=64, camera=Camera.SCENE)
+    with pytest.raises(SceneError, match="has no camera"):
+        run(film.render_film([nodding], None, start=1, end=1, look=look, frames=tmp_path))
+    camera = bpy.data.objects.new("Mine", bpy.data.cameras.new("Mine"))
+    camera.location, camera.rotation_euler = (5.0, -1.0, 0.0), (np.pi / 2.0, 0.0, 0.0)
+    bpy.context.collection.objects.link(camera)
+    bpy.context.scene.camera = camera
+    before = counted()
+    run(film.render_film([nodding], None, start=1, end=1, look=look, frames=tmp_path / "away"))
+    empty = read_picture(tmp_path / "away" / "0001.png")
+    bpy.ops.mesh.primitive_cube_add(location=(5.0, 2.0, 0.0))
+    run(film.render_film([nodding], None, start=1, end=1, look=look, frames=tmp_path / "cube"))
+    assert np.abs(read_picture(tmp_path / "cube" / "0001.png") - empty).mean() > 0.02
+    assert {**counted(), "objects": 0, "meshes": 0} == {**before, "objects": 0, "meshes": 0}
+
+
+def test_a_face_that_nothing_moves_is_baked_before_it_is_filmed(head: Any, tmp_path: Path) -> None:
+    chosen = bpy.context.scene.risorius.film
+    chosen.path, chosen.width, chosen.height = str(tmp_path / "film.mp4"), 64, 64
+    head.risorius.bake.onset = head.risorius.bake.apex = head.risorius.bake.offset = 0.1
+    assert bpy.ops.risorius.render_film() == {"FINISHED"}
+    assert shape_keys.has_own(head)
+    movie = bpy.data.movieclips.load(str(tmp_path / "film.mp4"))
+    assert movie.frame_duration == 9
 
 
 @pytest.mark.smoke
@@ -80,8 +131,8 @@ def test_unwritable_output_is_refused_before_rendering(
     for path in (blocked / "film.mp4", tmp_path):
         with pytest.raises(SceneError, match=r"cannot be written .*choose a file"):
             run(film.render_film([head], path, start=1, end=2))
-    bpy.context.scene.risorius.film.path = "//film.mp4"
-    with pytest.raises(RuntimeError, match="save that first"):
+    bpy.context.scene.risorius.film.path = " "
+    with pytest.raises(RuntimeError, match="choose one"):
         bpy.ops.risorius.render_film()
     if os.geteuid() != 0:
         tmp_path.chmod(0o500)
