@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Floats, Ints
-from ..mpeg4 import Cue
+from ..mpeg4 import Cue, Liveliness
 from ..mpeg4.standard import FAP_COUNT
 from ..physics import mesh
 from ..physics.tissue import Tissue
@@ -248,6 +248,7 @@ class Face:
         *,
         drive: str | Drive = Drive.NATURAL,
         contractions: Sequence[Mapping[str, float]] | None = None,
+        liveliness: Liveliness | None = None,
         integrator: str = "implicit",
         substeps: int = 2,
         tissue: str | Tissue = "default",
@@ -255,11 +256,11 @@ class Face:
         """Positions (V, 3) frame by frame of expressions in time (`sequence` gives their frames).
 
         In the natural drive each cue is planned at its apex and the plans are blended, so that an apex that is held is
-        the pose of its profile. `contractions`, one mapping per cue, are set by hand and come and go with it. Other
-        keywords and errors as `simulate`.
+        the pose of its profile. `contractions`, one mapping per cue, are set by hand and come and go with it.
+        `liveliness` adds blinks and small motions of head and eyes. Other keywords and errors as `simulate`.
         """
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
-        return simulation.run(cue_moments(self._poser, cues, fps, checked_drive(drive), contractions))
+        return simulation.run(cue_moments(self._poser, cues, fps, checked_drive(drive), contractions, liveliness))
 
     def simulate(
         self,

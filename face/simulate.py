@@ -9,7 +9,7 @@ between is physics. Folds belong to the shape that the skin has, not to the one 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TypeAlias
 
@@ -17,7 +17,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError, SolverError
-from ..mpeg4 import ARCHETYPES, Cue, sequence, strengths
+from ..mpeg4 import ARCHETYPES, FAP_COUNT, Cue, Liveliness, Overlay, sequence, strengths
 from ..physics.implicit import ImplicitSolver
 from ..physics.rk2 import Rk2Solver
 from ..physics.skin import State
@@ -27,7 +27,7 @@ from .contact import Slack, lip_share
 from .living_skin import living_skin, mandible
 from .mechanisms.jaw import JawMotion
 from .mechanisms.lids import LidMove
-from .natural import Plan, blend
+from .natural import LID_FAPS, Plan, blend
 from .pose import Poser, SkinState
 from .wishes import Drive
 
@@ -206,20 +206,34 @@ def stream_moments(poser: Poser, frames: Floats, drive: Drive, weights: Floats |
 
 
 def cue_moments(
-    poser: Poser, cues: Sequence[Cue], fps: float, drive: Drive, contractions: Sequence[Contractions] | None = None
+    poser: Poser,
+    cues: Sequence[Cue],
+    fps: float,
+    drive: Drive,
+    contractions: Sequence[Contractions] | None = None,
+    liveliness: Liveliness | None = None,
 ) -> Iterator[Moment]:
     """Moments of cues: each cue is planned once at its apex, and the plans are blended by the cues' strengths.
 
     So what a face adds by itself to one expression is not contradicted by FAPs that another cue asks for. Contractions
-    set by hand, one set per cue, come and go with it.
+    set by hand, one set per cue, come and go with it. Blinks and small motions of head and eyes are laid over all that.
     """
     hands = [{} for _ in cues] if contractions is None else contractions
     if len(hands) != len(cues):
         raise ParameterError("contractions", f"must be one set for each of the {len(cues)} cues", len(hands))
     frames = sequence(cues, fps=fps)
     plans = [poser.natural.plan(cue.profile.frame(cue.seed), cue.profile.weights) for cue in cues]
-    for frame, weights in zip(frames, strengths(cues, fps=fps), strict=True):
+    overlay = (liveliness or Liveliness()).over(len(frames), fps)
+    for number, (frame, weights) in enumerate(zip(frames, strengths(cues, fps=fps), strict=True)):
         plan = blend(plans, weights.tolist()) if drive is Drive.NATURAL else None
         shares = (weights / max(1.0, weights.sum())).tolist()
         by_hand = tuple((hand, share) for hand, share in zip(hands, shares, strict=True) if hand and share > 0.0)
-        yield Moment(frame, drive, plan, by_hand)
+        lively = None if plan is None else _laid_over(plan, overlay, number)
+        yield Moment(overlay.upon(frame, number), drive, lively, by_hand)
+
+
+def _laid_over(plan: Plan, overlay: Overlay, number: int) -> Plan:
+    """A plan whose lids close as far as is laid over its frame; eyes and head are no matter of plans."""
+    goal = overlay.upon(plan.goal, number)
+    blinks = np.isin(np.arange(1, FAP_COUNT + 1), LID_FAPS) & (overlay.closure[number] > 0.0)
+    return replace(plan, goal=goal, asked=np.where(blinks, goal, plan.asked))

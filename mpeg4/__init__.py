@@ -4,7 +4,7 @@ standard, high_level, action_units   FAPs, feature points, units, visemes, expre
 archetypes, words, emotion_presets   Tables 2, 4, 5 and 6, and the user's own words
 profile, wheel, intermediate         ranges of FAPs; activation and angle; mixing two emotions
 expressions                          a word, or a point of the wheel, becomes a profile
-timing                               profiles become frames
+timing, variation                    profiles become frames, and look alive
 features, recognition                frames become beliefs
 fap_stream, fap_file                 frames on disk
 """
@@ -58,6 +58,7 @@ from .standard import (
     fap,
 )
 from .timing import Cue, Ramp, Timing, emotion_weights, envelope, load_timings, sequence, strengths
+from .variation import Drawn, Liveliness, Overlay, drawn_within
 from .wheel import ACTIVATION_MAX, ACTIVATION_MIN
 from .words import TABLE_WORDS, Word
 
@@ -90,6 +91,7 @@ __all__ = [
     "AuTerm",
     "Beliefs",
     "Cue",
+    "Drawn",
     "Expression",
     "ExpressionField",
     "Fap",
@@ -97,7 +99,9 @@ __all__ = [
     "FapuDefinition",
     "Feature",
     "FeaturePoint",
+    "Liveliness",
     "Motion",
+    "Overlay",
     "Profile",
     "Ramp",
     "Side",
@@ -110,6 +114,7 @@ __all__ = [
     "archetype",
     "between",
     "default_variant",
+    "drawn_within",
     "emotion_weights",
     "envelope",
     "expand",

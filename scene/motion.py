@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from ..arrays import Floats
 from ..errors import ParameterError
-from ..mpeg4 import Cue, strengths
+from ..mpeg4 import Cue, Liveliness, strengths
 
 if TYPE_CHECKING:
     from ..face.face import Face
@@ -31,12 +31,14 @@ class Motion(Protocol):
 class CueMotion:
     """Expressions in time, each planned at its apex; see `Face.performance`.
 
-    `contractions` are those set by hand, a set per cue; `tissue` a name or figures.
+    `contractions` are those set by hand, a set per cue; `tissue` a name or figures; `liveliness` adds blinks
+    and small motions of head and eyes.
     """
 
     cues: Sequence[Cue]
     contractions: Sequence[Mapping[str, float]] | None = None
     tissue: str | Tissue = "default"
+    liveliness: Liveliness | None = None
 
     def frame_count(self, fps: float) -> int:
         """Frames to the end of the last cue."""
@@ -44,7 +46,14 @@ class CueMotion:
 
     def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
         """The performance."""
-        return face.performance(self.cues, fps, drive=drive, contractions=self.contractions, tissue=self.tissue)
+        return face.performance(
+            self.cues,
+            fps,
+            drive=drive,
+            contractions=self.contractions,
+            tissue=self.tissue,
+            liveliness=self.liveliness,
+        )
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,296 @@
+"""What makes a performance look alive: expressions drawn within their ranges, blinks, small motions of head and eyes.
+
+Everything is drawn from seeds: the same seed gives the same motion at any frame rate, and a longer one begins like a
+shorter one. Figures and their sources stand in presets/variation.toml.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import FormatError, ParameterError
+from .profile import Profile
+from .standard import FAP_COUNT, FAPU, Unit
+from .timing import Ramp
+
+HABITS = Path(__file__).resolve().parent.parent / "presets" / "variation.toml"
+"""The figures that come with Risorius."""
+
+#: FAPs of the lids (upper left and right, lower left and right), the head (pitch, yaw, roll), the eyes (yaw, pitch).
+UPPER_LIDS, LOWER_LIDS = (19, 20), (21, 22)
+HEAD, EYES_ASIDE, EYES_DOWN = (48, 49, 50), (23, 24), (25, 26)
+
+#: Units of IRISD0 that make the neutral gap of the lids.
+GAP = 1024.0
+
+
+@dataclass(frozen=True)
+class BlinkHabit:
+    """How blinks go: per minute, seconds, and shares of the lids' gap; see presets/variation.toml."""
+
+    rate: float
+    interval_spread: float
+    closing: float
+    closed: float
+    opening: float
+    duration_spread: float
+    upper: float
+    lower: float
+
+
+@dataclass(frozen=True)
+class HeadHabit:
+    """How a head moves that is held still: hertz, number of waves an axis, degrees, seconds."""
+
+    slowest: float
+    fastest: float
+    waves: int
+    pitch: float
+    yaw: float
+    roll: float
+    settle: float
+
+
+@dataclass(frozen=True)
+class EyesHabit:
+    """How eyes look about: seconds, degrees."""
+
+    fixation: float
+    fixation_spread: float
+    aside: float
+    vertical: float
+    shift_least: float
+    shift_per_degree: float
+    settle: float
+
+
+@dataclass(frozen=True)
+class Habits:
+    """All of them."""
+
+    blink: BlinkHabit
+    head: HeadHabit
+    eyes: EyesHabit
+
+
+@lru_cache(maxsize=4)
+def load_habits(path: str | Path = HABITS) -> Habits:
+    """Read the figures.
+
+    Raises
+    ------
+    FormatError : names the file, the key and what is wrong.
+    """
+    file = Path(path)
+    try:
+        document = tomllib.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise FormatError(file, f"cannot be read ({error.strerror})") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise FormatError(file, f"is not valid TOML: {error}") from error
+    return Habits(
+        _habit(file, document, "blink", BlinkHabit),
+        _habit(file, document, "head", HeadHabit),
+        _habit(file, document, "eyes", EyesHabit),
+    )
+
+
+H = TypeVar("H")
+
+
+def _habit(file: Path, document: Mapping[str, Any], name: str, kind: type[H]) -> H:
+    """One table, checked: positive numbers and nothing else besides a source."""
+    table = document.get(name)
+    wanted = {field.name for field in fields(kind)}  # type: ignore[arg-type]
+    if not isinstance(table, dict) or set(table) != wanted | {"source"}:
+        raise FormatError(file, f"must be a table with {', '.join(sorted(wanted))} and source", key=name)
+    for key in sorted(wanted):
+        value = table[key]
+        if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value < math.inf:
+            raise FormatError(file, f"must be a number above 0, but it is {value!r}", key=f"{name}.{key}")
+    return kind(**{key: table[key] for key in wanted})
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """How much of something is drawn, and from which seed."""
+
+    amount: float = 0.0
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        """Check both."""
+        if not (math.isfinite(self.amount) and self.amount >= 0.0):
+            raise ParameterError("amount", "must be 0 or more", self.amount)
+        if self.seed < 0:
+            raise ParameterError("seed", "must be 0 or more", self.seed)
+
+
+@dataclass(frozen=True)
+class Liveliness:
+    """What a face does besides its expressions.
+
+    Attributes
+    ----------
+    blinks : amount in blinks per minute. head, eyes : amount as a multiple of the usual.
+    """
+
+    blinks: Drawn = Drawn()
+    head: Drawn = Drawn()
+    eyes: Drawn = Drawn()
+
+    @property
+    def any(self) -> bool:
+        """Whether it does anything."""
+        return any(drawn.amount > 0.0 for drawn in (self.blinks, self.head, self.eyes))
+
+    def over(self, count: int, fps: float, habits: Habits | None = None) -> Overlay:
+        """What is laid over `count` frames."""
+        known = load_habits() if habits is None else habits
+        moved = head_motion(count, fps, self.head, known.head)
+        eyes = eye_motion(count, fps, self.eyes, known.eyes)
+        closure = blink_closure(count, fps, self.blinks, known.blink)
+        return Overlay(np.where(np.isnan(moved), eyes, moved), closure, known.blink)
+
+
+@dataclass(frozen=True)
+class Overlay:
+    """What is laid over frames of FAPs.
+
+    Attributes
+    ----------
+    added : (T, 68) FAP units added to what is asked; NaN where nothing is.
+    closure : (T,) how far the lids are closed on their way from where they are, 0..1.
+    habit : how lids close.
+    """
+
+    added: Floats
+    closure: Floats
+    habit: BlinkHabit
+
+    def __len__(self) -> int:
+        """Frames."""
+        return len(self.added)
+
+    def upon(self, frame: Floats, number: int) -> Floats:
+        """A frame (68,) with that of this number laid over it; NaN stays where neither says anything."""
+        added, closure = self.added[number], float(self.closure[number])
+        result: Floats = np.where(np.isnan(added), frame, np.nan_to_num(frame) + np.nan_to_num(added))
+        if closure > 0.0:
+            for lids, share in ((UPPER_LIDS, self.habit.upper), (LOWER_LIDS, self.habit.lower)):
+                place = [lid - 1 for lid in lids]
+                open_at = np.nan_to_num(result[place])
+                result[place] = open_at + closure * (np.maximum(share * GAP, open_at) - open_at)
+        return result
+
+    def upon_all(self, frames: Floats) -> Floats:
+        """Frames (T, 68) with all of it laid over them."""
+        return np.stack([self.upon(frame, number) for number, frame in enumerate(frames)])
+
+
+def drawn_within(profile: Profile, drawn: Drawn) -> Profile:
+    """A profile whose ranges have shrunk to one draw inside them.
+
+    An amount of 0 is their middle, 1 a draw as `Profile.frame` makes it, and between on the way from one to the other.
+
+    Raises
+    ------
+    ParameterError : the amount is above 1.
+    """
+    if drawn.amount > 1.0:
+        raise ParameterError("amount of draws", "must lie in 0..1", drawn.amount)
+    middle, draw = profile.frame(), profile.frame(np.random.default_rng(drawn.seed))
+    frame = middle + drawn.amount * (draw - middle)
+    return replace(profile, ranges={number: (float(frame[number - 1]),) * 2 for number in profile.ranges})
+
+
+def blink_closure(count: int, fps: float, blinks: Drawn, habit: BlinkHabit) -> Floats:
+    """(T,) closure 0..1 of blinks whose intervals are log-normal; the first comes within one interval."""
+    times = _times(count, fps)
+    closure = np.zeros(count)
+    if blinks.amount == 0.0 or count == 0:
+        return closure
+    rng = np.random.default_rng(blinks.seed)
+    mean = 60.0 / blinks.amount
+    log_mean = math.log(mean) - habit.interval_spread**2 / 2.0
+    begin = float(rng.uniform(0.0, 1.0) * rng.lognormal(log_mean, habit.interval_spread))
+    while begin < times[-1]:
+        slowness = float(rng.lognormal(0.0, habit.duration_spread))
+        shut, hold = habit.closing * slowness, (habit.closing + habit.closed) * slowness
+        lasts = hold + habit.opening * slowness
+        near = slice(int(begin * fps), int((begin + lasts) * fps) + 2)
+        since = times[near] - begin
+        one = Ramp.MINIMUM_JERK.at(since, shut) - Ramp.MINIMUM_JERK.at(since - hold, lasts - hold)
+        closure[near] = np.maximum(closure[near], one)
+        begin += max(lasts, float(rng.lognormal(log_mean, habit.interval_spread)))
+    return closure
+
+
+def head_motion(count: int, fps: float, head: Drawn, habit: HeadHabit) -> Floats:
+    """(T, 68) small turns of the head as FAPs 48-50: waves of several frequencies, at rest at both ends."""
+    frames = np.full((count, FAP_COUNT), np.nan)
+    if head.amount == 0.0:
+        return frames
+    times = _times(count, fps)
+    rng = np.random.default_rng(head.seed)
+    ends = _settled(times, habit.settle, habit.settle)
+    for number, degrees in zip(HEAD, (habit.pitch, habit.yaw, habit.roll), strict=True):
+        low, high = math.log(habit.slowest), math.log(habit.fastest)
+        pace, phase = np.exp(rng.uniform(low, high, habit.waves)), rng.uniform(0.0, 2.0 * np.pi, habit.waves)
+        waves = np.sin(2.0 * np.pi * times[:, None] * pace + phase).sum(axis=1) * math.sqrt(2.0 / habit.waves)
+        frames[:, number - 1] = head.amount * _units(degrees) * ends * waves
+    return frames
+
+
+def eye_motion(count: int, fps: float, eyes: Drawn, habit: EyesHabit) -> Floats:
+    """(T, 68) looks of both eyes as FAPs 23-26: saccades between fixations, straight ahead at both ends."""
+    frames = np.full((count, FAP_COUNT), np.nan)
+    if eyes.amount == 0.0:
+        return frames
+    times = _times(count, fps)
+    rng = np.random.default_rng(eyes.seed)
+    gaze, here, begin = np.zeros((count, 2)), np.zeros(2), 0.0
+    end = times[-1] - habit.settle if count else 0.0
+    while True:
+        begin += float(rng.lognormal(math.log(habit.fixation), habit.fixation_spread))
+        there = eyes.amount * habit.aside * rng.standard_normal(2) * (1.0, habit.vertical)
+        if begin >= end:
+            begin, there = end, np.zeros(2)
+        lasts = habit.shift_least + habit.shift_per_degree * float(np.linalg.norm(there - here))
+        later = slice(max(int(begin * fps), 0), None)
+        gaze[later] += Ramp.MINIMUM_JERK.at(times[later] - begin, lasts)[:, None] * (there - here)
+        if begin >= end:
+            break
+        here, begin = there, begin + lasts
+    for numbers, axis in ((EYES_ASIDE, 0), (EYES_DOWN, 1)):
+        frames[:, [number - 1 for number in numbers]] = _units(1.0) * gaze[:, axis, None]
+    return frames
+
+
+def _times(count: int, fps: float) -> Floats:
+    """(T,) seconds of frames."""
+    if not (math.isfinite(fps) and fps > 0.0):
+        raise ParameterError("fps", "must be a positive number of frames per second", fps)
+    return np.arange(count) / fps
+
+
+def _settled(times: Floats, rise: float, fall: float) -> Floats:
+    """(T,) 0 at both ends and 1 between."""
+    last = times[-1] if len(times) else 0.0
+    return Ramp.MINIMUM_JERK.at(times, rise) * Ramp.MINIMUM_JERK.at(last - times, fall)
+
+
+def _units(degrees: float) -> float:
+    """FAP units of an angle."""
+    radians = FAPU[Unit.AU].radians
+    assert radians is not None
+    return math.radians(degrees) / radians
