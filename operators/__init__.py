@@ -16,7 +16,9 @@ _PROPERTIES = (
     "film.props",
     "points.props",
     "parts.props",
+    "wheel.props",
     "preview.props",
+    "show.props",
     "props",
 )
 _OPERATORS = (
@@ -26,6 +28,7 @@ _OPERATORS = (
     "points.drag",
     "parts.ops",
     "emotion.ops",
+    "wheel.ops",
     "muscles.ops",
     "tissue.ops",
     "timeline.ops",
@@ -38,6 +41,8 @@ _PANELS = (
     "parts.panel",
     "points.panel",
     "emotion.panel",
+    "wheel.panel",
+    "wheel.gizmo",
     "muscles.panel",
     "tissue.panel",
     "timeline.panel",
@@ -45,7 +50,15 @@ _PANELS = (
     "film.panel",
 )
 #: Modules that draw or listen from registration on: attached in this order, detached in the opposite one.
-_ATTACHED = ("points.overlay", "points.drag", "parts.overlay", "timeline.linked", "preview.live")
+_ATTACHED = (
+    "points.overlay",
+    "points.drag",
+    "parts.overlay",
+    "wheel.gizmo",
+    "timeline.linked",
+    "preview.live",
+    "show.overlay",
+)
 
 _command: Any = None
 

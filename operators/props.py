@@ -10,8 +10,10 @@ from .muscles.props import RISORIUS_PG_muscle_list, RISORIUS_PG_muscles
 from .parts.props import RISORIUS_PG_parts
 from .points.props import RISORIUS_PG_points
 from .preview.props import RISORIUS_PG_preview
+from .show.props import RISORIUS_PG_show
 from .timeline.props import RISORIUS_PG_timeline
 from .tissue.props import RISORIUS_PG_tissue
+from .wheel.props import RISORIUS_PG_wheel
 
 
 class RISORIUS_PG_object(bpy.types.PropertyGroup):
@@ -37,7 +39,9 @@ class RISORIUS_PG_window(bpy.types.PropertyGroup):
     points: bpy.props.PointerProperty(type=RISORIUS_PG_points)  # type: ignore[valid-type]
     parts: bpy.props.PointerProperty(type=RISORIUS_PG_parts)  # type: ignore[valid-type]
     muscles: bpy.props.PointerProperty(type=RISORIUS_PG_muscle_list)  # type: ignore[valid-type]
+    wheel: bpy.props.PointerProperty(type=RISORIUS_PG_wheel)  # type: ignore[valid-type]
     preview: bpy.props.PointerProperty(type=RISORIUS_PG_preview)  # type: ignore[valid-type]
+    show: bpy.props.PointerProperty(type=RISORIUS_PG_show)  # type: ignore[valid-type]
 
 
 CLASSES = (RISORIUS_PG_object, RISORIUS_PG_scene, RISORIUS_PG_window)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Floats, Ints
 from . import preview
 from .bake import Target
 from .faces import face_of
@@ -17,7 +18,11 @@ from .points_kept import POINTS
 from .progress import Progress, Work
 
 if TYPE_CHECKING:
+    from ..face.muscle_lines import MuscleLines
     from ..face.natural import EmotionShares
+
+#: Stops on a traced way, and distance of the traced vertices, metres.
+STOPS, SPACING = 7, 7e-3
 
 
 def uid_of(obj: Any) -> int:
@@ -39,7 +44,8 @@ def print_of(target: Target) -> str:
 class LiveFace:
     """A face that shows itself on its own objects without changing them; see `preview`.
 
-    `contractions` are those of the last sketch or pose.
+    `contractions` are those of the last sketch or pose; `paths` (k, T, 3) the skin's ways into the last traced
+    expression, in the head mesh's own coordinates, or None.
     """
 
     def __init__(self, target: Target) -> None:
@@ -54,6 +60,7 @@ class LiveFace:
         self._face = face_of(self._source)
         self._sketcher = self._face.sketcher()
         self.contractions: Mapping[str, float] = {}
+        self.paths: Floats | None = None
 
     def is_of(self, target: Target) -> bool:
         """Whether the face is still as it was read."""
@@ -91,6 +98,39 @@ class LiveFace:
         self.contractions = posed.contractions
         moved: Floats = posed.positions - self._source.vertices
         return moved
+
+    def trace(self, frame: Floats, **asked: Any) -> None:
+        """Find the skin's ways from rest to a frame of FAPs; keywords as for `sketch`."""
+        rest, contractions = self._source.vertices[self._traced], self.contractions
+        stops = [self.sketch(share * frame, **asked)[self._traced] for share in np.linspace(0.0, 1.0, STOPS)[1:]]
+        self.contractions = contractions
+        self.paths = self._local(np.stack([rest, *[rest + moved for moved in stops]], axis=1))
+
+    @cached_property
+    def _traced(self) -> Ints:
+        """The vertices whose ways are traced."""
+        from ..face.trajectories import sampled_vertices
+
+        return sampled_vertices(self._face, SPACING)
+
+    def muscle_strands(self, shown: Floats) -> dict[str, Floats]:
+        """Muscle name -> (s, n, 3) strands, in the head mesh's own coordinates, where its vertices show (V, 3)."""
+        head = self._source.pieces[0]
+        moved = np.zeros_like(self._source.vertices)
+        moved[head.slice] = (shown - head.rest) @ head.to_metres[:3, :3].T
+        return {name: self._local(lines.moved(moved)) for name, lines in self._muscle_lines.items()}
+
+    @cached_property
+    def _muscle_lines(self) -> Mapping[str, MuscleLines]:
+        from ..face.muscle_lines import muscle_lines
+
+        return muscle_lines(self._face)
+
+    def _local(self, places: Floats) -> Floats:
+        """Places (..., 3) of the joined metres in the head mesh's own coordinates."""
+        to_metres = self._source.pieces[0].to_metres
+        local: Floats = (places - to_metres[:3, 3]) @ np.linalg.inv(to_metres[:3, :3]).T
+        return local
 
     def show(self, target: Target, moved: Floats) -> None:
         """Show a displacement on the objects of the face, which may be others than those read where undo made them."""

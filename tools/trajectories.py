@@ -24,6 +24,7 @@ import risorius.api as api
 from faithful.sheet import Cell, write_grid
 from risorius.api import Face
 from risorius.arrays import Floats, Ints
+from risorius.face.trajectories import sampled_vertices
 from risorius.physics.mesh import vertex_normals
 from risorius.scene import mesh as meshes
 from risorius.scene.framing import framing_of
@@ -54,21 +55,6 @@ SIDES = 6
 #: Pictures in pixels, and where the camera stands, radians to the subject's left.
 WIDTH, HEIGHT, VIEWS = 430, 500, (0.0, 0.62)
 CLOSENESS, LOWER, DEEPER = 0.78, 0.03, 0.14
-
-
-def sampled(face: Face) -> Ints:
-    """Vertices of the outer skin no nearer to one another than the spacing, the face before the back of the head."""
-    skin = face.anatomy.given_skin
-    front = np.flatnonzero(skin.positions[:, 2] > -75e-3)
-    chosen: list[int] = []
-    far = np.full(len(front), np.inf)
-    at = int(np.argmax(skin.positions[front, 2]))
-    while far[at] > SPACING:
-        chosen.append(at)
-        away = np.linalg.norm(skin.positions[front] - skin.positions[front[at]], axis=1)
-        far = np.minimum(far, away)
-        at = int(np.argmax(far))
-    return np.asarray(skin.index[front[chosen]])
 
 
 def paths(face: Face, word: str, timing: api.Timing, vertices: Ints) -> Floats:
@@ -161,7 +147,7 @@ def main(arguments: Sequence[str]) -> int:
     chosen = parser.parse_args(arguments)
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     face, timing = api.default_face(), api.load_timings()[chosen.timing]
-    head, vertices = _head(face), sampled(face)
+    head, vertices = _head(face), sampled_vertices(face, SPACING)
     cells = []
     for word in EMOTIONS:
         moving = paths(face, word, timing, vertices)

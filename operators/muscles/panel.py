@@ -76,7 +76,13 @@ class RISORIUS_PT_muscles(Sidebar, bpy.types.Panel):
             return
         from ...face.contractible import contractibles
 
-        state = context.window_manager.risorius.muscles
+        window = context.window_manager.risorius
+        row = layout.row(align=True)
+        for name in ("muscles", "strain", "paths"):
+            each = row.row(align=True)
+            each.enabled = name == "strain" or window.preview.show
+            each.prop(window.show, name, toggle=True)
+        state = window.muscles
         if len(state.names) != len(contractibles()):
             list_muscles_soon()
             return

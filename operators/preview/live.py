@@ -72,6 +72,11 @@ def refresh_active(context: Any) -> None:
         ask(context.object)
 
 
+def held(obj: Any) -> LiveFace | None:
+    """The face of `obj`, where it is held ready."""
+    return _live.faces.get(uid_of(obj)) if _live.work is None else None
+
+
 def object_of(uid: int) -> Any | None:
     """The object of this number, or None where it is gone."""
     return next((obj for obj in bpy.data.objects if uid_of(obj) == uid), None)
@@ -163,7 +168,11 @@ def show(obj: Any, face: LiveFace | None = None, *, exact: bool = False) -> None
     RisoriusError : it cannot be read or posed.
     """
     ready = face if face is not None else _face_of(obj)
-    ready.show(target_of(obj), _moved(ready, wanted_of(obj), exact=exact))
+    wanted = wanted_of(obj)
+    ready.show(target_of(obj), _moved(ready, wanted, exact=exact))
+    ready.paths = None
+    if exact and bpy.context.window_manager.risorius.show.paths:
+        ready.trace(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights, contractions=wanted.contractions)
     shown[uid_of(obj)] = ready.contractions
     _live.trouble = ""
 

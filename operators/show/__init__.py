@@ -1,0 +1,1 @@
+"""What happens under the skin, drawn over the face: muscles, strain, paths."""

@@ -1,0 +1,42 @@
+"""What is drawn over the face; not saved with the file."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..points.props import redraw
+
+
+def _switched(owner: Any, context: Any) -> None:
+    """The preview holds the face that muscles and paths are read from."""
+    from ..preview import live
+
+    live.refresh_active(bpy.context)
+    redraw()
+
+
+class RISORIUS_PG_show(bpy.types.PropertyGroup):
+    """What is drawn over the active face."""
+
+    muscles: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Muscles",
+        description="Draw the muscles from the bone to the skin, blue where slack, red where contracted. "
+        "Needs Live Preview",
+        update=_switched,
+    )
+    strain: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Strain",
+        description="Colour the skin: red where it is stretched by 30 % or more, blue where it is squeezed so far",
+        update=redraw,
+    )
+    paths: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Paths",
+        description="Draw the way that the skin takes into the expression, blue at rest to red at its apex. "
+        "Needs Live Preview",
+        update=_switched,
+    )
+
+
+CLASSES = (RISORIUS_PG_show,)
