@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 
 from ..sidebar import Sidebar
+from ..wheel.panel import RISORIUS_PT_wheel
 from .ops import RISORIUS_OT_reset_activation
 from .props import own_activation
 
@@ -28,6 +29,10 @@ class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         emotion, preview = context.object.risorius.emotion, context.window_manager.risorius.preview
         layout.prop(preview, "show", icon="HIDE_OFF" if preview.show else "HIDE_ON", toggle=True)
+        wheel = context.window_manager.risorius.wheel
+        row = layout.row(align=True)
+        row.prop(wheel, "show", icon="HIDE_OFF" if wheel.show else "HIDE_ON", toggle=True)
+        row.popover(RISORIUS_PT_wheel.__name__, text="", icon="PREFERENCES")
         layout.row().prop(emotion, "by", expand=True)
         on_wheel = emotion.by == "WHEEL"
         layout.prop(emotion, "angle" if on_wheel else "word")

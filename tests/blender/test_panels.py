@@ -48,6 +48,10 @@ class Spy:
         assert hasattr(bpy.types, name)
         self.seen.append(("menu", name))
 
+    def popover(self, panel: str, **options: Any) -> None:
+        assert hasattr(bpy.types, panel)
+        self.seen.append(("popover", panel))
+
     def operator(self, name: str, **options: Any) -> Any:
         assert name.partition(".")[2] in dir(bpy.ops.risorius)
         self.seen.append(("operator", name))
@@ -90,12 +94,8 @@ def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     order = ("main", "face", "parts", "points", "emotion", "muscles", "tissue", "timeline", "bake", "film")
     assert list(shown) == [f"RISORIUS_PT_{name}" for name in order]
     assert ("label", head.name) in shown["RISORIUS_PT_main"]
-    assert [entry for entry in shown["RISORIUS_PT_emotion"] if entry[0] == "prop"][:4] == [
-        ("prop", "show"),
-        ("prop", "by"),
-        ("prop", "word"),
-        ("prop", "activation"),
-    ]
+    asked = [name for kind, name in shown["RISORIUS_PT_emotion"] if kind in {"prop", "popover"}]
+    assert asked[:6] == ["show", "show", "RISORIUS_PT_wheel", "by", "word", "activation"]
     assert ("label", "Joy's own: 5.4") in shown["RISORIUS_PT_emotion"]
 
 

@@ -1,0 +1,106 @@
+"""Where the wheel is in a viewport, and whether it is there at all."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...scene.points_kept import has_points
+from ..points.canvas import text_width
+from .geometry import Box, Corner, Pixel, Wheel, free_box, placed
+from .places import labels, places
+
+#: Pixels at a scale of 1: around the wheel, below it for its caption, from its outermost ring to its rim, and letters.
+MARGIN, FOOT, RIM, LETTERS, LARGE_LETTERS = 26.0, 40.0, 14.0, 10.5, 12.5
+#: Pixels at a scale of 1 between a word's place and its label.
+GAP = 6.0
+#: Regions that may lie over the viewport along one of its sides.
+COVERS = {"UI", "TOOLS", "HEADER", "TOOL_HEADER", "ASSET_SHELF", "ASSET_SHELF_HEADER"}
+#: Pixels at a scale of 1 that Blender's own things take: axes and buttons at the right, text at the top.
+AXES, TEXT = 90.0, 60.0
+
+
+def scale_of(context: Any) -> float:
+    """Pixels of the screen for one of the interface."""
+    return float(context.preferences.system.ui_scale)
+
+
+def reason_hidden(context: Any) -> str | None:
+    """Why there is no wheel in the context's viewport, or None."""
+    obj, space = context.object, context.space_data
+    if space is None or space.type != "VIEW_3D":
+        return "The emotion wheel is in the 3D viewport"
+    if not context.window_manager.risorius.wheel.show:
+        return "The emotion wheel is hidden: show it in the Emotion panel"
+    if not space.show_gizmo:
+        return "The viewport shows no gizmos"
+    if obj is None or obj.type != "MESH" or not has_points(obj):
+        return "The active object is no face with feature points"
+    if obj.mode != "OBJECT" or not obj.is_editable:
+        return f"{obj.name}: is not in Object mode, or linked from another file"
+    return None
+
+
+def wheel_of(context: Any) -> Wheel | None:
+    """The wheel in the context's region; None where there is none."""
+    region = context.region
+    if reason_hidden(context) is not None or region is None or region.type != "WINDOW":
+        return None
+    quarters = context.space_data.region_quadviews
+    if len(quarters) > 0 and context.region_data != quarters[-1]:
+        return None  # in a quad view only the last of the four, the user's own
+    state, scale = context.window_manager.risorius.wheel, scale_of(context)
+    return placed(
+        _free(context, Corner(state.corner), scale),
+        Corner(state.corner),
+        radius=state.size / 2.0 * scale,
+        margin=MARGIN * scale,
+        foot=FOOT * scale,
+    )
+
+
+def _free(context: Any, corner: Corner, scale: float) -> Box:
+    """What is to be seen of the context's region."""
+    region, space = context.region, context.space_data
+    covers = [
+        Box(other.x - region.x, other.y - region.y, other.x - region.x + other.width, other.y - region.y + other.height)
+        for other in context.area.regions
+        if other.type in COVERS and other.width > 1 and other.height > 1
+    ]
+    free = free_box(region.width, region.height, covers)
+    if corner is Corner.TOP_RIGHT and space.show_gizmo_navigate:
+        return Box(free.left, free.low, free.right - AXES * scale, free.high)
+    if corner is Corner.TOP_LEFT and space.overlay.show_overlays:
+        return Box(free.left, free.low, free.right, free.high - TEXT * scale)
+    return free
+
+
+def letters(word: str, scale: float) -> float:
+    """Size of a word's letters, pixels."""
+    return (LARGE_LETTERS if places()[word].is_archetype else LETTERS) * scale
+
+
+def labels_of(wheel: Wheel, scale: float) -> dict[str, Box]:
+    """Word -> where it is written."""
+
+    def size(word: str) -> tuple[float, float]:
+        """Width and height of a label."""
+        return text_width(word.capitalize(), letters(word, scale)), letters(word, scale)
+
+    archetypes = {name for name, place in places().items() if place.is_archetype}
+    return labels(wheel, size=size, gap=GAP * scale, rim=RIM * scale, always=archetypes)
+
+
+def label_at(wheel: Wheel, pixel: Pixel, scale: float) -> str | None:
+    """The word whose label is under a pixel."""
+    return next((word for word, box in labels_of(wheel, scale).items() if box.contains(pixel)), None)
+
+
+def redraw() -> None:
+    """Draw all viewports anew."""
+    manager = bpy.context.window_manager
+    for window in manager.windows if manager is not None else ():
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
