@@ -3,7 +3,8 @@
     python tools/bench/preview.py [--mesh HEAD.npz --points HEAD.fp.json] [--steps 40]
 
 Without --mesh it takes the default head, and the shared ict head where there is one. One update is everything from the
-changed choice to the mesh that Blender draws: plan, sketch, write, evaluate. Processor time, medians and 95 % of a drag.
+changed choice to the mesh that Blender draws: plan, sketch, write, evaluate. Processor time, medians and 95 % of a
+drag.
 Needs a Python that has bpy.
 """
 
