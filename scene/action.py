@@ -193,6 +193,11 @@ def add_strip(track: Any, action: Any) -> Any:
     return strip
 
 
+def is_own_track(track: Any) -> bool:
+    """Whether an NLA track is ours; Blender numbers tracks of one name."""
+    return str(track.name).partition(".")[0] == TRACK_NAME
+
+
 def remove_clip(face: str, clip: str, *, keys: Iterable[Any], key_names: Iterable[str]) -> None:
     """Remove a clip's action, its strips, and its keys' silence in the face's other clips.
 
@@ -239,5 +244,5 @@ def _detach(keys: Any, action: Any) -> None:
         for strip in list(track.strips):
             if strip.action == action:
                 track.strips.remove(strip)
-        if track.name == TRACK_NAME and not track.strips:
+        if is_own_track(track) and not track.strips:
             animation.nla_tracks.remove(track)

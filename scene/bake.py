@@ -21,6 +21,7 @@ from . import shape_keys
 from .compress import TOLERANCE, compress
 from .faces import FaceSource, face_of, read_face
 from .motion import Motion
+from .notes import Note, write_note
 from .progress import Progress, Work
 from .refusals import own_mesh, refuse_unwritable, remarks
 
@@ -111,6 +112,7 @@ def bake_expression(
     emotion: EmotionShares | None = None,
     contractions: Mapping[str, float] | None = None,
     creases: bool | None = None,
+    note: Note | None = None,
 ) -> Work[BakeResult]:
     """Bake one expression as one shape key at its apex, with keyframes along onset, apex and offset.
 
@@ -121,6 +123,7 @@ def bake_expression(
     peak : the key's value at the apex.
     drive, emotion, contractions : as for `Face.pose`.
     creases : whether the head gets creases (`creases.settle`); None: where a material of it draws them.
+    note : what is noted on the action (`notes.py`).
 
     Raises
     ------
@@ -135,8 +138,8 @@ def bake_expression(
     yield Progress(0.95, "Writing the shape key")
     shapes = (np.asarray(pose.positions) - source.vertices)[None]
     marks = crease_marks.prepare(source, creases)
-    action, keys, said = _write(
-        target, source, clip, [clip], shapes, [timing.curve(peak)], slider_min=0.0, creases=marks
+    action, keys, said = write_baked(
+        target, source, clip, [clip], shapes, [timing.curve(peak)], slider_min=0.0, creases=marks, note=note
     )
     return BakeResult(
         clip, action.name, keys, 0.0, tuple(action.frame_range), np.asarray(pose.achieved), remarks(source.head) + said
@@ -153,6 +156,7 @@ def bake_motion(
     drive: str = "natural",
     tolerance: float = TOLERANCE,
     creases: bool | None = None,
+    note: Note | None = None,
 ) -> Work[BakeResult]:
     """Simulate a motion and bake it, compressed to as few shape keys as keep every vertex within `tolerance`.
 
@@ -164,7 +168,7 @@ def bake_motion(
     fps : frames per second of the motion; by default the scene's.
     drive : as for `Face.simulate`.
     tolerance : metres.
-    creases : as for `bake_expression`.
+    creases, note : as for `bake_expression`.
 
     Raises
     ------
@@ -189,12 +193,14 @@ def bake_motion(
     times = start + np.arange(count, dtype=np.float64)
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
     marks = crease_marks.prepare(source, creases)
-    action, keys, said = _write(target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks)
+    action, keys, said = write_baked(
+        target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks, note=note
+    )
     said = remarks(source.head) + said
     return BakeResult(clip, action.name, keys, packed.error, tuple(action.frame_range), None, said)
 
 
-def _write(
+def write_baked(
     target: Target,
     source: FaceSource,
     clip: str,
@@ -204,6 +210,7 @@ def _write(
     *,
     slider_min: float,
     creases: Creases | None,
+    note: Note | None = None,
 ) -> tuple[Any, tuple[str, ...], tuple[str, ...]]:
     """Write shape keys (K, V, 3 displacements, metres) on all pieces, and their clip; nothing can fail from here on."""
     if target.make_single_user:
@@ -231,6 +238,8 @@ def _write(
         retired=retired,
         silent={name for mesh in members for name in shape_keys.read_own(mesh).names},
     )
+    if note is not None:
+        write_note(action, note)
     crease_marks.settle(source, creases)
     said = {actions.play(datablock, action) for datablock in datablocks}
     return action, free, tuple(sorted(remark for remark in said if remark))

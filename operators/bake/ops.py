@@ -7,44 +7,81 @@ from typing import Any
 import bpy
 
 from ...scene import bake, shape_keys
-from ...scene.motion import CueMotion
+from ...scene.notes import BakeKind, Note
 from ...scene.progress import Work
+from ...scene.strips import ClipShape, bake_strips
 from ..active import face_reason, target_of
 from ..base import RisoriusOperator, WorkOperator
-from ..emotion.profile import profile_of, title_of, wanted_of
+from ..emotion.performance import performance_of
+from ..emotion.profile import wanted_of
+from .settings import (
+    clip_name,
+    creases_wanted,
+    expression_settings,
+    motion_of,
+    motion_settings,
+    stale_clips,
+    strip_curve,
+    strip_settings,
+    timing_of,
+)
 
-MOTION_SUFFIX = " motion"
+
+def silent_reason(obj: Any) -> str | None:
+    """Why there is no motion to bake, or None."""
+    timeline = obj.risorius.timeline
+    if timeline.clips and all(clip.mute and not clip.solo for clip in timeline.clips):
+        return "All clips of the timeline are muted"
+    return None
 
 
-def clip_name(obj: Any, *, motion: bool = False) -> str:
-    """The name the user gave, or the emotion's."""
-    chosen = str(obj.risorius.bake.clip).strip() or title_of(obj.risorius.emotion)
-    return chosen + MOTION_SUFFIX if motion else chosen
-
-
-def timing_of(obj: Any, context: Any) -> bake.ClipTiming:
-    """The timing chosen for the object."""
-    chosen = obj.risorius.bake
-    return bake.ClipTiming(
-        start=float(chosen.start),
-        onset=chosen.onset,
-        apex=chosen.apex,
-        offset=chosen.offset,
-        fps=bake.scene_fps(context.scene),
+def expression_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
+    """Pose the face as the Emotion panel says and write its shape."""
+    wanted = wanted_of(obj)
+    return bake.bake_expression(
+        target_of(obj),
+        wanted.frame,
+        clip=clip_name(obj),
+        timing=timing_of(obj, scene),
+        drive=wanted.drive,
+        emotion=wanted.profile.weights,
+        contractions=wanted.contractions,
+        creases=creases_wanted(obj),
+        note=Note(BakeKind.EXPRESSION, expression_settings(obj, scene)),
     )
 
 
-def creases_wanted(obj: Any) -> bool | None:
-    """What the user has said about creases; None where nothing, and the material decides."""
-    chosen = obj.risorius.bake
-    return bool(chosen.creases) if chosen.is_property_set("creases") else None
+def motion_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
+    """Simulate what is laid out on the face and write its motion, with a marker where each expression begins."""
+    performance = performance_of(obj, scene)
+    markers = [(title, performance.span(number)[0]) for number, title in enumerate(performance.titles)]
+    return bake.bake_motion(
+        target_of(obj),
+        motion_of(obj, performance),
+        clip=clip_name(obj, motion=True),
+        start=performance.first_frame,
+        fps=performance.fps,
+        drive=obj.risorius.emotion.drive,
+        creases=creases_wanted(obj),
+        note=Note(BakeKind.MOTION, motion_settings(obj, performance), tuple(markers)),
+    )
 
 
-def show_apex(context: Any) -> None:
-    """Go to the frame where the expression is full: at its first frame a bake looks like nothing happened."""
-    if not bpy.app.background:
-        timing = timing_of(context.object, context)
-        context.scene.frame_set(int(timing.start + timing.onset * timing.fps) + 1)
+def strips_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
+    """Pose the face for each clip and write shapes, actions and strips."""
+    performance = performance_of(obj, scene)
+    shapes = [
+        ClipShape(
+            title,
+            wanted.frame,
+            strip_curve(performance, number),
+            strip_settings(obj, performance, number),
+            wanted.profile.weights,
+            wanted.contractions,
+        )
+        for number, (title, wanted) in enumerate(zip(performance.titles, performance.wanted, strict=True))
+    ]
+    return bake_strips(target_of(obj), shapes, drive=obj.risorius.emotion.drive, creases=creases_wanted(obj))
 
 
 class BakeOperator(WorkOperator):
@@ -55,11 +92,16 @@ class BakeOperator(WorkOperator):
         """Only on a face that can be written to."""
         return face_reason(context.object)
 
+    def show_apex(self, context: Any) -> None:
+        """Go to where the first expression is full: at its first frame a bake looks like nothing happened."""
+        if not bpy.app.background:
+            context.scene.frame_set(int(performance_of(context.object, context.scene).apex()) + 1)
+
     def finish(self, context: Any, result: bake.BakeResult) -> str:
         """Name what was written, and remark on what the user should know."""
         for remark in result.remarks:
             self.report({"WARNING"}, remark)
-        show_apex(context)
+        self.show_apex(context)
         first, last = result.frame_range
         keys = f"{len(result.keys)} shape keys" if len(result.keys) > 1 else f"shape key {result.keys[0]}"
         within = f", within {result.error * 1000.0:.2f} mm" if result.error > 0.0 else ""
@@ -74,52 +116,86 @@ class RISORIUS_OT_bake_expression(BakeOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     title = "Baking the expression"
 
+    def show_apex(self, context: Any) -> None:
+        """Go to where the expression is full."""
+        if not bpy.app.background:
+            timing = timing_of(context.object, context.scene)
+            context.scene.frame_set(int(timing.start + timing.onset * timing.fps) + 1)
+
     def work(self, context: Any) -> Work[bake.BakeResult]:
         """Pose the face and write its shape."""
-        obj = context.object
-        wanted = wanted_of(obj)
-        return bake.bake_expression(
-            target_of(obj),
-            wanted.frame,
-            clip=clip_name(obj),
-            timing=timing_of(obj, context),
-            drive=wanted.drive,
-            emotion=wanted.profile.weights,
-            contractions=wanted.contractions,
-            creases=creases_wanted(obj),
-        )
+        return expression_work(context.object, context.scene)
 
 
 class RISORIUS_OT_bake_motion(BakeOperator, bpy.types.Operator):
-    """Simulate how muscles, skin and jaw move into the emotion and out of it, and bake that motion frame by frame"""
+    """Simulate how muscles, skin and jaw move through all clips, or the one emotion, and bake that frame by frame"""
 
     bl_idname = "risorius.bake_motion"
     bl_label = "Bake Motion"
     bl_options = {"REGISTER", "UNDO"}
     title = "Baking the motion"
 
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only on a face that can be written to, and where something moves."""
+        return face_reason(context.object) or silent_reason(context.object)
+
     def work(self, context: Any) -> Work[bake.BakeResult]:
         """Simulate the face and write its motion."""
-        from ... import api
+        return motion_work(context.object, context.scene)
 
-        obj = context.object
-        timing = timing_of(obj, context)
-        cue = api.Cue(
-            profile_of(obj.risorius.emotion),
-            onset=timing.onset,
-            apex=timing.apex,
-            offset=timing.offset,
-            seed=obj.risorius.emotion.seed or None,
-        )
-        return bake.bake_motion(
-            target_of(obj),
-            CueMotion([cue]),
-            clip=clip_name(obj, motion=True),
-            start=timing.start,
-            fps=timing.fps,
-            drive=obj.risorius.emotion.drive,
-            creases=creases_wanted(obj),
-        )
+
+class RISORIUS_OT_bake_strips(BakeOperator, bpy.types.Operator):
+    """Bake each clip as one shape key with a strip of its own in the NLA editor, to be moved and edited by hand"""
+
+    bl_idname = "risorius.bake_strips"
+    bl_label = "Bake Strips"
+    bl_options = {"REGISTER", "UNDO"}
+    title = "Baking the strips"
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only on a face that can be written to, and with clips."""
+        reason = face_reason(context.object)
+        if reason is None and not context.object.risorius.timeline.clips:
+            return "There is no clip on the timeline yet"
+        return reason or silent_reason(context.object)
+
+    def work(self, context: Any) -> Work[bake.BakeResult]:
+        """Pose the face for each clip and write strips."""
+        return strips_work(context.object, context.scene)
+
+
+class RISORIUS_OT_bake_again(BakeOperator, bpy.types.Operator):
+    """Bake anew what is out of date: its settings have changed since it was baked"""
+
+    bl_idname = "risorius.bake_again"
+    bl_label = "Bake Again"
+    bl_options = {"REGISTER", "UNDO"}
+    title = "Baking again"
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where something is out of date."""
+        reason = face_reason(context.object) or silent_reason(context.object)
+        if reason is None and not stale_clips(context.object, context.scene):
+            return "Everything baked is up to date"
+        return reason
+
+    def work(self, context: Any) -> Work[bake.BakeResult]:
+        """Bake each kind that is out of date, as it was baked before."""
+        obj, scene = context.object, context.scene
+        kinds = set(stale_clips(obj, scene).values())
+        result: bake.BakeResult | None = None
+        for kind, work in (
+            (BakeKind.EXPRESSION, expression_work),
+            (BakeKind.STRIP, strips_work),
+            (BakeKind.MOTION, motion_work),
+        ):
+            if kind in kinds:
+                result = yield from work(obj, scene)
+        assert result is not None
+        return result
 
 
 class RISORIUS_OT_clear(RisoriusOperator, bpy.types.Operator):
@@ -148,4 +224,10 @@ class RISORIUS_OT_clear(RisoriusOperator, bpy.types.Operator):
         return f"Cleared {what} on {context.object.name}: {len(removed)} shape key{'s' * (len(removed) != 1)}"
 
 
-CLASSES = (RISORIUS_OT_bake_expression, RISORIUS_OT_bake_motion, RISORIUS_OT_clear)
+CLASSES = (
+    RISORIUS_OT_bake_expression,
+    RISORIUS_OT_bake_motion,
+    RISORIUS_OT_bake_strips,
+    RISORIUS_OT_bake_again,
+    RISORIUS_OT_clear,
+)

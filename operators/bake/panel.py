@@ -8,9 +8,15 @@ import bpy
 
 from ...scene import shape_keys
 from ..active import face_reason
-from ..emotion.profile import title_of
 from ..sidebar import Sidebar
-from .ops import RISORIUS_OT_bake_expression, RISORIUS_OT_bake_motion, RISORIUS_OT_clear
+from .ops import (
+    RISORIUS_OT_bake_again,
+    RISORIUS_OT_bake_expression,
+    RISORIUS_OT_bake_motion,
+    RISORIUS_OT_bake_strips,
+    RISORIUS_OT_clear,
+)
+from .settings import clip_name, stale_clips
 
 
 class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
@@ -29,32 +35,40 @@ class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         obj, chosen = context.object, context.object.risorius.bake
-        row = layout.row()
-        row.prop(chosen, "clip", placeholder=title_of(obj.risorius.emotion))
-        column = layout.column(align=True)
-        for name in ("start", "onset", "apex", "offset"):
-            column.prop(chosen, name)
+        clips = len(obj.risorius.timeline.clips)
+        layout.row().prop(chosen, "clip", placeholder=clip_name(obj, motion=bool(clips)))
+        if not clips:
+            column = layout.column(align=True)
+            for name in ("start", "onset", "apex", "offset"):
+                column.prop(chosen, name)
         layout.prop(chosen, "creases")
         reason = face_reason(obj)
         if reason is not None:
             layout.label(text=reason.partition(": ")[2].partition(":")[0].capitalize(), icon="INFO")
         column = layout.column(align=True)
         column.scale_y = 1.3
-        column.operator(RISORIUS_OT_bake_expression.bl_idname, icon="SHAPEKEY_DATA")
-        column.operator(RISORIUS_OT_bake_motion.bl_idname, icon="PHYSICS")
-        self._draw_baked(layout, obj)
+        if clips:
+            column.operator(RISORIUS_OT_bake_motion.bl_idname, text="Bake One Motion", icon="PHYSICS")
+            column.operator(RISORIUS_OT_bake_strips.bl_idname, icon="NLA")
+        else:
+            column.operator(RISORIUS_OT_bake_expression.bl_idname, icon="SHAPEKEY_DATA")
+            column.operator(RISORIUS_OT_bake_motion.bl_idname, icon="PHYSICS")
+        self._draw_baked(layout, context)
 
-    def _draw_baked(self, layout: Any, obj: Any) -> None:
-        """The clips of this face, each with a button that removes it."""
-        clips = shape_keys.read_own(obj.data).clips
+    def _draw_baked(self, layout: Any, context: Any) -> None:
+        """The clips of this face, those out of date marked, each with a button that removes it."""
+        clips = shape_keys.read_own(context.object.data).clips
         if not clips:
             return
+        stale = stale_clips(context.object, context.scene)
         box = layout.box().column(align=True)
         for clip, keys in clips.items():
             row = box.row(align=True)
-            row.label(text=clip, icon="ACTION")
-            row.label(text=f"{len(keys)} key{'s' * (len(keys) != 1)}")
+            row.label(text=clip, icon="ERROR" if clip in stale else "ACTION")
+            row.label(text="out of date" if clip in stale else f"{len(keys)} key{'s' * (len(keys) != 1)}")
             row.operator(RISORIUS_OT_clear.bl_idname, text="", icon="X").clip = clip
+        if stale:
+            layout.operator(RISORIUS_OT_bake_again.bl_idname, icon="FILE_REFRESH")
         layout.operator(RISORIUS_OT_clear.bl_idname, text="Clear All", icon="TRASH").clip = ""
 
 

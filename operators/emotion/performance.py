@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from ...arrays import Floats
-from ...mpeg4.timing import Cue, Ramp
+from ...mpeg4 import Cue, Drawn, Liveliness, Ramp, drawn_within
 from ...scene.bake import scene_fps
 from ..timeline.props import sounding
-from .profile import Wanted, profile_of, wanted_of
+from .profile import Wanted, title_of, wanted_of
+
+#: Between the seeds of one clip and the next, so that clips of one emotion differ.
+_NEXT_SEED = 7919
 
 
 @dataclass(frozen=True)
@@ -22,39 +25,89 @@ class Performance:
     ----------
     first_frame : the frame at which the cues' time is 0. fps : frames per second.
     cues : when and how strongly each expression shows. wanted : what each shows at its apex.
+    titles : what each is called, no two alike. liveliness : what the face does besides.
     """
 
     first_frame: float
     fps: float
     cues: tuple[Cue, ...] = ()
     wanted: tuple[Wanted, ...] = field(default=())
+    titles: tuple[str, ...] = ()
+    liveliness: Liveliness = field(default_factory=Liveliness)
 
     def shares(self, frame: float) -> Floats:
         """(C,) how much of each expression shows at a frame of the scene; together at most 1."""
-        times = np.array([(frame - self.first_frame) / self.fps])
-        strengths = np.array([float(cue.strength(times)[0]) for cue in self.cues])
-        shares: Floats = strengths / max(1.0, float(strengths.sum()))
-        return shares
+        return np.asarray(self.shares_at(np.array([frame]))[0])
+
+    def shares_at(self, frames: Floats) -> Floats:
+        """(T, C) the same at frames (T,) of the scene."""
+        times = (frames - self.first_frame) / self.fps
+        strengths = np.array([cue.strength(times) for cue in self.cues]).reshape(len(self.cues), len(times)).T
+        return np.asarray(strengths / np.maximum(1.0, strengths.sum(axis=1, keepdims=True)))
+
+    def span(self, number: int) -> tuple[float, float]:
+        """First and last frame of an expression."""
+        cue = self.cues[number]
+        start = self.first_frame + cue.start * self.fps
+        return start, start + cue.duration * self.fps
+
+    def apex(self, number: int = 0) -> float:
+        """The frame at which an expression is full."""
+        return self.span(number)[0] + self.cues[number].onset * self.fps
 
 
 def performance_of(obj: Any, scene: Any) -> Performance:
     """What is laid out for `obj`: the clips of its timeline, or without any the chosen emotion with its timing."""
     timeline, fps = obj.risorius.timeline, scene_fps(scene)
-    if not timeline.clips:
-        timing = obj.risorius.bake
-        return Performance(float(timing.start), fps, (_cue(timing, obj.risorius.emotion, fps),), (wanted_of(obj),))
-    clips = sounding(timeline)
-    first = min((clip.start for clip in clips), default=0)
+    if timeline.clips:
+        clips = sounding(timeline)
+        choices = [(clip.emotion, clip, {"peak": clip.peak, "ramp": Ramp(clip.ramp)}) for clip in clips]
+        titles = [str(clip.name).strip() or title_of(clip.emotion) for clip in clips]
+    else:
+        choices = [(obj.risorius.emotion, obj.risorius.bake, {})]
+        titles = [title_of(obj.risorius.emotion)]
+    first = min((timing.start for _, timing, _ in choices), default=0)
+    wanted = tuple(_drawn(obj, emotion, number) for number, (emotion, _, _) in enumerate(choices))
     cues = tuple(
-        _cue(clip, clip.emotion, fps, start=(clip.start - first) / fps, peak=clip.peak, ramp=Ramp(clip.ramp))
-        for clip in clips
+        _cue(timing, shown, emotion, fps, start=(timing.start - first) / fps, **options)
+        for shown, (emotion, timing, options) in zip(wanted, choices, strict=True)
     )
-    return Performance(float(first), fps, cues, tuple(wanted_of(obj, clip.emotion) for clip in clips))
+    return Performance(float(first), fps, cues, wanted, _told_apart(titles), liveliness_of(timeline.variation))
 
 
-def _cue(timing: Any, emotion: Any, fps: float, **options: Any) -> Cue:
+def liveliness_of(variation: Any) -> Liveliness:
+    """What the face does besides its expressions."""
+    return Liveliness(
+        blinks=Drawn(variation.blinks, variation.blinks_seed),
+        head=Drawn(variation.head, variation.head_seed),
+        eyes=Drawn(variation.eyes, variation.eyes_seed),
+    )
+
+
+def _drawn(obj: Any, emotion: Any, number: int) -> Wanted:
+    """What an emotion shows, drawn within its ranges where that is asked for and it has no seed of its own."""
+    wanted, variation = wanted_of(obj, emotion), obj.risorius.timeline.variation
+    if variation.draws == 0.0 or emotion.seed:
+        return wanted
+    profile = drawn_within(wanted.profile, Drawn(variation.draws, variation.draws_seed + _NEXT_SEED * number))
+    return replace(wanted, profile=profile, frame=profile.frame())
+
+
+def _cue(timing: Any, wanted: Wanted, emotion: Any, fps: float, **options: Any) -> Cue:
     """An emotion with its times; it takes a frame at least to go."""
     # Blender keeps single precision: 1.2 s would come out a little longer, and the motion a frame.
     onset, apex, offset = (round(getattr(timing, name), 6) for name in ("onset", "apex", "offset"))
     seed = emotion.seed or None
-    return Cue(profile_of(emotion), onset=onset, apex=apex, offset=max(offset, 1.0 / fps), seed=seed, **options)
+    return Cue(wanted.profile, onset=onset, apex=apex, offset=max(offset, 1.0 / fps), seed=seed, **options)
+
+
+def _told_apart(titles: list[str]) -> tuple[str, ...]:
+    """Titles, those that repeat with a number: joy, joy 2."""
+    told: list[str] = []
+    for title in titles:
+        number, name = 1, title
+        while name in told:
+            number += 1
+            name = f"{title} {number}"
+        told.append(name)
+    return tuple(told)

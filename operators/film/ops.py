@@ -8,15 +8,12 @@ from typing import Any
 import bpy
 
 from ...errors import SceneError
-from ...scene import action, bake, film, gltf, refusals, shape_keys
-from ...scene.motion import CueMotion
+from ...scene import action, film, gltf, refusals, shape_keys
 from ...scene.progress import Work, part_of
 from ...scene.studio import Camera, Engine, Look
 from ..active import face_reason, target_of
-from ..bake.ops import clip_name, creases_wanted
+from ..bake.ops import motion_work
 from ..base import RisoriusOperator, WorkOperator
-from ..emotion.performance import performance_of
-from ..tissue.props import tissue_of
 
 
 class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
@@ -41,7 +38,7 @@ class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
         rendered_share = 0.0
         if not moves(obj):
             rendered_share = 0.3
-            yield from part_of(_bake_first(context), 0.0, rendered_share)
+            yield from part_of(motion_work(obj, context.scene), 0.0, rendered_share)
         start, end = frame_range(context)
         pictures = None if chosen.output == "MP4" else path.with_suffix("")
         work = film.render_film(
@@ -91,22 +88,6 @@ def moves(obj: Any) -> bool:
         owner is not None and owner.animation_data is not None for owner in (obj, obj.data, obj.data.shape_keys)
     )
     return animated or any(modifier.type == "ARMATURE" for modifier in obj.modifiers)
-
-
-def _bake_first(context: Any) -> Work[bake.BakeResult]:
-    """Bake the motion that is laid out on the face."""
-    obj = context.object
-    performance = performance_of(obj, context.scene)
-    hands = [wanted.contractions for wanted in performance.wanted]
-    return bake.bake_motion(
-        target_of(obj),
-        CueMotion(performance.cues, hands, tissue_of(obj)),
-        clip=clip_name(obj, motion=True),
-        start=performance.first_frame,
-        fps=performance.fps,
-        drive=obj.risorius.emotion.drive,
-        creases=creases_wanted(obj),
-    )
 
 
 def look_of(chosen: Any) -> Look:

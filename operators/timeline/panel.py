@@ -105,4 +105,28 @@ class RISORIUS_PT_timeline(Sidebar, bpy.types.Panel):
         column.prop(clip, "ramp")
 
 
-CLASSES = (RISORIUS_UL_clips, RISORIUS_PT_timeline)
+class RISORIUS_PT_variation(Sidebar, bpy.types.Panel):
+    """What makes the performance look alive."""
+
+    bl_label = "Natural Variation"
+    bl_parent_id = "RISORIUS_PT_timeline"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Only for meshes."""
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context: Any) -> None:
+        """Each with its seed."""
+        variation = context.object.risorius.timeline.variation
+        column = self.layout.column(align=True)
+        for name in ("draws", "blinks", "head", "eyes"):
+            row = column.split(factor=0.68, align=True)
+            row.prop(variation, name, slider=True)
+            seed = row.row(align=True)
+            seed.active = getattr(variation, name) > 0.0
+            seed.prop(variation, f"{name}_seed")
+
+
+CLASSES = (RISORIUS_UL_clips, RISORIUS_PT_timeline, RISORIUS_PT_variation)

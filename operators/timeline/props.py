@@ -62,6 +62,52 @@ class RISORIUS_PG_clip(bpy.types.PropertyGroup):
     )
 
 
+def _amount(name: str, description: str, most: float, **options: Any) -> Any:
+    """How much of a variation."""
+    return bpy.props.FloatProperty(
+        name=name, description=description, default=0.0, min=0.0, max=most, precision=2, update=retimed, **options
+    )
+
+
+def _seed(what: str) -> Any:
+    """From which number it is drawn."""
+    return bpy.props.IntProperty(
+        name="Seed", description=f"Another number draws other {what}", default=1, min=0, update=retimed
+    )
+
+
+class RISORIUS_PG_variation(bpy.types.PropertyGroup):
+    """What makes the performance look alive; nothing of it unless it is asked for."""
+
+    draws: _amount(  # type: ignore[valid-type]
+        "Draws",
+        "How far each expression departs from the typical one: 0 not at all, 1 anywhere within the emotion's ranges. "
+        "Clips with a seed of their own keep it",
+        1.0,
+    )
+    draws_seed: _seed("expressions")  # type: ignore[valid-type]
+    blinks: _amount(  # type: ignore[valid-type]
+        "Blinks (/min)",
+        "Blinks per minute: people at rest blink 17 times, in conversation 26 times, when reading 4.5 times. "
+        "Seen in a baked motion",
+        60.0,
+        step=100,
+    )
+    blinks_seed: _seed("blinks")  # type: ignore[valid-type]
+    head: _amount(  # type: ignore[valid-type]
+        "Head",
+        "Small turns of the head: 1 is about one degree, as of someone who holds still. Seen in a baked motion",
+        5.0,
+    )
+    head_seed: _seed("turns")  # type: ignore[valid-type]
+    eyes: _amount(  # type: ignore[valid-type]
+        "Eyes",
+        "Small movements of the eyes: 1 looks about two degrees aside and back. Seen in a baked motion",
+        5.0,
+    )
+    eyes_seed: _seed("looks")  # type: ignore[valid-type]
+
+
 class RISORIUS_PG_timeline(bpy.types.PropertyGroup):
     """The clips of one face, and which of them is being edited."""
 
@@ -78,6 +124,7 @@ class RISORIUS_PG_timeline(bpy.types.PropertyGroup):
         default=True,
         update=_chosen,
     )
+    variation: bpy.props.PointerProperty(type=RISORIUS_PG_variation)  # type: ignore[valid-type]
 
 
 def active_clip(timeline: Any) -> Any | None:
@@ -91,4 +138,4 @@ def sounding(timeline: Any) -> list[Any]:
     return solo or [clip for clip in timeline.clips if not clip.mute]
 
 
-CLASSES = (RISORIUS_PG_clip, RISORIUS_PG_timeline)
+CLASSES = (RISORIUS_PG_clip, RISORIUS_PG_variation, RISORIUS_PG_timeline)

@@ -1,0 +1,122 @@
+"""What a bake now would be made of, as digests: a baked clip whose note says otherwise is stale."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from hashlib import blake2b
+from typing import Any
+
+import numpy as np
+
+from ...scene import shape_keys
+from ...scene.action import Curve
+from ...scene.bake import ClipTiming, scene_fps
+from ...scene.motion import CueMotion
+from ...scene.notes import BakeKind, read_notes
+from ..emotion.performance import Performance, performance_of
+from ..emotion.profile import Wanted, title_of, wanted_of
+from ..tissue.props import tissue_of
+
+MOTION_SUFFIX = " motion"
+#: What the motion of a whole timeline is called unless the user names it.
+TIMELINE = "timeline"
+
+
+def clip_name(obj: Any, *, motion: bool = False) -> str:
+    """The name the user gave, or the emotion's; a motion through several expressions is the timeline's."""
+    title = title_of(obj.risorius.emotion)
+    if motion and obj.risorius.timeline.clips:
+        title = TIMELINE
+    chosen = str(obj.risorius.bake.clip).strip() or title
+    return chosen + MOTION_SUFFIX if motion else chosen
+
+
+def timing_of(obj: Any, scene: Any) -> ClipTiming:
+    """The timing chosen for a single expression."""
+    chosen = obj.risorius.bake
+    return ClipTiming(
+        start=float(chosen.start),
+        onset=chosen.onset,
+        apex=chosen.apex,
+        offset=chosen.offset,
+        fps=scene_fps(scene),
+    )
+
+
+def creases_wanted(obj: Any) -> bool | None:
+    """What the user has said about creases; None where nothing, and the material decides."""
+    chosen = obj.risorius.bake
+    return bool(chosen.creases) if chosen.is_property_set("creases") else None
+
+
+def motion_of(obj: Any, performance: Performance) -> CueMotion:
+    """What a motion bake of a performance simulates."""
+    hands = [wanted.contractions for wanted in performance.wanted]
+    return CueMotion(performance.cues, hands, tissue_of(obj), performance.liveliness)
+
+
+def expression_settings(obj: Any, scene: Any) -> str:
+    """Digest of what an expression bake is made of."""
+    return _digest(_look(wanted_of(obj)), timing_of(obj, scene), creases_wanted(obj))
+
+
+def motion_settings(obj: Any, performance: Performance) -> str:
+    """Digest of what a motion bake is made of."""
+    motion = motion_of(obj, performance)
+    return _digest(
+        (performance.first_frame, performance.fps, performance.titles),
+        *(motion.cues, motion.contractions, motion.tissue, motion.liveliness),
+        *(obj.risorius.emotion.drive, creases_wanted(obj)),
+    )
+
+
+def strip_curve(performance: Performance, number: int) -> Curve:
+    """How much of a clip shows: four keyframes, or each frame's share where it overlaps with others."""
+    start, end = performance.span(number)
+    spans = [performance.span(other) for other in range(len(performance.cues)) if other != number]
+    if not any(first < end and start < last for first, last in spans):
+        cue = performance.cues[number]
+        timing = ClipTiming(cue.onset, cue.apex, cue.offset, start=start, fps=performance.fps)
+        return timing.curve(cue.peak)
+    frames = np.arange(np.floor(start), np.ceil(end) + 1.0)
+    return Curve(frames, performance.shares_at(frames)[:, number], linear=True)
+
+
+def strip_settings(obj: Any, performance: Performance, number: int) -> str:
+    """Digest of what one strip is made of: its expression, and the curve that overlaps leave it."""
+    curve = strip_curve(performance, number)
+    times = curve.frames.tobytes(), curve.values.tobytes(), curve.linear
+    return _digest(_look(performance.wanted[number]), times, creases_wanted(obj))
+
+
+def stale_clips(obj: Any, scene: Any) -> Mapping[str, BakeKind]:
+    """The baked clips that a bake now would make otherwise, and how they were baked."""
+    notes = read_notes(shape_keys.own_face(obj.data))
+    if not notes:
+        return {}
+    performance = performance_of(obj, scene)
+    now = {
+        BakeKind.EXPRESSION: {clip_name(obj): expression_settings(obj, scene)},
+        BakeKind.MOTION: {clip_name(obj, motion=True): motion_settings(obj, performance)} if performance.cues else {},
+        BakeKind.STRIP: {
+            title: strip_settings(obj, performance, number) for number, title in enumerate(performance.titles)
+        },
+    }
+    stale = {}
+    for clip, note in notes.items():
+        wanted = now[note.kind].get(clip)
+        gone = note.kind is BakeKind.STRIP and wanted is None and bool(obj.risorius.timeline.clips)
+        if gone or (wanted is not None and wanted != note.settings):
+            stale[clip] = note.kind
+    return stale
+
+
+def _look(wanted: Wanted) -> tuple[Any, ...]:
+    """All of a wanted expression that a pose depends on."""
+    shares = sorted((str(name), share) for name, share in wanted.profile.weights.items())
+    return wanted.frame.tobytes(), wanted.drive, shares, sorted(wanted.contractions.items())
+
+
+def _digest(*parts: Any) -> str:
+    """A short digest of anything whose repr says all of it."""
+    return blake2b(repr(parts).encode(), digest_size=12).hexdigest()
