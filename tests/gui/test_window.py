@@ -1,16 +1,10 @@
-"""The built extension in a real Blender window: installed, seen, used, unregistered.
-
-Needs root and the shared tool that keeps a Blender with a virtual screen; skipped with the reason otherwise.
-"""
+"""The built extension in a real Blender window: installed, seen, used, unregistered."""
 
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import struct
-import subprocess
-import sys
 import time
 import zlib
 from collections.abc import Callable, Iterator
@@ -18,66 +12,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from driver import call
 
 ROOT = Path(__file__).resolve().parents[2]
 PICTURE = ROOT / "out" / "test-reports" / "window.png"
-OPENGL = ("libgl1", "libegl1", "libglx-mesa0")
 PATIENCE = 200.0  # s for the script in the window to get done
-
-
-def call(tool: Path, *arguments: str, settings: Path, timeout: float = 300.0) -> subprocess.CompletedProcess[str]:
-    """One call of the tool, with a settings folder of our own."""
-    environment = {**os.environ, "BLENDER_USER_RESOURCES": str(settings)}
-    command = [sys.executable, str(tool), *arguments]
-    return subprocess.run(
-        command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=timeout, check=False
-    )
-
-
-@pytest.fixture(scope="session")
-def blender(shared: Path) -> Path:
-    """The tool, with its Blender set up."""
-    tool = shared / "tools" / "blender-gui"
-    if not tool.is_file():
-        pytest.skip(f"{tool} is not there")
-    if not hasattr(os, "geteuid") or os.geteuid() != 0:
-        pytest.skip("a Blender with a virtual screen needs root")
-    try:
-        done = call(tool, "setup", settings=Path("/tmp"), timeout=900)
-    except subprocess.TimeoutExpired:
-        pytest.skip("setting up the Blender with a virtual screen took more than 15 minutes")
-    if done.returncode:
-        said = (done.stderr or done.stdout).strip()[-300:]
-        pytest.skip(f"the Blender with a virtual screen cannot be set up: {said}")
-    provide_opengl(Path(os.environ.get("BLENDER_GUI_ROOT", "/var/tmp/blender-gui")))
-    return tool
-
-
-def provide_opengl(root: Path) -> None:
-    """Install the OpenGL libraries where the tool's Blender was set up without them."""
-    if any(root.glob("usr/lib/*/libGL.so.1")):
-        return
-    install = ["chroot", str(root), "apt-get", "install", "-y", "-q", "--no-install-recommends", *OPENGL]
-    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    done = subprocess.run(install, env=environment, capture_output=True, text=True, check=False)
-    if done.returncode:
-        pytest.skip(f"the Blender with a virtual screen has no OpenGL: {(done.stderr or done.stdout).strip()[-300:]}")
-
-
-@pytest.fixture(scope="session")
-def settings(blender: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A settings folder in which the built zip is installed and enabled."""
-    folder = tmp_path_factory.mktemp("installed")
-    settings = folder / "settings"
-    settings.mkdir()
-    build = [sys.executable, str(ROOT / "tools" / "build.py"), "--platform", "linux-x64", "--blender", "5.1"]
-    built = subprocess.run([*build, "--output", str(folder)], capture_output=True, text=True, check=False)
-    assert built.returncode == 0, built.stdout + built.stderr
-    (path,) = folder.glob("*.zip")
-    install = ["--command", "extension", "install-file", "-r", "user_default", "--enable", str(path)]
-    installed = call(blender, "background", *install, settings=settings)
-    assert installed.returncode == 0, installed.stdout + installed.stderr
-    return settings
 
 
 @pytest.fixture(scope="session")

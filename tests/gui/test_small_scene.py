@@ -1,0 +1,188 @@
+"""A small scene made in a real window, pointer and keys as a person uses them; each test goes on from the last.
+
+Pictures of the stages are left in out/test-reports/scene/.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from driver import Window
+
+ROOT = Path(__file__).resolve().parents[2]
+PICTURES = ROOT / "out" / "test-reports" / "scene"
+HEIGHT = 900
+
+#: Where the wheel shows a point, in pixels of the window from its upper left.
+WHERE = """
+from importlib import import_module
+view = import_module("bl_ext.user_default.risorius.operators.wheel.view")
+with in_viewport():
+    region, wheel = bpy.context.region, view.wheel_of(bpy.context)
+    x, y = wheel.pixel({angle}, {activation})
+    result = [region.x + x, {height} - region.y - y]
+"""
+#: Names of the objects that show a preview now.
+PREVIEWED = (
+    "[o.name for o in bpy.data.objects for m in o.modifiers if m.name == 'Risorius Preview' and m.show_viewport]"
+)
+PREVIEW = "bl_ext.user_default.risorius.operators.preview.live"
+
+
+@pytest.fixture(scope="module")
+def window(blender: Path, settings: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Window]:
+    """The window, open until the last test."""
+    with Window(blender, settings, tmp_path_factory.mktemp("scene")) as opened:
+        opened.ask(f"from importlib import import_module\nlive = import_module({PREVIEW!r})")
+        yield opened
+        opened.shot(PICTURES / "last.png")
+
+
+@pytest.fixture(scope="module")
+def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where the scene is saved."""
+    return tmp_path_factory.mktemp("saved")
+
+
+def on_wheel(window: Window, angle: float, activation: float) -> tuple[int, int]:
+    """The window's pixel of a point of the wheel."""
+    x, y = window.ask(WHERE.format(angle=angle, activation=activation, height=HEIGHT))
+    return round(x), round(y)
+
+
+def test_one_button_gives_a_head_that_shows_joy(window: Window) -> None:
+    window.ask(
+        "with in_viewport():\n"
+        "    for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)\n"
+        "    viewport()[1].spaces.active.show_region_ui = True\n"
+        "    bpy.ops.risorius.add_head('INVOKE_DEFAULT')\n"
+        "    bpy.ops.ed.undo_push(message='begin')"
+    )
+    assert window.wait("bpy.context.object is not None and bpy.context.object.name") == "Risorius Head"
+    assert window.wait("[m.name for m in bpy.context.object.modifiers]") == ["Risorius Preview"]
+    window.ask("viewport()[2]['UI'].active_panel_category = 'Risorius'")
+    window.shot(PICTURES / "1-head.png")
+
+
+def test_dragging_between_fear_and_sadness_shows_guilty(window: Window) -> None:
+    start, end = on_wheel(window, 323.4, 5.4), on_wheel(window, 102.3, 4.0)
+    window.ask("before = bpy.context.object.data.attributes['risorius_preview'].data[3000].vector.copy()")
+    window.drag(start, end)
+    emotion = "bpy.context.object.risorius.emotion"
+    word, activation, angle = window.ask(f"e = {emotion}; result = [e.word, e.activation, e.angle * 57.29578]")
+    assert word == "guilty"
+    assert activation == pytest.approx(4.0, abs=0.25)
+    assert angle == pytest.approx(102.3, abs=3.0)
+    window.wait(
+        "(bpy.context.object.data.attributes['risorius_preview'].data[3000].vector - before).length > 1e-4 "
+        "or max((a.vector - b).length for a, b in zip(bpy.context.object.data.attributes['risorius_preview'].data,"
+        " [v.co for v in bpy.context.object.data.vertices])) > 1e-3"
+    )
+    window.shot(PICTURES / "2-wheel.png")
+
+
+def test_one_step_back_and_forth(window: Window) -> None:
+    word = "bpy.context.object.risorius.emotion.word"
+    window.click(*window.pixel_of("WINDOW", 0.6, 0.06))  # the pointer over the viewport, on nothing
+    window.ask("bpy.context.view_layer.objects.active = bpy.data.objects['Risorius Head']")
+    window.ask("bpy.data.objects['Risorius Head'].select_set(True)")
+    assert window.ask(f"result = {word}") == "guilty"
+    for _ in range(3):
+        window.key("ctrl+z")
+        if window.ask(f"result = {word}") == "joy":
+            break
+    assert window.ask(f"result = {word}") == "joy"
+    assert window.wait("[m.name for m in bpy.context.object.modifiers]") == ["Risorius Preview"]
+    for _ in range(3):
+        window.key("ctrl+shift+z")
+        if window.ask(f"result = {word}") == "guilty":
+            break
+    assert window.ask(f"result = {word}") == "guilty"
+
+
+def test_three_clips_are_laid_out(window: Window) -> None:
+    for frame, word in ((1, "joy"), (40, "fear"), (80, "anger")):
+        window.ask(
+            f"bpy.context.scene.frame_set({frame})\n"
+            "with in_viewport(): bpy.ops.risorius.add_clip()\n"
+            f"bpy.context.object.risorius.emotion.word = {word!r}"
+        )
+    clips = window.ask("result = [[c.emotion.word, c.start] for c in bpy.context.object.risorius.timeline.clips]")
+    assert clips == [["joy", 1], ["fear", 40], ["anger", 80]]
+    window.shot(PICTURES / "3-clips.png")
+
+
+def test_unbaked_clips_play(window: Window) -> None:
+    shown = []
+    for frame in (20, 58, 98):
+        window.ask(f"bpy.context.scene.frame_set({frame})")
+        window.wait(PREVIEWED)
+        shown.append(
+            window.ask("result = list(bpy.context.object.data.attributes['risorius_preview'].data[3000].vector)")
+        )
+    assert len({tuple(place) for place in shown}) == 3
+    assert window.ask("result = bpy.context.object.data.shape_keys is None")
+
+
+def test_a_bake_is_cancelled_by_escape_and_leaves_nothing(window: Window) -> None:
+    window.ask("with in_viewport(): bpy.ops.risorius.bake_motion('INVOKE_DEFAULT')")
+    window.click(*window.pixel_of("WINDOW", 0.6, 0.06))
+    window.key("Escape")
+    window.wait(
+        "not any(op.bl_idname == 'RISORIUS_OT_bake_motion' for op in bpy.context.window_manager.windows[0]"
+        ".modal_operators)"
+    )
+    assert window.ask("result = bpy.context.object.data.shape_keys is None")
+    assert window.ask("result = len(bpy.data.actions)") == 0
+
+
+def test_it_is_baked_and_plays_without_the_preview(window: Window) -> None:
+    window.ask(
+        "bpy.context.view_layer.objects.active = bpy.data.objects['Risorius Head']\n"
+        "with in_viewport(): bpy.ops.risorius.bake_motion('INVOKE_DEFAULT')"
+    )
+    keys = window.wait(
+        "(keys := bpy.context.object.data.shape_keys) is not None and keys.animation_data is not None"
+        " and len(keys.key_blocks)"
+    )
+    assert keys > 2
+    window.ask("bpy.context.scene.frame_set(20)")
+    assert window.ask(f"result = {PREVIEWED}") == []
+    moved = window.ask("result = max(k.value for k in bpy.context.object.data.shape_keys.key_blocks[1:])")
+    assert moved > 0.1
+    window.shot(PICTURES / "4-baked.png")
+
+
+def test_saved_files_hold_no_preview_and_open_again(window: Window, work: Path) -> None:
+    path = work / "scene.blend"
+    window.ask("bpy.context.object.risorius.emotion.seed = 3")
+    window.wait(PREVIEWED)
+    window.ask(f"bpy.ops.wm.save_as_mainfile(filepath={str(path)!r})")
+    assert window.wait("[m.name for m in bpy.context.object.modifiers]")
+    window.ask("bpy.context.window_manager.risorius.preview.show = False")
+    window.ask(f"bpy.ops.wm.open_mainfile(filepath={str(path)!r})")
+    assert window.ask("result = [m.name for m in bpy.data.objects['Risorius Head'].modifiers]") in (
+        [],
+        ["Risorius Creases"],
+    )
+    assert window.ask("result = 'risorius_preview' in bpy.data.objects['Risorius Head'].data.attributes") is False
+    assert window.ask("result = len(bpy.data.objects['Risorius Head'].risorius.timeline.clips)") == 3
+
+
+def test_the_film_is_rendered_beside_the_file(window: Window, work: Path) -> None:
+    window.ask(
+        "film = bpy.context.scene.risorius.film\n"
+        "film.path, film.width, film.height, film.frames = '//film.mp4', 128, 128, 'SCENE'\n"
+        "bpy.context.scene.frame_start, bpy.context.scene.frame_end = 10, 14\n"
+        "bpy.context.view_layer.objects.active = bpy.data.objects['Risorius Head']\n"
+        "with in_viewport(): bpy.ops.risorius.render_film('INVOKE_DEFAULT')"
+    )
+    window.eventually(lambda: (work / "film.mp4").exists() and (work / "film.mp4").stat().st_size > 1000)
+    window.ask("film.model = '//face.glb'\nwith in_viewport(): bpy.ops.risorius.export_gltf()")
+    assert (work / "face.glb").read_bytes()[:4] == b"glTF"
+
+
+def test_blender_did_not_complain(window: Window) -> None:
+    assert "Traceback" not in window.log(), window.log()[-3000:]
