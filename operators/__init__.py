@@ -33,6 +33,7 @@ _OPERATORS = (
     "tissue.ops",
     "timeline.ops",
     "bake.ops",
+    "library.ops",
     "film.ops",
 )
 #: In the order of work, which is that of the sidebar.
@@ -46,6 +47,7 @@ _PANELS = (
     "muscles.panel",
     "tissue.panel",
     "timeline.panel",
+    "library.panel",
     "bake.panel",
     "film.panel",
 )

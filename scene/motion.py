@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+import numpy as np
+
 from ..arrays import Floats
 from ..errors import ParameterError
 from ..mpeg4 import Cue, Liveliness, strengths
@@ -74,3 +76,22 @@ class FapMotion:
     def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
         """The stream, each frame planned by itself; see `Face.simulation`."""
         return face.simulation(self.frames, fps, drive=drive, emotions=self.emotions)
+
+
+def at_rate(frames: Floats, fps: float, wanted: float) -> Floats:
+    """Frames (T, 68) at another rate, seconds kept; between frames each FAP goes evenly.
+
+    A FAP is silent (NaN) where the nearer one of the frames around it is.
+    """
+    if fps == wanted or len(frames) < 2:
+        return frames
+    count = int(np.floor((len(frames) - 1) / fps * wanted + 1e-6)) + 1
+    places = np.minimum(np.arange(count) / wanted * fps, len(frames) - 1.0)
+    below = np.minimum(places.astype(np.int64), len(frames) - 2)
+    share = (places - below)[:, None]
+    first, second = frames[below], frames[below + 1]
+    nearer = np.where(share < 0.5, first, second)
+    mixed = (1.0 - share) * np.where(np.isnan(first), second, first) + share * np.where(
+        np.isnan(second), first, second
+    )
+    return np.where(np.isnan(nearer), np.nan, mixed)

@@ -29,6 +29,9 @@ _ICON_OF_ARCHETYPE = {
     Archetype.SURPRISE: "STRIP_COLOR_02",
 }
 
+#: The menu of preset files, by name: the library knows the timeline, and not the other way round.
+LIBRARY = "RISORIUS_MT_library"
+
 #: Rows of the list.
 ROWS = 5
 
@@ -74,6 +77,7 @@ class RISORIUS_PT_timeline(Sidebar, bpy.types.Panel):
             column = layout.column(align=True)
             column.scale_y = 1.2
             column.operator(RISORIUS_OT_add_clip.bl_idname, icon="ADD")
+            column.menu(LIBRARY, icon="PRESET")
             hint = layout.column(align=True)
             hint.label(text="Without clips the emotion above", icon="INFO")
             hint.label(text="plays from its start frame.", icon="BLANK1")
@@ -87,6 +91,7 @@ class RISORIUS_PT_timeline(Sidebar, bpy.types.Panel):
         side.menu(RISORIUS_MT_clips.bl_idname, text="", icon="DOWNARROW_HLT")
         side.operator(RISORIUS_OT_move_clip.bl_idname, text="", icon="TRIA_UP").direction = "UP"
         side.operator(RISORIUS_OT_move_clip.bl_idname, text="", icon="TRIA_DOWN").direction = "DOWN"
+        layout.menu(LIBRARY, icon="PRESET")
         self._draw_clip(layout, timeline)
 
     def _draw_clip(self, layout: Any, timeline: Any) -> None:

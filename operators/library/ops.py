@@ -1,0 +1,150 @@
+"""Operators that save and load presets, and import .fap files; by menu, or by dropping a file on the viewport."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import bpy
+from bpy_extras.io_utils import ImportHelper
+
+from ...errors import FormatError, SceneError
+from ...mpeg4.fap_file import read_fap
+from ...mpeg4.preset_file import PresetKind, read_preset, write_preset
+from ...scene.bake import BakeResult, bake_motion, scene_fps
+from ...scene.motion import FapMotion, at_rate
+from ...scene.progress import Work
+from ..active import face_reason, target_of
+from ..bake.ops import BakeOperator
+from ..bake.settings import creases_wanted
+from ..base import RisoriusOperator
+from .exchange import expression_of, load, own_folder, timeline_of
+
+
+class RISORIUS_OT_save_preset(RisoriusOperator, bpy.types.Operator):
+    """Save the expression of the Emotion panel, or the whole timeline, as a preset to be loaded on any face"""
+
+    bl_idname = "risorius.save_preset"
+    bl_label = "Save Preset"
+    bl_options = {"REGISTER"}
+    needs_scipy = False
+
+    preset: bpy.props.StringProperty(  # type: ignore[valid-type]
+        name="Name", description="Name of the preset; one of this name is replaced", default="Mine"
+    )
+    kind: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="What",
+        description="What is saved",
+        items=(
+            (PresetKind.EXPRESSION.value, "Expression", "What the Emotion panel shows, and muscles set by hand"),
+            (PresetKind.TIMELINE.value, "Timeline", "All clips with their times, the variation, muscles set by hand"),
+        ),
+    )
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only on a mesh."""
+        return None if context.object is not None and context.object.type == "MESH" else "Select the mesh of a face"
+
+    def invoke(self, context: Any, event: Any) -> Any:
+        """Ask for the name."""
+        return context.window_manager.invoke_props_dialog(self)
+
+    def run(self, context: Any) -> str:
+        """Save it in the user's folder."""
+        obj = context.object
+        if self.kind == PresetKind.TIMELINE and not obj.risorius.timeline.clips:
+            raise SceneError(obj.name, "there is no clip on the timeline yet: add one, or save the expression")
+        folder = own_folder(create=True)
+        if folder is None:
+            raise SceneError("Blender", "has no folder for presets of yours: check its file paths")
+        stem = re.sub(r"[^\w\- ]", "_", str(self.preset)).strip() or "Mine"
+        held = expression_of(obj) if self.kind == PresetKind.EXPRESSION else timeline_of(obj, context.scene)
+        path = folder / f"{stem}.toml"
+        write_preset(path, held)
+        return f"Saved {path}"
+
+
+class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, bpy.types.Operator):
+    """Load an expression, or a timeline from the current frame on in place of the clips that are there"""
+
+    bl_idname = "risorius.load_preset"
+    bl_label = "Load Preset"
+    bl_options = {"REGISTER", "UNDO"}
+    needs_scipy = False
+
+    filename_ext = ".toml"
+    filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})  # type: ignore[valid-type]
+    filepath: bpy.props.StringProperty(  # type: ignore[valid-type]
+        name="File", description="The preset file", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only on a face."""
+        return face_reason(context.object)
+
+    def invoke(self, context: Any, event: Any) -> Any:
+        """Ask for the file, unless one was dropped."""
+        return self.execute(context) if self.filepath else ImportHelper.invoke(self, context, event)
+
+    def run(self, context: Any) -> str:
+        """Load it."""
+        path = Path(bpy.path.abspath(self.filepath))
+        return f"{load(read_preset(path), context.object, context)} from {path.name}"
+
+
+class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
+    """Bake a stream of MPEG-4 facial animation parameters (.fap) on the face, from the current frame on"""
+
+    bl_idname = "risorius.import_fap"
+    bl_label = "Import FAP"
+    bl_options = {"REGISTER", "UNDO"}
+    title = "Baking the FAP file"
+
+    filename_ext = ".fap"
+    filter_glob: bpy.props.StringProperty(default="*.fap", options={"HIDDEN"})  # type: ignore[valid-type]
+    filepath: bpy.props.StringProperty(  # type: ignore[valid-type]
+        name="File", description="The .fap file", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
+
+    _was_asked_for = False
+
+    def invoke(self, context: Any, event: Any) -> Any:
+        """Ask for the file, unless one was dropped."""
+        if self.filepath:
+            return BakeOperator.invoke(self, context, event)
+        self._was_asked_for = True
+        return ImportHelper.invoke(self, context, event)
+
+    def run(self, context: Any) -> str:
+        """Run straight through; after the file browser, between events like any bake."""
+        if self._was_asked_for and not bpy.app.background:
+            bpy.ops.risorius.import_fap("INVOKE_DEFAULT", filepath=self.filepath)
+            return f"Baking {Path(self.filepath).name}"
+        return super().run(context)
+
+    def show_apex(self, context: Any) -> None:
+        """Stay at the frame: it is where the motion begins."""
+
+    def work(self, context: Any) -> Work[BakeResult]:
+        """Simulate the stream at the scene's rate."""
+        obj, path = context.object, Path(bpy.path.abspath(self.filepath))
+        stream = read_fap(path)
+        fps = scene_fps(context.scene)
+        frames = at_rate(stream.expanded(), stream.fps, fps)
+        if len(frames) == 0:
+            raise FormatError(path, "holds no frames")
+        return bake_motion(
+            target_of(obj),
+            FapMotion(frames),
+            clip=path.stem,
+            start=float(context.scene.frame_current),
+            fps=fps,
+            drive=obj.risorius.emotion.drive,
+            creases=creases_wanted(obj),
+        )
+
+
+CLASSES = (RISORIUS_OT_save_preset, RISORIUS_OT_load_preset, RISORIUS_OT_import_fap)

@@ -1,0 +1,71 @@
+"""The menu of presets, and what may be dropped on the viewport."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...mpeg4.preset_file import PresetKind
+from ..active import face_reason
+from .exchange import BUNDLED, preset_files
+from .ops import RISORIUS_OT_import_fap, RISORIUS_OT_load_preset, RISORIUS_OT_save_preset
+
+
+class RISORIUS_MT_library(bpy.types.Menu):
+    """Expressions and timelines to load on this face, and to save from it"""
+
+    bl_idname = "RISORIUS_MT_library"
+    bl_label = "Presets"
+
+    def draw(self, context: Any) -> None:
+        """Yours, those that come with Risorius, and ways in and out."""
+        layout, files = self.layout, preset_files()
+        for number, path in enumerate(files):
+            if number and path.parent == BUNDLED != files[number - 1].parent:
+                layout.separator()
+            text = bpy.path.display_name(path.stem)
+            layout.operator(RISORIUS_OT_load_preset.bl_idname, text=text).filepath = str(path)
+        layout.separator()
+        for kind, text in ((PresetKind.EXPRESSION, "Save Expression..."), (PresetKind.TIMELINE, "Save Timeline...")):
+            layout.operator(RISORIUS_OT_save_preset.bl_idname, text=text, icon="ADD").kind = kind.value
+        layout.separator()
+        # Left over from a preset above, the path would be loaded instead of asked for.
+        layout.operator(RISORIUS_OT_load_preset.bl_idname, text="Load from File...", icon="FILE_FOLDER").filepath = ""
+        layout.operator(RISORIUS_OT_import_fap.bl_idname, text="Import FAP...", icon="IMPORT").filepath = ""
+
+
+class RISORIUS_FH_preset(bpy.types.FileHandler):
+    """Presets dropped on the viewport"""
+
+    bl_idname = "RISORIUS_FH_preset"
+    bl_label = "Risorius Preset"
+    bl_import_operator = RISORIUS_OT_load_preset.bl_idname
+    bl_file_extensions = ".toml"
+
+    @classmethod
+    def poll_drop(cls, context: Any) -> bool:
+        """On a viewport, with a face to load it on."""
+        return dropped_on_face(context)
+
+
+class RISORIUS_FH_fap(bpy.types.FileHandler):
+    """Streams of FAPs dropped on the viewport"""
+
+    bl_idname = "RISORIUS_FH_fap"
+    bl_label = "MPEG-4 FAP"
+    bl_import_operator = RISORIUS_OT_import_fap.bl_idname
+    bl_file_extensions = ".fap"
+
+    @classmethod
+    def poll_drop(cls, context: Any) -> bool:
+        """On a viewport, with a face to bake it on."""
+        return dropped_on_face(context)
+
+
+def dropped_on_face(context: Any) -> bool:
+    """Whether a file dropped here has a face to go to."""
+    return context.area is not None and context.area.type == "VIEW_3D" and face_reason(context.object) is None
+
+
+CLASSES = (RISORIUS_MT_library, RISORIUS_FH_preset, RISORIUS_FH_fap)
