@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import bpy
 
 from ..sidebar import Sidebar
 from ..wheel.panel import RISORIUS_PT_wheel
+from ..wheel.places import between
 from .ops import RISORIUS_OT_reset_activation
 from .props import own_activation
 
@@ -44,6 +46,10 @@ class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
             row.label(text=f"{emotion.word.capitalize()}'s own: {own_activation(emotion.word):.1f}")
             row.operator(RISORIUS_OT_reset_activation.bl_idname, text="", icon="LOOP_BACK")
             layout.prop(emotion, "variant")
+        else:
+            row = column.row()
+            row.alignment = "RIGHT"
+            row.label(text=between(math.degrees(emotion.angle)).capitalize())
         layout.prop(emotion, "seed")
         layout.prop(emotion, "drive")
 

@@ -21,6 +21,8 @@ _variant_items: dict[str, list[tuple[str, str, str, int]]] = {}
 FIRST_WORD = "joy"
 DEFAULT_VARIANT = "DEFAULT"
 FALLBACK_ACTIVATION = 4.0
+#: A whole turn, radians.
+WHOLE = 2.0 * math.pi
 
 
 def own_activation(word: str) -> float:
@@ -88,6 +90,14 @@ def _word_chosen(owner: Any, context: Any) -> None:
     owner.variant = DEFAULT_VARIANT
 
 
+def _turned(owner: Any, context: Any) -> None:
+    """The wheel has no end: past 360° it goes on from 0."""
+    if 0.0 <= owner.angle < WHOLE:
+        changed(owner, context)
+    else:
+        owner.angle %= WHOLE  # comes here again
+
+
 class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
     """Word or point of the wheel, variant, activation and seed."""
 
@@ -102,13 +112,15 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
     )
     angle: bpy.props.FloatProperty(  # type: ignore[valid-type]
         name="Angle",
-        description="Direction on the emotion wheel. Between two archetypes their expressions mix",
+        description="Direction on the emotion wheel, counter-clockwise from the right: fear is at 70°, joy at 323°. "
+        "Between two archetypes their expressions mix",
         default=own_angle(FIRST_WORD),
         subtype="ANGLE",
-        soft_min=0.0,
-        soft_max=2.0 * math.pi,
+        soft_min=-WHOLE,
+        soft_max=2.0 * WHOLE,
         step=100,
-        update=changed,
+        precision=1,
+        update=_turned,
     )
     word: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Emotion", description="What the face expresses", items=word_items, update=_word_chosen

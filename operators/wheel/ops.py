@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import bpy
@@ -12,6 +13,8 @@ from .choice import REACH, Choice, Hand, choose_pixel, choose_word, strengthen, 
 from .geometry import Pixel
 from .view import label_at, reason_hidden, redraw, scale_of, wheel_of
 
+#: Pixels at a scale of 1 that a hand moves while it clicks on a label.
+STILL = 4.0
 HELP = "Ctrl: No Snapping to Words   Shift: Fine   Release: Choose   Esc, Right Mouse: Back"
 
 
@@ -37,10 +40,9 @@ class RISORIUS_OT_drag_emotion(bpy.types.Operator):
             return {"PASS_THROUGH"}
         self._wheel, self._obj, self._scale = wheel, context.object.name, scale_of(context)
         self._before = Choice.of(context.object.risorius.emotion)
-        self._hand = Hand(pixel, pixel)
-        word = None if event.ctrl else label_at(wheel, pixel, self._scale)
-        if word is not None:
-            choose_word(self._emotion(), word)
+        self._hand, self._clicked = Hand(pixel, pixel), None if event.ctrl else label_at(wheel, pixel, self._scale)
+        if self._clicked is not None:
+            choose_word(self._emotion(), self._clicked)
         else:
             self._choose(event)
         context.window_manager.modal_handler_add(self)
@@ -51,7 +53,9 @@ class RISORIUS_OT_drag_emotion(bpy.types.Operator):
         """Follow the pointer; release to keep, Esc or the right button to have it back."""
         if event.type == "MOUSEMOVE":
             pixel: Pixel = (float(event.mouse_region_x), float(event.mouse_region_y))
-            if pixel != self._hand.pointer:
+            if self._clicked is not None and math.dist(pixel, self._hand.pointer) > STILL * self._scale:
+                self._clicked = None
+            if pixel != self._hand.pointer and self._clicked is None:
                 self._hand = self._hand.moved(pixel, fine=event.shift)
                 self._choose(event)
                 self._show(context)

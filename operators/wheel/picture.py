@@ -13,7 +13,7 @@ from ..points.canvas import Canvas, Colour, text_width
 from .choice import Choice
 from .geometry import Wheel
 from .places import places, spots
-from .view import LARGE_LETTERS, LETTERS, RIM, labels_of, letters
+from .view import LARGE_LETTERS, LETTERS, NUMBERS, RIM, labels_of, letters, numbers_of
 
 #: Colours of the archetypes, after Plutchik's wheel.
 COLOURS: dict[Archetype, tuple[float, float, float]] = {
@@ -28,8 +28,6 @@ COLOURS: dict[Archetype, tuple[float, float, float]] = {
 STRENGTH, WEDGE = 0.5, 3
 #: Corners of large circles; pixels at a scale of 1 of dots, of the point in hand and of lines.
 CORNERS, DOT, LARGE_DOT, POINT, LINE = 96, 2.2, 4.5, 6.5, 1.0
-#: Direction in which the rings are numbered: there are no words.
-NUMBERS = 265.0
 
 
 class Theme(NamedTuple):
@@ -44,7 +42,7 @@ def theme_of(theme: Any) -> Theme:
     """The colours of a Blender theme."""
     back = tuple(theme.user_interface.wcol_menu_back.inner)
     text = tuple(theme.user_interface.wcol_menu_item.text)[:3]
-    return Theme((*back[:3], max(back[3], 0.85)), (*text, 0.16), (*text, 1.0))
+    return Theme((*back[:3], max(back[3], 0.85)), (*text, 0.22), (*text, 1.0))
 
 
 def colour_at(angle: float) -> tuple[float, float, float]:
@@ -76,11 +74,8 @@ def _still(wheel: Wheel, theme: Theme, scale: float) -> Canvas:
     for activation in range(1, 8):
         away = wheel.ring(activation)
         canvas.ring(wheel.centre, away - half, away + half, theme.line, corners=CORNERS)
-        size = LETTERS * 0.85 * scale
-        x, y = wheel.pixel(NUMBERS, activation)
-        if wheel.ring(1.0) > size:
-            at = (x - text_width(str(activation), size) / 2.0, y - size * 0.35)
-            canvas.text(at, str(activation), size, (*theme.text[:3], 0.6), shadow=theme.back)
+    for activation, box in numbers_of(wheel, scale).items():
+        canvas.text((box.left, box.low), str(activation), NUMBERS * scale, (*theme.text[:3], 0.6), shadow=theme.back)
     _draw_words(canvas, wheel, theme, scale)
     return canvas
 
@@ -110,7 +105,7 @@ def _draw_words(canvas: Canvas, wheel: Wheel, theme: Theme, scale: float) -> Non
     for word, box in labels_of(wheel, scale).items():
         strength = 1.0 if places()[word].is_archetype else 0.85
         at = (box.left, box.low + 0.2 * box.height)
-        canvas.text(at, word.capitalize(), letters(word, scale), (*theme.text[:3], strength), shadow=theme.back)
+        canvas.text(at, word.capitalize(), letters(wheel, word, scale), (*theme.text[:3], strength), shadow=theme.back)
 
 
 def _draw_point(canvas: Canvas, wheel: Wheel, choice: Choice, scale: float) -> None:

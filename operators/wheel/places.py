@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 
@@ -71,8 +71,8 @@ def nearest_word(wheel: Wheel, pixel: Pixel, reach: float) -> str | None:
 
 
 def between(angle: float) -> str:
-    """The archetypes on both sides of an angle, in words."""
-    below, above = neighbours(angle)
+    """The archetypes on both sides of an angle, in words; its own within the table's tenth of a degree."""
+    below, above = neighbours(round(angle, 1))
     return str(below) if below is above else f"between {below} and {above}"
 
 
@@ -83,32 +83,27 @@ def labels(
     gap: float,
     rim: float = 0.0,
     always: Collection[str] = (),
+    avoid: Iterable[Box] = (),
 ) -> dict[str, Box]:
     """Word -> where its label is written: the archetypes first, then as many as have room.
 
-    Labels cover neither one another nor any word's place, and stay inside the wheel.
+    Labels do not cover one another, cover no word's place and stay inside the wheel.
 
     Parameters
     ----------
     wheel : on the screen. size : of a label, width and height in pixels. gap : pixels between a place and its label.
-    rim : pixels beyond the outermost ring that labels may use. always : words that are written, room or not.
+    rim : pixels beyond the outermost ring that labels may use. avoid : what else labels do not cover.
+    always : words that may cover places and leave the wheel rather than not be written.
     """
     where = spots(wheel)
     dots = {name: Box(x - gap / 2, y - gap / 2, x + gap / 2, y + gap / 2) for name, (x, y) in where.items()}
-    written: dict[str, Box] = {}
+    others, written = list(avoid), dict[str, Box]()
     for name in sorted(where, key=lambda word: (word not in always, not places()[word].is_archetype)):
-        candidates = _beside(where[name], *size(name), gap)
-        free = [
-            box
-            for box in candidates
-            if _is_inside(wheel, box, rim)
-            and not any(box.overlaps(other) for other in written.values())
-            and not any(box.overlaps(dot) for word, dot in dots.items() if word != name)
-        ]
-        if free:
-            written[name] = free[0]
-        elif name in always:
-            written[name] = candidates[0]
+        taken = [*others, *(dot for word, dot in dots.items() if word != name)]
+        apart = [box for box in _beside(where[name], *size(name), gap) if not _covers(box, written.values())]
+        free = [box for box in apart if _is_inside(wheel, box, rim) and not _covers(box, taken)]
+        if free or (apart and name in always):
+            written[name] = (free or apart)[0]
     return written
 
 
@@ -120,6 +115,11 @@ def _beside(spot: Pixel, width: float, height: float, gap: float) -> list[Box]:
     corners += [(x + gap / 2, y + gap / 2), (x - width - gap / 2, y + gap / 2)]
     corners += [(x + gap / 2, y - height - gap / 2), (x - width - gap / 2, y - height - gap / 2)]
     return [Box(left, low, left + width, low + height) for left, low in corners]
+
+
+def _covers(box: Box, others: Iterable[Box]) -> bool:
+    """Whether it covers any of the others."""
+    return any(box.overlaps(other) for other in others)
 
 
 def _is_inside(wheel: Wheel, box: Box, rim: float) -> bool:

@@ -13,6 +13,10 @@ from .places import labels, places
 
 #: Pixels at a scale of 1: around the wheel, below it for its caption, from its outermost ring to its rim, and letters.
 MARGIN, FOOT, RIM, LETTERS, LARGE_LETTERS = 26.0, 40.0, 14.0, 10.5, 12.5
+#: Radius in pixels at a scale of 1 below which letters are smaller, and how much smaller they get at most.
+FULL_RADIUS, SMALLEST_LETTERS = 110.0, 0.8
+#: Letters of the rings' numbers, and the direction in which they stand: there are no words.
+NUMBERS, NUMBERED = 9.0, 265.0
 #: Pixels at a scale of 1 between a word's place and its label.
 GAP = 6.0
 #: Regions that may lie over the viewport along one of its sides.
@@ -76,9 +80,20 @@ def _free(context: Any, corner: Corner, scale: float) -> Box:
     return free
 
 
-def letters(word: str, scale: float) -> float:
-    """Size of a word's letters, pixels."""
-    return (LARGE_LETTERS if places()[word].is_archetype else LETTERS) * scale
+def letters(wheel: Wheel, word: str, scale: float) -> float:
+    """Size of a word's letters, pixels; a small wheel has smaller ones."""
+    usual = (LARGE_LETTERS if places()[word].is_archetype else LETTERS) * scale
+    return usual * min(1.0, max(SMALLEST_LETTERS, wheel.radius / (FULL_RADIUS * scale)))
+
+
+def numbers_of(wheel: Wheel, scale: float) -> dict[int, Box]:
+    """Activation -> where its ring is numbered; empty where the rings are too close."""
+    size = NUMBERS * scale
+    if wheel.ring(1.0) < 1.1 * size:
+        return {}
+    spots = {activation: wheel.pixel(NUMBERED, activation) for activation in range(1, 8)}
+    half = 0.3 * size
+    return {activation: Box(x - half, y - half, x + half, y + half) for activation, (x, y) in spots.items()}
 
 
 def labels_of(wheel: Wheel, scale: float) -> dict[str, Box]:
@@ -86,10 +101,12 @@ def labels_of(wheel: Wheel, scale: float) -> dict[str, Box]:
 
     def size(word: str) -> tuple[float, float]:
         """Width and height of a label."""
-        return text_width(word.capitalize(), letters(word, scale)), letters(word, scale)
+        high = letters(wheel, word, scale)
+        return text_width(word.capitalize(), high), high
 
     archetypes = {name for name, place in places().items() if place.is_archetype}
-    return labels(wheel, size=size, gap=GAP * scale, rim=RIM * scale, always=archetypes)
+    avoid = numbers_of(wheel, scale).values()
+    return labels(wheel, size=size, gap=GAP * scale, rim=RIM * scale, always=archetypes, avoid=avoid)
 
 
 def label_at(wheel: Wheel, pixel: Pixel, scale: float) -> str | None:

@@ -29,6 +29,13 @@ def test_a_word_puts_the_wheel_where_the_word_is(head: Any) -> None:
     assert wanted_of(head).profile == api.expression("sadness", activation=emotion.activation)
 
 
+@pytest.mark.parametrize(("turned", "kept"), [(370.0, 10.0), (-20.0, 340.0), (360.0, 0.0), (359.0, 359.0)])
+def test_the_wheel_goes_round(head: Any, turned: float, kept: float) -> None:
+    emotion = head.risorius.emotion
+    emotion.angle = math.radians(turned)
+    assert math.degrees(emotion.angle) == pytest.approx(kept, abs=1e-3)
+
+
 @pytest.mark.parametrize(
     ("name", "value"), [("word", "fear"), ("activation", 2.0), ("seed", 3), ("drive", "exact"), ("angle", 1.0)]
 )

@@ -97,6 +97,10 @@ def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     asked = [name for kind, name in shown["RISORIUS_PT_emotion"] if kind in {"prop", "popover"}]
     assert asked[:6] == ["show", "show", "RISORIUS_PT_wheel", "by", "word", "activation"]
     assert ("label", "Joy's own: 5.4") in shown["RISORIUS_PT_emotion"]
+    head.risorius.emotion.by = "WHEEL"
+    assert ("label", "Joy") in drawn()["RISORIUS_PT_emotion"]
+    head.risorius.emotion.angle = 0.2
+    assert ("label", "Between joy and fear") in drawn()["RISORIUS_PT_emotion"]
 
 
 def test_missing_scipy_is_said_with_the_remedy(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -108,8 +108,12 @@ def test_shift_moves_the_point_by_a_tenth(head: Any, drag: Drag) -> None:
 
 def test_a_press_on_a_label_is_its_word(head: Any, drag: Drag, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ops, "label_at", lambda wheel, pixel, scale: "bored")
-    drag.send("LEFTMOUSE", WHEEL.pixel(20.0, 6.0))
-    assert head.risorius.emotion.word == "bored"
+    emotion, (x, y) = head.risorius.emotion, WHEEL.pixel(20.0, 6.0)
+    drag.send("LEFTMOUSE", (x, y))
+    drag.send("MOUSEMOVE", (x + 2.0, y))
+    assert (emotion.by, emotion.word) == ("WORD", "bored")
+    drag.send("MOUSEMOVE", (x + 8.0, y))
+    assert emotion.by == "WHEEL"
 
 
 def test_beside_the_wheel_a_press_is_for_others(head: Any, drag: Drag, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -63,6 +63,7 @@ def test_every_word_can_be_pointed_at() -> None:
 def test_a_word_far_away_is_not_meant() -> None:
     assert nearest_word(WHEEL, WHEEL.pixel(20.0, 5.0), 6.0) is None
     assert nearest_word(WHEEL, WHEEL.pixel(102.3, 4.2), 6.0) == "guilty"
+    assert nearest_word(WHEEL, WHEEL.pixel(96.0, 4.0), 6.0) is None
     assert nearest_word(WHEEL, WHEEL.pixel(250.0, 0.5), 6.0) == CENTRE
 
 
@@ -91,7 +92,14 @@ def test_a_larger_wheel_has_more_labels_and_the_archetypes_always() -> None:
         for radius in (50.0, 300.0)
     )
     assert archetypes <= set(small) < set(large)
+    assert not any(one.overlaps(other) for one, other in itertools.combinations(small.values(), 2))
     assert len(large) >= 0.9 * len(places())
+
+
+def test_labels_keep_off_what_they_are_told_to_avoid() -> None:
+    box = labels(WHEEL, size=size, gap=6.0, rim=14.0)["guilty"]
+    written = labels(WHEEL, size=size, gap=6.0, rim=14.0, avoid=[box])
+    assert not any(other.overlaps(box) for other in written.values())
 
 
 @pytest.mark.parametrize("corner", list(Corner))
