@@ -29,6 +29,15 @@ class WindowError(Exception):
     """The window did not do what was asked; says what Blender said."""
 
 
+def call(tool: Path, *arguments: str, settings: Path, timeout: float = 300.0) -> subprocess.CompletedProcess[str]:
+    """One call of the tool, with a settings folder of our own."""
+    environment = {**os.environ, "BLENDER_USER_RESOURCES": str(settings)}
+    command = [sys.executable, str(tool), *arguments]
+    return subprocess.run(
+        command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=timeout, check=False
+    )
+
+
 class Window:
     """One Blender window.
 
@@ -54,16 +63,7 @@ class Window:
 
     def call(self, *arguments: str, check: bool = True) -> str:
         """One call of the tool; returns what it said."""
-        environment = {**os.environ, "BLENDER_USER_RESOURCES": str(self.settings)}
-        done = subprocess.run(
-            [sys.executable, str(self.tool), *arguments],
-            cwd=ROOT,
-            env=environment,
-            capture_output=True,
-            text=True,
-            timeout=300,
-            check=False,
-        )
+        done = call(self.tool, *arguments, settings=self.settings)
         if check and done.returncode:
             raise WindowError(f"{' '.join(arguments)}: {done.stdout}{done.stderr}")
         return done.stdout

@@ -1,0 +1,217 @@
+"""The pictures of the manual, taken in a real Blender window so that they show the panels as they are.
+
+    make docs-pictures                       ARGS="--only wheel timeline" for some of them
+
+Builds and installs the extension into a settings folder of its own, goes through the steps that the pages describe,
+and writes docs/pictures/. Needs Linux, root and the shared tool that keeps a Blender with a virtual screen
+(`blender-gui` in RISORIUS_SHARED, default ../shared).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tools" / "window"))
+
+from driver import Window, WindowError, call  # noqa: E402  (found only now)
+
+SHARED = Path(os.environ.get("RISORIUS_SHARED") or ROOT.parent / "shared")
+PICTURES = ROOT / "docs" / "pictures"
+#: Quality of the JPEG files, and seconds for the window to draw what was changed.
+QUALITY, DRAWN = 85, 1.5
+VIEW = "bl_ext.user_default.risorius.operators.wheel.view"
+
+#: Whole window, or the part from (left, top) to (right, bottom) in its pixels.
+Crop = tuple[int, int, int, int]
+WHOLE: Crop = (0, 0, 1600, 900)
+MIDDLE: Crop = (0, 40, 1312, 815)
+
+
+class Session:
+    """One window in which pictures are taken one after another."""
+
+    def __init__(self, window: Window, folder: Path) -> None:
+        self.window, self.folder = window, folder
+
+    def run(self, code: str) -> None:
+        """Run a script with the 3D viewport as its context."""
+        indented = "\n".join(f"    {line}" for line in code.strip().splitlines())
+        self.window.ask(f"with in_viewport():\n{indented}")
+
+    def take(self, name: str, crop: Crop = WHOLE) -> None:
+        """A picture of the window, as docs/pictures/NAME.jpg."""
+        time.sleep(DRAWN)
+        shot = self.window.shot(self.folder / f"{name}.png")
+        out = self.folder / f"{name}.jpg"
+        left, top, right, bottom = crop
+        self.window.ask(
+            "import numpy as np\n"
+            f"source = bpy.data.images.load({str(shot)!r})\n"
+            "w, h = source.size\n"
+            "pixels = np.empty(4 * w * h, dtype=np.float32)\n"
+            "source.pixels.foreach_get(pixels)\n"
+            f"part = pixels.reshape(h, w, 4)[h - {bottom}:h - {top}, {left}:{right}]\n"
+            "picture = bpy.data.images.new('picture', part.shape[1], part.shape[0])\n"
+            "picture.pixels.foreach_set(np.ascontiguousarray(part).ravel())\n"
+            f"picture.filepath_raw, picture.file_format = {str(out)!r}, 'JPEG'\n"
+            f"picture.save(quality={QUALITY})\n"
+            "bpy.data.images.remove(picture)\n"
+            "bpy.data.images.remove(source)"
+        )
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        (PICTURES / f"{name}.jpg").write_bytes(out.read_bytes())
+        print(f"{name}.jpg", flush=True)
+
+    def fresh(self) -> None:
+        """An empty file with the sidebar's tab open."""
+        self.window.ask("bpy.ops.wm.read_homefile(use_empty=False)")
+        self.run(
+            "for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)\n"
+            "viewport()[1].spaces.active.show_region_ui = True"
+        )
+        time.sleep(DRAWN)
+        self.window.ask("viewport()[2]['UI'].active_panel_category = 'Risorius'")
+
+    def head(self) -> None:
+        """The default head, shown by the preview."""
+        self.fresh()
+        self.run("bpy.ops.risorius.add_head()")
+        self.window.wait("len(bpy.context.object.modifiers)")
+
+
+def first(session: Session) -> None:
+    """The first minute: the head, joyful, before anything is baked."""
+    session.head()
+    session.take("first-minute")
+
+
+def wheel(session: Session) -> None:
+    """The pointer has dragged the emotion to guilty."""
+    session.head()
+    session.run("bpy.context.object.risorius.emotion.word = 'guilty'")
+    session.take("wheel", MIDDLE)
+
+
+def timeline(session: Session) -> None:
+    """Three clips, one selected."""
+    session.head()
+    for frame, word in ((1, "joy"), (45, "surprise"), (90, "disgust")):
+        session.run(
+            f"bpy.context.scene.frame_set({frame})\n"
+            "bpy.ops.risorius.add_clip()\n"
+            f"bpy.context.object.risorius.emotion.word = {word!r}"
+        )
+    session.take("timeline")
+
+
+def muscles(session: Session) -> None:
+    """Muscles of a smile from the side, and their sliders."""
+    session.head()
+    session.run(
+        "window = bpy.context.window_manager.risorius\n"
+        "window.show.muscles = window.muscles.busy_only = True\n"
+        "bpy.ops.view3d.view_orbit(angle=0.5, type='ORBITRIGHT')"
+    )
+    session.take("muscles", MIDDLE)
+    session.run("window.show.muscles = False\nwindow.show.strain = True")
+    session.take("strain", MIDDLE)
+    session.run("window.show.strain = False\nwindow.show.paths = True\nbpy.context.object.risorius.emotion.seed = 0")
+    session.window.wait("bpy.context.object.modifiers[0].show_viewport")
+    session.take("paths", MIDDLE)
+    session.run("window.show.paths = False")
+
+
+def baked(session: Session) -> None:
+    """A baked expression at its apex."""
+    session.head()
+    session.run("bpy.context.object.risorius.emotion.word = 'surprise'\nbpy.ops.risorius.bake_expression()")
+    session.run("bpy.context.scene.frame_set(30)")
+    session.take("baked")
+
+
+def own_head(session: Session) -> None:
+    """A head of the user's: points found, parts told apart."""
+    mesh = SHARED / "heads" / "makehuman.npz"
+    session.fresh()
+    session.window.ask(
+        "import numpy as np\n"
+        f"data = np.load({str(mesh)!r})\n"
+        "ends = np.cumsum(data['face_sizes'])\n"
+        "faces = [data['loops'][e - n:e].tolist() for e, n in zip(ends, data['face_sizes'])]\n"
+        "mesh = bpy.data.meshes.new('My Head')\n"
+        "mesh.from_pydata(data['vertices'].tolist(), [], faces)\n"
+        "mesh.polygons.foreach_set('use_smooth', [True] * len(mesh.polygons))\n"
+        "obj = bpy.data.objects.new('My Head', mesh)\n"
+        "bpy.context.scene.collection.objects.link(obj)\n"
+        "bpy.context.view_layer.objects.active = obj\n"
+        "obj.select_set(True)"
+    )
+    session.run("bpy.ops.view3d.view_axis(type='FRONT')\nbpy.ops.view3d.view_selected()")
+    session.take("own-head")
+    session.run("bpy.ops.risorius.find_points()")
+    session.take("points-found")
+    session.run(
+        "bpy.ops.risorius.find_parts()\nbpy.context.window_manager.risorius.parts.show = True\n"
+        "bpy.context.window_manager.risorius.points.show = False"
+    )
+    session.take("parts")
+    session.run("bpy.context.window_manager.risorius.parts.show = False")
+
+
+PICTURED: Mapping[str, Callable[[Session], None]] = {
+    "first": first,
+    "wheel": wheel,
+    "timeline": timeline,
+    "muscles": muscles,
+    "baked": baked,
+    "own_head": own_head,
+}
+
+
+def installed(tool: Path, folder: Path) -> Path:
+    """A settings folder in which the extension is installed and enabled."""
+    settings = folder / "settings"
+    settings.mkdir()
+    build = [sys.executable, str(ROOT / "tools" / "build.py"), "--platform", "linux-x64", "--blender", "5.1"]
+    subprocess.run([*build, "--output", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    (path,) = folder.glob("*.zip")
+    install = ["--command", "extension", "install-file", "-r", "user_default", "--enable", str(path)]
+    done = call(tool, "background", *install, settings=settings)
+    if done.returncode:
+        raise WindowError(done.stdout + done.stderr)
+    return settings
+
+
+def main() -> int:
+    """Take the pictures."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", nargs="*", choices=PICTURED, default=list(PICTURED), help="which pictures")
+    arguments = parser.parse_args()
+    tool = SHARED / "tools" / "blender-gui"
+    if not tool.is_file() or not hasattr(os, "geteuid") or os.geteuid() != 0:
+        print(f"The pictures need {tool} and root: set RISORIUS_SHARED to the folder that has it.", file=sys.stderr)
+        return 1
+    with tempfile.TemporaryDirectory(prefix="risorius-") as name:
+        folder = Path(name)
+        try:
+            settings = installed(tool, folder)
+            with Window(tool, settings, folder / "asked") as window:
+                session = Session(window, folder)
+                for key in arguments.only:
+                    PICTURED[key](session)
+        except WindowError as problem:
+            print(problem, file=sys.stderr)
+            return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
