@@ -32,6 +32,7 @@ _OPERATORS = (
     "muscles.ops",
     "tissue.ops",
     "timeline.ops",
+    "timeline.drag",
     "bake.ops",
     "library.ops",
     "film.ops",
@@ -53,11 +54,15 @@ _PANELS = (
 )
 #: Modules that draw or listen from registration on: attached in this order, detached in the opposite one.
 _ATTACHED = (
+    "translations",
     "points.overlay",
     "points.drag",
     "parts.overlay",
     "wheel.gizmo",
     "timeline.linked",
+    "timeline.colours",
+    "timeline.drawing",
+    "timeline.drag",
     "preview.live",
     "show.overlay",
 )
