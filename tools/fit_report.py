@@ -21,7 +21,9 @@ from typing import Any
 import fit_shapes
 import numpy as np
 import risorius.api as api
-from fit_heads import SharedHeads, TrueHead, subdivided
+from fit_hard import hard_heads
+from fit_heads import SharedHeads, TrueHead
+from fit_meshes import subdivided
 from fit_page import page
 from risorius.arrays import Floats
 from risorius.errors import ModelError
@@ -227,7 +229,12 @@ def _measure(part: str, heads: SharedHeads, only: str) -> list[dict[str, Any]]:
         return measure_clicks(heads)
     if part == "poses":
         return measure_poses([*heads.known(), *heads.held_out()])
-    sets = {"known": heads.known, "held-out": heads.held_out, "hard": heads.hard, "reserved": heads.reserved}
+    sets = {
+        "known": heads.known,
+        "held-out": heads.held_out,
+        "hard": lambda: hard_heads(heads),
+        "reserved": heads.reserved,
+    }
     rows = []
     for number, head in enumerate(sets[part]()):
         if only not in head.name:
