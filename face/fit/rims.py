@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ...arrays import Floats, Ints
 from .cloud import Surface
+from .pieces import joined
 
 
 class Neighbourhood:
@@ -40,18 +39,6 @@ class Neighbourhood:
         _, votes = cKDTree(self.centres[shown]).query(outside, k=3)
         most = np.bincount(piece[np.ravel(votes)]).argmax()
         yield from _closed_lines(triangles[piece == most])
-
-
-def joined(triangles: Ints) -> Ints:
-    """(T,) number of the piece that each triangle belongs to; pieces are joined over sides."""
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    keys = sides[:, 0] * (int(triangles.max()) + 1) + sides[:, 1]
-    owner = np.tile(np.arange(len(triangles)), 3)
-    order = np.argsort(keys, kind="stable")
-    same = np.flatnonzero(keys[order][1:] == keys[order][:-1])
-    a, b = owner[order][same], owner[order][same + 1]
-    graph = sparse.coo_array((np.ones(len(a)), (a, b)), shape=(len(triangles), len(triangles)))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
 
 
 def _closed_lines(triangles: Ints) -> Iterator[Ints]:
