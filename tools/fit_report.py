@@ -21,6 +21,7 @@ from typing import Any
 import fit_shapes
 import numpy as np
 import risorius.api as api
+from fit_effect import measure_effect
 from fit_hard import hard_heads
 from fit_heads import SharedHeads, TrueHead
 from fit_meshes import subdivided
@@ -216,7 +217,7 @@ def main() -> None:
 
 
 SETS = ("known", "held-out", "hard", "reserved")
-PARTS = (*SETS, "poses", "shapes", "time", "clicks")
+PARTS = (*SETS, "poses", "shapes", "time", "clicks", "effect")
 
 
 def _measure(part: str, heads: SharedHeads, only: str) -> list[dict[str, Any]]:
@@ -227,6 +228,8 @@ def _measure(part: str, heads: SharedHeads, only: str) -> list[dict[str, Any]]:
         return measure_time(heads)
     if part == "clicks":
         return measure_clicks(heads)
+    if part == "effect":
+        return measure_effect()
     if part == "poses":
         return measure_poses([*heads.known(), *heads.held_out()])
     sets = {
