@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from risorius.face.fit.locate import RELIEF_LIMIT, SCORE_LIMIT
+from risorius.face.fit.score import RELIEF_LIMIT, SCORE_LIMIT
 
 GROUPS: Mapping[str, tuple[str, ...]] = {
     "eyes and lids": tuple(f"3.{k}" for k in (1, 2, 3, 4, 7, 8, 9, 10, 11, 12, 13, 14)),

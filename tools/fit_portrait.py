@@ -10,7 +10,6 @@ from typing import Any
 import bpy
 import numpy as np
 import risorius.api as api
-from faithful.irises import irises
 from faithful.sheet import Cell, write_grid
 from faithful.sitter import Sitter, View
 from fit_heads import TrueHead
@@ -53,12 +52,11 @@ def portrait(head: TrueHead, emotions: Sequence[str], path: Path, *, width: int,
     except RisoriusError as refused:
         return Strip(head.name, f"no face: {refused}", [])
     paint_parts(obj)
-    eyes = irises(obj, face)
     dots = _dots(head, found.positions, found.confidence)
     framing = _framing(obj, found.positions)
-    with_dots = Sitter([obj, *eyes, dots], width=width, height=height, framing=framing)
+    with_dots = Sitter([obj, dots], width=width, height=height, framing=framing)
     neutral = [with_dots.shots([face.vertices], view)[0] for view in View]
-    alone = Sitter([obj, *eyes], width=width, height=height, framing=framing)
+    alone = Sitter([obj], width=width, height=height, framing=framing)
     plain = [alone.shots([face.vertices, *poses], view) for view in View]
     remark = _remark(head, found)
     cells = [Cell("points", remark, neutral), Cell("neutral", _parts_said(face), [seen[0] for seen in plain])]
@@ -95,9 +93,9 @@ def _remark(head: TrueHead, found: api.FoundPoints) -> str:
 
 
 def _parts_said(face: Face) -> str:
-    """How many vertices each part has."""
-    counts = {part.name.lower(): int((np.asarray(face.parts) == part).sum()) for part in api.Part}
-    return ", ".join(f"{name} {count}" for name, count in counts.items() if count and name != "skin")
+    """What the mesh has besides skin."""
+    names = [part.name.lower() for part in api.Part if part in set(np.unique(face.parts).tolist())]
+    return ", ".join(dict.fromkeys(name.split("_")[0] for name in names if name != "skin"))
 
 
 def _dots(head: TrueHead, positions: Mapping[str, Floats], confidence: Mapping[str, float]) -> Any:

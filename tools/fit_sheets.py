@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import multiprocessing
 import os
+import re
 import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -63,7 +64,13 @@ def picture(folder: Path, part: str, name: str, out: Path) -> Strip:
     from fit_portrait import portrait
 
     head = next(head for head in chosen(folder, part) if head.name == name)
-    return portrait(head, EMOTIONS, out / f"{part} {name}.png", width=WIDTH, height=HEIGHT)
+    return portrait(
+        head,
+        EMOTIONS,
+        out / (re.sub(r"[^\w.]+", "-", f"{part} {name}").strip("-") + ".png"),
+        width=WIDTH,
+        height=HEIGHT,
+    )
 
 
 def write_overview(strips: Sequence[Strip], part: str, out: Path) -> Path:

@@ -23,13 +23,11 @@ from risorius.scene.studio import Look, render_frame, studio
 from risorius.scene.subjects import paint_parts
 
 from .heads import lash_vertices
-from .irises import irises
 
 #: The face fills the picture: of the height that a portrait shows, this much, about a centre so much lower and deeper.
 CLOSENESS, LOWER, DEEPER = 0.76, 0.045, 0.14
 
 _COLOUR = "faithful"
-_EYE = ("sclera", "iris", "pupil")
 
 
 class View(StrEnum):
@@ -69,8 +67,7 @@ class Sitter:
             objects = [head_object(api.build_default_head(), name)]
             bpy.context.collection.objects.link(objects[0])
         else:
-            plain = _plain_object(name, face)
-            objects = [plain, *irises(plain, face)]
+            objects = [_plain_object(name, face)]
         return cls(objects, width=width, height=height, fine=fine)
 
     def shots(self, poses: Sequence[Floats], view: View, colours: Sequence[Floats] | None = None) -> list[Floats]:
@@ -111,9 +108,6 @@ def _plain_object(name: str, face: Face) -> Any:
     bpy.context.collection.objects.link(obj)
     store_points(obj, {n: tuple(point.position.tolist()) for n, point in face.points.items()})
     paint_parts(obj)
-    for material in obj.data.materials:
-        if material.name.endswith(_EYE):
-            material.roughness = 1.0  # a highlight on a flat cornea hides the pupil
     return obj
 
 
