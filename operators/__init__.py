@@ -19,21 +19,23 @@ def _classes() -> list[type]:
     from .face import ops as face_ops
     from .face import panel as face_panel
     from .face import props as face_props
+    from .face import six
     from .film import ops as film_ops
     from .film import panel as film_panel
     from .film import props as film_props
     from .parts import ops as parts_ops
     from .parts import panel as parts_panel
     from .parts import props as parts_props
-    from .points import click, drag
+    from .points import click, drag, hover, joined, look, question, topologies, topologies_panel
     from .points import ops as points_ops
     from .points import panel as points_panel
     from .points import props as points_props
 
     modules = (
         *(face_props, emotion_props, bake_props, film_props, points_props, parts_props, props),
-        *(face_ops, points_ops, click, drag, parts_ops, emotion_ops, bake_ops, film_ops),
-        *(face_panel, parts_panel, points_panel, emotion_panel, bake_panel, film_panel),
+        *(face_ops, points_ops, question, look, click, drag, hover, joined, topologies),
+        *(parts_ops, emotion_ops, bake_ops, six, film_ops),
+        *(face_panel, parts_panel, points_panel, topologies_panel, emotion_panel, bake_panel, film_panel),
     )
     return [cls for module in modules for cls in module.CLASSES]
 

@@ -7,7 +7,6 @@ from typing import Any
 from ..face.parts import Part
 from ..scene import refusals
 from ..scene.bake import Target
-from ..scene.points_kept import has_points
 
 
 def companions_of(obj: Any) -> dict[Part, Any]:
@@ -29,8 +28,5 @@ def target_of(obj: Any) -> Target:
 
 
 def face_reason(obj: Any | None) -> str | None:
-    """Why the active object cannot be baked on, or None."""
-    reason = refusals.reason(obj, make_single_user=obj is not None and obj.risorius.face.make_single_user)
-    if reason is None and obj is not None and not has_points(obj):
-        return f"{obj.name}: has no feature points yet: find the face, click them, or import them"
-    return reason
+    """Why the active object cannot be baked on, or None. Feature points that are missing are found by the bake."""
+    return refusals.reason(obj, make_single_user=obj is not None and obj.risorius.face.make_single_user)

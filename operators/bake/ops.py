@@ -8,10 +8,15 @@ import bpy
 
 from ...scene import bake, shape_keys
 from ...scene.motion import CueMotion
+from ...scene.points_found import Finding
+from ...scene.points_kept import has_points, read_kept
 from ...scene.progress import Work
 from ..active import face_reason, target_of
 from ..base import RisoriusOperator, WorkOperator
 from ..emotion.profile import frame_of, profile_of
+from ..points.first import with_points
+from ..points.look import turn_to_face
+from ..points.show import show_finding
 
 MOTION_SUFFIX = " motion"
 
@@ -48,18 +53,31 @@ def show_apex(context: Any) -> None:
 
 
 class BakeOperator(WorkOperator):
-    """What both bakes share."""
+    """What both bakes share: the face is found first where its points are not known yet."""
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
         """Only on a face that can be written to."""
         return face_reason(context.object)
 
-    def finish(self, context: Any, result: bake.BakeResult) -> str:
+    def work(self, context: Any) -> Work[bake.BakeResult | Finding]:
+        """Find the face if need be, then bake."""
+        self._is_new = not has_points(context.object)
+        return with_points(context.object, lambda: self.baking(context), scene=context.scene)
+
+    def baking(self, context: Any) -> Work[bake.BakeResult]:
+        """The bake itself."""
+        raise NotImplementedError
+
+    def finish(self, context: Any, result: bake.BakeResult | Finding) -> str:
         """Name what was written, and remark on what the user should know."""
+        if isinstance(result, Finding):
+            return show_finding(self, context, result)
         for remark in result.remarks:
             self.report({"WARNING"}, remark)
         show_apex(context)
+        if self._is_new:
+            turn_to_face(context, read_kept(context.object))
         first, last = result.frame_range
         keys = f"{len(result.keys)} shape keys" if len(result.keys) > 1 else f"shape key {result.keys[0]}"
         within = f", within {result.error * 1000.0:.2f} mm" if result.error > 0.0 else ""
@@ -74,7 +92,7 @@ class RISORIUS_OT_bake_expression(BakeOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     title = "Baking the expression"
 
-    def work(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Any) -> Work[bake.BakeResult]:
         """Pose the face and write its shape."""
         obj = context.object
         profile = profile_of(obj.risorius.emotion)
@@ -97,7 +115,7 @@ class RISORIUS_OT_bake_motion(BakeOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     title = "Baking the motion"
 
-    def work(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Any) -> Work[bake.BakeResult]:
         """Simulate the face and write its motion."""
         from ... import api
 

@@ -20,8 +20,9 @@ from ..base import WorkOperator
 from ..requirements import need_scipy
 from .canvas import Canvas, text_width
 from .diagram import HEIGHT, NOW, draw_diagram
-from .ops import points_reason, show_finding
 from .props import redraw
+from .reasons import points_reason
+from .show import show_finding
 from .view import Viewport
 
 #: What is asked for, in this order, and where it lies. Left and right are the face's own.
@@ -114,7 +115,7 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
         """Show them; clicks are kept so that the work can be done again."""
         if self._clicks is not None:
             self.clicks = json.dumps({name: place.tolist() for name, place in self._clicks.places.items()})
-        return show_finding(context, result)
+        return show_finding(self, context, result)
 
     def invoke(self, context: Any, event: Any) -> set[str]:
         """Ask for the first point; clicks given by a script need no asking."""

@@ -14,9 +14,11 @@ from ...scene.points_kept import KeptPoints, Origin, read_kept, write_kept
 from ...scene.points_mirrored import plane_of_points
 from ...scene.points_seen import Visible
 from ..base import RisoriusOperator
-from .ops import label_of, no_points_reason
+from .ops import label_of
 from .overlay import point_at
 from .props import mark, redraw
+from .reasons import no_points_reason
+from .show import show_points
 from .view import Viewport
 
 TOOL = "risorius.drag_points"
@@ -122,7 +124,7 @@ class RISORIUS_OT_use_drag_tool(RisoriusOperator, bpy.types.Operator):
 
     def run(self, context: Any) -> str:
         """Show the points and take the tool in hand."""
-        context.window_manager.risorius.points.show = True
+        show_points(context)
         if not bpy.app.background:
             bpy.ops.wm.tool_set_by_id(name=TOOL)
         return "Drag points with the left mouse button; any other tool ends it"
