@@ -51,7 +51,7 @@ def _cases(exact: Face) -> Iterator[tuple[str, Mapping[str, Floats]]]:
     true = {name: np.asarray(point.position) for name, point in exact.points.items()}
     yield "exact", true
     yield "found", true | dict(api.find_points(exact.vertices, exact.polygons, topologies=()).positions)
-    walk = _Walk(exact)
+    walk = Walk(exact)
     for size in JITTERS:
         for seed in SEEDS:
             random = np.random.default_rng(seed)
@@ -79,7 +79,7 @@ def _judged(exact: Face, face: Face, shapes: list[Shape]) -> dict[str, Any]:
     return {"ev": explained, "fap": errors}
 
 
-class _Walk:
+class Walk:
     """Short ways along a face's skin, so that no point crosses from lip to lip through the air."""
 
     def __init__(self, face: Face) -> None:

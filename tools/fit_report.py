@@ -1,6 +1,6 @@
 """Write docs/fit.md: how well feature points are found on heads in any pose, what is refused, how long it takes.
 
-    .venv/bin/python tools/fit_report.py [--heads FOLDER] [--part known held-out ...] [--errors]
+    .venv/bin/python tools/fit_report.py [--heads FOLDER] [--part known second ...] [--errors]
 
 FOLDER holds the shared heads (`ict.npz` ...). Each part leaves its figures in out/fit/, so that parts can be measured
 one at a time; the page is written when all are there. `--errors` also writes presets/anatomy/point_errors.csv from
@@ -24,7 +24,7 @@ import risorius.api as api
 from fit_effect import measure_effect
 from fit_hard import hard_heads
 from fit_heads import SharedHeads, TrueHead
-from fit_meshes import subdivided
+from fit_meshes import soup, subdivided
 from fit_page import page
 from risorius.arrays import Floats
 from risorius.errors import ModelError
@@ -143,7 +143,7 @@ def measure_clicks(heads: SharedHeads) -> list[dict[str, Any]]:
     """Errors of the points that were not clicked, on heads that are doubtful or refused, with unsteady clicks."""
     random = np.random.default_rng(SEED)
     rows = []
-    for head in heads.held_out():
+    for head in [*heads.held_out(), *heads.reserved()]:
         try:
             alone = api.find_points(head.vertices, head.polygons, topologies=())
             if not alone.is_doubtful:
@@ -168,9 +168,9 @@ def measure_time(heads: SharedHeads) -> list[dict[str, Any]]:
     """Seconds of processor time against the number of vertices."""
     known = {head.name: head for head in heads.known()}
     fine = subdivided(known["ict"])
-    cases = [known["mediapipe"], known["ict_narrow"], known["makehuman_body"], known["ict"], fine, subdivided(fine)]
+    given = [known[name] for name in ("mediapipe", "ict_narrow", "makehuman_body", "ict")]
     rows = []
-    for head in cases:
+    for head in [*given, fine, subdivided(fine), soup(fine)]:
         marks: list[tuple[float, float]] = []
         begun = time.process_time()
         for step in api.find_points_steps(head.vertices, head.polygons, topologies=()):
@@ -216,7 +216,7 @@ def main() -> None:
         PAGE.write_text(page(read), encoding="utf-8")
 
 
-SETS = ("known", "held-out", "hard", "reserved")
+SETS = ("known", "second", "hard", "reserved")
 PARTS = (*SETS, "poses", "shapes", "time", "clicks", "effect")
 
 
@@ -231,10 +231,10 @@ def _measure(part: str, heads: SharedHeads, only: str) -> list[dict[str, Any]]:
     if part == "effect":
         return measure_effect()
     if part == "poses":
-        return measure_poses([*heads.known(), *heads.held_out()])
+        return measure_poses([*heads.known(), *heads.held_out(), *heads.reserved()])
     sets = {
         "known": heads.known,
-        "held-out": heads.held_out,
+        "second": heads.held_out,
         "hard": lambda: hard_heads(heads),
         "reserved": heads.reserved,
     }
