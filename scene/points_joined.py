@@ -21,6 +21,8 @@ from .points_kept import POINTS, Origin, has_points, read_kept, triple, write_ke
 
 #: Vertices that do not lie where an affine motion puts them, as a share of the mesh's size, are another mesh's.
 SAME = 1e-4
+#: So many corners are compared before all are.
+FIRST = 64
 
 
 @dataclass(frozen=True)
@@ -77,7 +79,11 @@ def _block_of(part: Any, whole: Any) -> Ints | None:
     for start in begins[(ends - begins == len(part_corners)) & (corners[begins + 1] - corners[begins] == second)]:
         offset = int(corners[start] - part_corners[0])
         is_there = 0 <= offset <= len(whole.vertices) - len(part.vertices)
-        if is_there and np.array_equal(corners[start : start + len(part_corners)] - offset, part_corners):
+        is_same = (
+            np.array_equal(corners[start : start + count] - offset, part_corners[:count])
+            for count in (FIRST, len(part_corners))
+        )
+        if is_there and all(is_same):
             return np.arange(offset, offset + len(part.vertices))
     return None
 
