@@ -20,7 +20,8 @@ from .cloud import Surface
 from .doubt import DOUBTFUL_SCORE
 from .fitted import fit
 from .head_pose import HeadPose
-from .locate import HEAD, HEAD_BOX, FitProgress, Located, box_cloud, locate, looks_backwards, scored
+from .locate import HEAD, HEAD_BOX, Located, box_cloud, locate, looks_backwards, scored
+from .progress import FitProgress, part_of
 from .target import head_target
 from .template import FitTemplate, fit_template
 from .topologies import Topology, load_topologies, recognise_topology
@@ -102,8 +103,8 @@ def find_points_steps(
     if len(clicked) >= FEWEST:
         located = _located_by_clicks(surface, clicked, template)
     else:
-        located = yield from _part_of(locate(surface), 0.02, 0.6)
-    return (yield from _part_of(_fitted_points(located, clicked), 0.6, 1.0))
+        located = yield from part_of(locate(surface), 0.02, 0.6)
+    return (yield from part_of(_fitted_points(located, clicked), 0.6, 1.0))
 
 
 @dataclass(frozen=True)
@@ -202,7 +203,7 @@ def _fitted_points(located: Located, clicked: Mapping[str, Floats]) -> Generator
     pose, template = located.pose, located.template
     target = head_target(located.surface, pose)
     wishes = [click_wishes(clicked, pose, template)] if clicked else []
-    fitted = yield from _part_of(fit(template, target, wishes), 0.0, 0.95)
+    fitted = yield from part_of(fit(template, target, wishes), 0.0, 0.95)
     score = located.score.value
     carried = carry(template, target, fitted, score)
     positions = {name: pose.to_mesh(place) for name, place in carried.positions.items()}
@@ -218,14 +219,3 @@ def _means_corner(name: str, click: Floats, found: Floats, pose: HeadPose) -> bo
     """Whether a click means the corner of eye or mouth that was found beside it."""
     is_corner = name in RIM_POINTS and RIM_POINTS[name][1] in ("left", "right")
     return is_corner and float(np.linalg.norm(click - found)) < CLICK_SNAP * pose.size
-
-
-def _part_of(steps: Generator[FitProgress, None, _T], start: float, end: float) -> Generator[FitProgress, None, _T]:
-    """Some work as the share [start, end] of a larger one."""
-    while True:
-        try:
-            step = next(steps)
-        except StopIteration as stop:
-            result: _T = stop.value
-            return result
-        yield FitProgress(start + (end - start) * step.fraction, step.text)

@@ -10,8 +10,8 @@ import numpy as np
 from ...arrays import Floats, Ints
 from .bend import Stage, Wishes, bend
 from .ears import ear_wishes
-from .locate import FitProgress
 from .margins import Expected, Margin, find_eyes, find_mouth
+from .progress import FitProgress
 from .target import Target
 from .template import FitTemplate, Ring
 
@@ -76,7 +76,7 @@ def _margins(template: FitTemplate, target: Target, moved: Floats) -> dict[str, 
     """The rims found where the template's lie now."""
     skin = template.skin.vertices + template.skin.cage_matrix @ moved
     expected = {name: Expected(skin[ring.margin], skin[ring.outside]) for name, ring in template.rings.items()}
-    mouth = find_mouth(target.surface, target.outside.take(target.front), expected.pop("mouth"))
+    mouth = find_mouth(target.surface, expected.pop("mouth"))
     found = find_eyes(target.surface, expected)
     return found if mouth is None else found | {"mouth": mouth}
 
