@@ -49,6 +49,7 @@ def page(read: Mapping[str, list[dict[str, Any]]]) -> str:
         [
             HEADING.format(limit=SCORE_LIMIT, relief=RELIEF_LIMIT),
             *_groups_table(read),
+            *_sides_told(read),
             *_poses_told(read),
             *_effect_table(read),
             *_hard_table(read),
@@ -83,6 +84,21 @@ def _groups_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
     refused = [row["name"] for part in ("known", "second", "reserved") for row in read[part] if "refused" in row]
     said = f"Refused, and not in the table: {', '.join(refused)}." if refused else "None of these heads was refused."
     return [*lines, "", said, ""]
+
+
+def _sides_told(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
+    """How often a point of a lip or lid landed on the other one."""
+    rows = [row for part in ("known", "second", "reserved", "hard") for row in read[part] if "errors" in row]
+    wrong = [f"{row['name']} ({', '.join(row['sides'])})" for row in rows if row.get("sides")]
+    none = [row["name"] for row in rows if "sides" in row and row["sides"] is None]
+    lines = [
+        f"On {len(rows) - len(wrong) - len(none)} of the {len(rows)} heads here and below, every point of a lip or lid,"
+    ]
+    lines += [
+        "once bound to the mesh, lies on its own lip or lid." + (f" Not so: {'; '.join(wrong)}." if wrong else "")
+    ]
+    lines += [f"No face came of {', '.join(none)}."] if none else []
+    return [*lines, ""]
 
 
 def _head_row(row: Mapping[str, Any]) -> str:

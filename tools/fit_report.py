@@ -15,6 +15,7 @@ import json
 import os
 import time
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,7 @@ from fit_hard import hard_heads
 from fit_heads import SharedHeads, TrueHead
 from fit_meshes import soup, subdivided
 from fit_page import page
+from fit_sides import wrong_sides
 from risorius.arrays import Floats
 from risorius.errors import ModelError
 from risorius.face.checks import with_pupils
@@ -77,9 +79,21 @@ def measured(head: TrueHead, seed: int) -> dict[str, Any]:
         "score": found.score,
         "seconds": seconds,
         "errors": errors,
+        "sides": _sides(head, vertices, there, found.positions),
         "confidence": {name: found.confidence[name] for name in errors},
         "units": _unit_errors(found.positions, {name: there(place) for name, place in head.points.items()}),
     }
+
+
+def _sides(
+    head: TrueHead, vertices: Floats, there: Callable[[Floats], Floats], found: Mapping[str, Floats]
+) -> list[str] | None:
+    """Lip and lid points on the wrong side; None where no face comes of the points."""
+    moved_head = replace(head, vertices=vertices, points={name: there(place) for name, place in head.points.items()})
+    try:
+        return wrong_sides(moved_head, found)
+    except ModelError:
+        return None
 
 
 def _unit_errors(found: Mapping[str, Floats], truth: Mapping[str, Floats]) -> dict[str, float]:
