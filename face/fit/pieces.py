@@ -6,7 +6,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
-from ...arrays import Ints
+from ...arrays import Bools, Ints
 from .cloud import Surface
 
 #: Pieces smaller than this share of the largest are no skin.
@@ -21,9 +21,10 @@ def skin_pieces(surface: Surface) -> Surface:
     Lashes, and all else that is stitched onto skin, hang on sides that more than two triangles share. A small piece
     that is enclosed by such sides is skin nevertheless: coarse meshes have them.
     """
-    sides = _side_numbers(surface.triangles)
-    users = np.bincount(sides.ravel())[sides]
-    piece = _joined_over(sides, users == 2)
+    keys = side_keys(surface.triangles)
+    _, side, count = np.unique(keys, return_inverse=True, return_counts=True)
+    users = count[side.reshape(keys.shape)]
+    piece = joined_over(keys, users == 2)
     areas = np.bincount(piece, np.linalg.norm(surface.cross(), axis=1))
     free = np.bincount(piece, (users == 1).sum(axis=1))
     held = np.bincount(piece, (users > 2).sum(axis=1))
@@ -33,20 +34,26 @@ def skin_pieces(surface: Surface) -> Surface:
 
 def joined(triangles: Ints) -> Ints:
     """(T,) number of the piece that each triangle belongs to; pieces are joined over sides."""
-    sides = _side_numbers(triangles)
-    return _joined_over(sides, np.ones(sides.shape, dtype=bool))
+    keys = side_keys(triangles)
+    return joined_over(keys, np.ones(keys.shape, dtype=bool))
 
 
-def _side_numbers(triangles: Ints) -> Ints:
-    """(T, 3) a number for each triangle's sides; the same for the same two vertices."""
-    ends = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2), axis=2)
-    keys = ends[..., 0] * (int(triangles.max()) + 1) + ends[..., 1]
-    return np.unique(keys.ravel(), return_inverse=True)[1].reshape(keys.shape)
-
-
-def _joined_over(sides: Ints, joins: np.ndarray) -> Ints:
+def joined_over(keys: Ints, joins: Bools) -> Ints:
     """(T,) number of the piece that each triangle belongs to, joined over those of its sides (T, 3) that join."""
-    triangle = np.broadcast_to(np.arange(len(sides))[:, None], sides.shape)
-    shape = (len(sides), int(sides.max()) + 1)
-    uses = sparse.csr_array((np.ones(int(joins.sum())), (triangle[joins], sides[joins])), shape=shape)
+    _, side = np.unique(keys, return_inverse=True)
+    side = side.reshape(keys.shape)
+    triangle = np.broadcast_to(np.arange(len(keys))[:, None], keys.shape)
+    shape = (len(keys), int(side.max()) + 1)
+    uses = sparse.csr_array((np.ones(int(joins.sum())), (triangle[joins], side[joins])), shape=shape)
     return np.asarray(connected_components(uses @ uses.T, directed=False)[1], dtype=np.int64)
+
+
+def side_keys(triangles: Ints, base: int | None = None) -> Ints:
+    """(T, 3) a number for each side of each triangle, the same for the same two vertices.
+
+    Parameters
+    ----------
+    base : what the lower vertex is multiplied by, more than any vertex; None: one more than the highest.
+    """
+    ends = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2), axis=2)
+    return np.asarray(ends[..., 0] * (base or int(triangles.max()) + 1) + ends[..., 1], dtype=np.int64)

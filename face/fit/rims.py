@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Floats, Ints
 from .cloud import Surface
-from .pieces import joined
+from .pieces import joined, joined_over, side_keys
 
 
 class Neighbourhood:
@@ -39,6 +39,25 @@ class Neighbourhood:
         _, votes = cKDTree(self.centres[shown]).query(outside, k=3)
         most = np.bincount(piece[np.ravel(votes)]).argmax()
         yield from _closed_lines(triangles[piece == most])
+
+    def depth_behind(self, rim: Ints) -> float:
+        """How much deeper than a rim (closed line of vertices) the surface that it encloses reaches, metres.
+
+        Infinite where it encloses none, or one with open edges: the rim bounds a hole then.
+        """
+        ahead = np.roll(rim, -1)
+        base = int(self.triangles.max()) + 1
+        keys = side_keys(self.triangles, base)
+        on_rim = np.isin(keys, np.minimum(rim, ahead) * base + np.maximum(rim, ahead))
+        piece = joined_over(keys, ~on_rim)
+        following = np.roll(self.triangles, -1, axis=1)
+        beyond = np.isin(self.triangles * base + following, ahead * base + rim).any(axis=1)
+        enclosed = np.isin(piece, piece[beyond])
+        _, number, users = np.unique(keys, return_inverse=True, return_counts=True)
+        is_open = (users[number.reshape(keys.shape)] == 1)[enclosed].any()
+        if is_open or not enclosed.any():
+            return float("inf")
+        return float(self.vertices[self.triangles[enclosed], 1].max() - self.vertices[rim, 1].max())
 
 
 def _closed_lines(triangles: Ints) -> Iterator[Ints]:

@@ -64,8 +64,8 @@ def head_target(surface: Surface, pose: HeadPose) -> Target:
 
 
 def feature(positions: Floats, normals: Floats) -> Floats:
-    """(N, 6) what points are matched by: place and direction."""
-    return np.hstack([positions, TURN * normals])
+    """(..., 6) what points are matched by: place and direction."""
+    return np.concatenate([positions, TURN * normals], axis=-1)
 
 
 def _near(cloud: Cloud, places: Floats, reach: float) -> Bools:
