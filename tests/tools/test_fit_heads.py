@@ -105,3 +105,11 @@ def test_a_turned_head_keeps_its_shape_and_the_body_its_place(tool: Callable[[st
     np.testing.assert_allclose(turned.vertices[feet], body.vertices[feet], atol=1e-12)
     looks = turned.points["9.3"] - (turned.points["10.7"] + turned.points["10.8"]) / 2.0
     assert np.degrees(np.arctan2(looks[0], -looks[1])) == pytest.approx(20.0, abs=0.1)
+
+
+def test_a_lip_point_on_the_other_lip_is_counted(tool: Callable[[str], ModuleType], heads: Any) -> None:
+    head = heads.shared("ict_narrow")
+    wrong_sides = tool("fit_sides").wrong_sides
+    assert wrong_sides(head, head.points) == []
+    upper = int(np.linalg.norm(head.vertices - head.points["2.6"], axis=1).argmin())
+    assert wrong_sides(head, {**head.points, "2.8": upper}) == ["2.8"]
