@@ -39,9 +39,17 @@ class Fit:
     margins: Mapping[str, Margin]
 
 
-def fit(template: FitTemplate, target: Target, wishes: Sequence[Wishes] = ()) -> Generator[FitProgress, None, Fit]:
-    """Bend the template onto a head; `wishes` are places that points shall come to."""
-    moved = np.zeros((template.skin.cage_matrix.shape[1], 3))
+def fit(
+    template: FitTemplate, target: Target, wishes: Sequence[Wishes] = (), *, start: Floats | None = None
+) -> Generator[FitProgress, None, Fit]:
+    """Bend the template onto a head.
+
+    Parameters
+    ----------
+    wishes : places that points shall come to.
+    start : (C, 3) displacements of the cage to begin with; None: none.
+    """
+    moved = np.zeros((template.skin.cage_matrix.shape[1], 3)) if start is None else start
     yield FitProgress(0.0, "the face")
     moved = bend(template, target, moved, FRONT, wishes)
     yield FitProgress(0.3, "the whole head")
