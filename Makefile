@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps docs-pictures fit-report clean
+.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps docs-pictures fit-report fit-sheets clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -33,6 +33,9 @@ docs-faps: ## docs/faps.md: what moves each FAP, measured on the faces
 
 fit-report: ## docs/fit.md: how well feature points are found on any head; ARGS="--help" for parts of it
 	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/fit_report.py $(ARGS)
+
+fit-sheets: ## points found on every shared head and the six emotions they make, in out/fit/; ARGS="--help" for parts of it
+	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/fit_sheets.py $(ARGS)
 
 docs-pictures: ## the manual's pictures, taken in a real Blender window; ARGS="--only wheel" for some of them
 	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/docs_pictures.py $(ARGS)

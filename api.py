@@ -13,7 +13,7 @@ from .face.creases import Creases
 from .face.default_head import HeadMesh, build_default_head
 from .face.face import Clip, Face
 from .face.fit.find import FoundPoints, find_points, find_points_steps
-from .face.fit.locate import FitProgress
+from .face.fit.progress import FitProgress
 from .face.fit.topologies import (
     Topology,
     TopologyPoint,

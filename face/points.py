@@ -14,6 +14,7 @@ from ..arrays import Bools, Floats, Ints
 from ..errors import ModelError
 from ..mpeg4 import FEATURE_POINTS
 from ..physics.mesh import Sparse
+from .own_lip import LIP_POINTS, own_lips
 
 #: What a caller may give for a feature point: a vertex index, or a position (3,) on the surface.
 PointSource: TypeAlias = int | np.integer | Sequence[float] | Floats
@@ -109,7 +110,7 @@ class _Surface:
     """Triangles that positions are bound to."""
 
     def __init__(self, vertices: Floats, triangles: Ints) -> None:
-        self._vertices, self._triangles = vertices, triangles
+        self._vertices, self.triangles = vertices, triangles
         self._own: Ints = np.unique(triangles)
         self._near = cKDTree(vertices[self._own])
         self._reach = FREE_DISTANCE * float(np.linalg.norm(np.ptp(vertices, axis=0)))
@@ -120,7 +121,7 @@ class _Surface:
         if len(self._own) == 0:
             return free
         _, nearest = self._near.query(position, k=min(NEAR_VERTICES, len(self._own)))
-        corners = self._triangles[np.isin(self._triangles, self._own[nearest]).any(axis=1)]
+        corners = self.triangles[np.isin(self.triangles, self._own[nearest]).any(axis=1)]
         weights, distance = closest_on_triangles(position, self._vertices[corners])
         if distance.min() > self._reach:
             return free
@@ -174,7 +175,26 @@ def bind_points(
         if position.shape != (3,) or not np.isfinite(position).all():
             raise ModelError(f"feature point {name} must be a vertex index or three finite coordinates, not {source!r}")
         bound[name] = (on_skin if lies_on_skin(name) else anywhere).bind(name, position)
-    return FeaturePoints(bound, len(vertices))
+    return FeaturePoints(bound | _on_their_lips(bound, points, vertices, on_skin.triangles), len(vertices))
+
+
+def _on_their_lips(
+    bound: Mapping[str, BoundPoint], points: Mapping[str, PointSource], vertices: Floats, triangles: Ints
+) -> dict[str, BoundPoint]:
+    """The lip points given as positions that were bound to the other lip, bound to their own."""
+    middles = [bound[name] for name in ("8.1", "8.2")]
+    given = [name for names in LIP_POINTS for name in names if np.ndim(points.get(name, 0)) > 0]
+    if not given or not all(point.is_bound for point in middles):
+        return {}
+    upper, lower = (int(point.vertices[np.argmax(point.weights)]) for point in middles)
+    sides = own_lips(vertices, triangles, upper, lower)
+    again: dict[str, BoundPoint] = {}
+    for own, other, names in zip(sides, sides[::-1], LIP_POINTS, strict=True):
+        wrong = [name for name in names if name in given and bound[name].weights @ other[bound[name].vertices] > 0.5]
+        if wrong:
+            surface = _Surface(vertices, triangles[own[triangles].all(axis=1)])
+            again |= {name: surface.bind(name, bound[name].position) for name in wrong}
+    return again
 
 
 def check_sides(points: Mapping[str, Floats]) -> None:

@@ -29,8 +29,13 @@ def target_of(obj: Any) -> Target:
 
 
 def face_reason(obj: Any | None) -> str | None:
-    """Why the active object cannot be baked on, or None."""
-    reason = refusals.reason(obj, make_single_user=obj is not None and obj.risorius.face.make_single_user)
+    """Why the active object cannot be baked on, or None. Feature points that are missing are found by the bake."""
+    return refusals.reason(obj, make_single_user=obj is not None and obj.risorius.face.make_single_user)
+
+
+def ready_reason(obj: Any | None) -> str | None:
+    """Why the active object cannot be shown or moved at once, or None: it needs its feature points, too."""
+    reason = face_reason(obj)
     if reason is None and obj is not None and not has_points(obj):
         return f"{obj.name}: has no feature points yet: find the face, click them, or import them"
     return reason

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 import time
 from typing import Any, ClassVar, final
 
@@ -15,6 +16,8 @@ from .requirements import MISSING, has_scipy, need_scipy
 INTERVAL = 0.01
 #: Seconds of work per look.
 SHARE = 0.05
+#: Letters per line of a refusal that a window shows beside the mouse.
+LINE = 76
 
 
 class RisoriusOperator:
@@ -84,15 +87,15 @@ class WorkOperator(RisoriusOperator):
             self.report({"ERROR"}, str(refusal))
             return {"CANCELLED"}
         self.start(context)
+        context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def start(self, context: Any) -> None:
-        """Begin the work and listen for the timer and for Esc."""
+        """Begin the work and its timer, whose ticks `modal` hears. Blender ends with an operator that listens twice."""
         self._work = self.work(context)
         manager = context.window_manager
         self._timer = manager.event_timer_add(INTERVAL, window=context.window)
         manager.progress_begin(0.0, 1.0)
-        manager.modal_handler_add(self)
         _show(context, f"{self.title} ...")
 
     def modal(self, context: Any, event: Any) -> set[str]:
@@ -107,7 +110,7 @@ class WorkOperator(RisoriusOperator):
             return self._advance(context)
         except RisoriusError as refusal:
             self.stop(context)
-            self.report({"ERROR"}, str(refusal))
+            self.report({"ERROR"}, textwrap.fill(str(refusal), LINE))
             return {"CANCELLED"}
         except BaseException:
             self.stop(context)

@@ -17,13 +17,13 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError, SceneError
-from . import action as actions
 from . import bake, film
 from .contact_sheet import Exhibit, exhibit_values, write_sheet
 from .faces import face_of, read_face
 from .framing import framing_of
 from .mesh import key_vertices
 from .motion import CueMotion
+from .performance import ARCHETYPES, FIRST_FRAME, PAUSE, cues_of, line_up, pose_all
 from .progress import Progress, Work, part_of, run
 from .studio import Engine, Look, furnish, render_frame, studio
 from .subjects import subject
@@ -31,14 +31,8 @@ from .subjects import subject
 if TYPE_CHECKING:
     from ..api import Cue
 
-ARCHETYPES = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
-#: Seconds of rest before, between and after expressions.
-PAUSE = 0.2
 #: Pixels of a picture on the contact sheet.
 SHEET_SIZE = 640
-#: Frame at which a job's motion begins.
-FIRST_FRAME = 1
-
 Report = Callable[[Progress], None]
 
 
@@ -141,22 +135,6 @@ def demo(
     return run(_demo(Path(out_dir), mesh, points, words, Look(engine=_engine(engine)), fps, creases), progress)
 
 
-def cues_of(words: Sequence[str]) -> list[Cue]:
-    """One cue per word, one after another, each with the natural timing."""
-    from .. import api
-
-    if not words:
-        raise ParameterError("words", "must name at least one emotion", tuple(words))
-    timing = api.load_timings()["natural"]
-    cues: list[Cue] = []
-    start = PAUSE
-    for word in words:
-        profile = api.expression(word)
-        cues.append(api.Cue(profile, start=start, onset=timing.onset, apex=timing.apex, offset=timing.offset))
-        start = cues[-1].start + cues[-1].duration + PAUSE
-    return cues
-
-
 def _engine(name: str) -> Engine:
     """The engine of that name."""
     try:
@@ -206,45 +184,15 @@ def _bake_file(
         _, moved = yield from part_of(_move(obj, words, fps, creases), 0.05, 0.95)
         results = [moved]
     else:
-        results = yield from part_of(_pose_all(obj, cues, fps, creases), 0.05, 0.95)
-        _line_up(obj, results)
+        target = bake.Target(obj)
+        results = yield from part_of(pose_all(target, cues, fps, creases), 0.05, 0.95)
+        scene = bpy.context.scene
+        scene.frame_start, scene.frame_end = FIRST_FRAME, line_up(target, results)
     furnish(bpy.context.scene, framing_of(obj), Look())
     save(out)
     keys = sum(len(result.keys) for result in results)
     error = max(result.error for result in results)
     return Made(blend=out, shape_keys=keys, error_mm=round(error * 1000.0, 4), remarks=results[-1].remarks)
-
-
-def _pose_all(obj: Any, cues: Sequence[Cue], fps: float, creases: bool | None) -> Work[list[bake.BakeResult]]:
-    """One shape key per cue, each clip at its cue's time."""
-    results = []
-    for index, cue in enumerate(cues):
-        timing = bake.ClipTiming(
-            start=FIRST_FRAME + cue.start * fps, onset=cue.onset, apex=cue.apex, offset=cue.offset, fps=fps
-        )
-        work = bake.bake_expression(
-            bake.Target(obj),
-            cue.profile.frame(),
-            clip=str(cue.profile.word),
-            timing=timing,
-            emotion=cue.profile.weights,
-            creases=creases,
-        )
-        share = 1.0 / len(cues)
-        results.append((yield from part_of(work, index * share, (index + 1) * share)))
-    return results
-
-
-def _line_up(obj: Any, results: Sequence[bake.BakeResult]) -> None:
-    """Put the clips one after another on an NLA track, and the scene's end at the last one's."""
-    animation = obj.data.shape_keys.animation_data
-    animation.action = None
-    track = animation.nla_tracks.new()
-    track.name = actions.TRACK_NAME
-    for result in results:
-        actions.add_strip(track, bpy.data.actions[result.action])
-    scene = bpy.context.scene
-    scene.frame_start, scene.frame_end = FIRST_FRAME, int(np.ceil(max(result.frame_range[1] for result in results)))
 
 
 def _render_film(

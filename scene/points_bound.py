@@ -157,7 +157,7 @@ def followed(kept: KeptPoints, mesh: Any) -> Followed:
             lost.append(name)
         else:
             points[name] = surface.kept(held, np.array(point.at), point.confidence, point.origin)
-    return Followed(KeptPoints(surface.counts, surface.digest, points), True, tuple(lost))
+    return Followed(KeptPoints(surface.counts, surface.digest, points, kept.score), True, tuple(lost))
 
 
 def places(kept: KeptPoints, vertices: Floats) -> dict[str, Floats]:

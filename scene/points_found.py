@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from ..errors import ModelError, SceneError
 from . import mesh as meshes
 from .points_bound import bind
 from .points_kept import KeptPoints, Origin, triple, write_kept
+from .points_presets import known_topologies
 from .progress import Progress, Work
 from .refusals import refuse_broken_vertices, refuse_unreadable
 
@@ -26,11 +27,13 @@ class Finding:
     kept : the points.
     score : how little the mesh looks like a face, 0 at best.
     topology : name of the known topology that it was recognised by, or None.
+    unreadable : what is wrong with users' topologies that were passed over.
     """
 
     kept: KeptPoints
     score: float
     topology: str | None
+    unreadable: tuple[str, ...] = ()
 
     def summary(self, name: str) -> str:
         """A sentence for people."""
@@ -41,9 +44,7 @@ class Finding:
         return f"{name}: {len(self.kept.points)} feature points found ({how}){look}"
 
 
-def find_points(
-    obj: Any, clicks: Mapping[str, Floats] | None = None, *, scene: Any | None = None
-) -> Work[Finding]:
+def find_points(obj: Any, clicks: Mapping[str, Floats] | None = None, *, scene: Any | None = None) -> Work[Finding]:
     """Find the feature points of `obj` and keep them with its mesh; nothing is written before they are found.
 
     Parameters
@@ -65,7 +66,8 @@ def find_points(
     vertices = meshes.rest_vertices(obj.data) @ stretch.T
     polygons = meshes.polygon_sequence(*meshes.polygon_arrays(obj.data))
     known = {name: stretch @ np.asarray(place, dtype=np.float64) for name, place in (clicks or {}).items()}
-    steps = api.find_points_steps(vertices, polygons, known or None)
+    topologies, unreadable = known_topologies()
+    steps = api.find_points_steps(vertices, polygons, known or None, topologies=topologies)
     try:
         while True:
             try:
@@ -83,8 +85,9 @@ def find_points(
     origin = Origin.FOUND if found.topology is None else Origin.TOPOLOGY
     origins = {name: Origin.CLICKED if name in known else origin for name in table}
     kept = bind(obj.data, table, origins=origins, confidence=found.confidence)
+    kept = replace(kept, score=0.0 if known else found.score)
     write_kept(obj, kept, as_given=True)
-    return Finding(kept, found.score, found.topology)
+    return Finding(kept, found.score, found.topology, unreadable)
 
 
 def _explained(obj: Any, refusal: ModelError) -> ModelError | SceneError:

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import FormatError, ParameterError, SceneError
-from ..face.fit.doubt import DOUBTFUL
+from ..face.fit.doubt import DOUBTFUL, DOUBTFUL_SCORE
 from ..mpeg4 import FEATURE_POINTS
 
 #: The mesh's points, and the same as they were before anything was corrected by hand.
@@ -76,11 +76,18 @@ class KeptPoints:
     counts : vertices, corners and polygons of the mesh that they are bound to.
     digest : of that mesh's polygons.
     points : name ("8.4") -> point.
+    score : how little the mesh looked like a face when they were found in it; 0 once a person has said where it is.
     """
 
     counts: tuple[int, int, int]
     digest: str
     points: Mapping[str, KeptPoint] = field(default_factory=dict)
+    score: float = 0.0
+
+    @property
+    def is_questioned(self) -> bool:
+        """Whether the mesh is so unlike most faces that somebody should look whether these are its points."""
+        return self.score > DOUBTFUL_SCORE
 
     def doubtful(self) -> list[str]:
         """Names of the points that want to be looked at, the least sure first."""
@@ -167,7 +174,7 @@ def _encoded(kept: KeptPoints) -> str:
         }
         for name, point in kept.points.items()
     }
-    return json.dumps({"counts": list(kept.counts), "digest": kept.digest, "points": points})
+    return json.dumps({"counts": list(kept.counts), "digest": kept.digest, "score": kept.score, "points": points})
 
 
 @lru_cache(maxsize=8)
@@ -187,4 +194,5 @@ def _decoded(text: str) -> KeptPoints:
             Origin(entry["origin"]),
         )
     vertices, corners, polygons = stored["counts"]
-    return KeptPoints((int(vertices), int(corners), int(polygons)), str(stored["digest"]), points)
+    counts = int(vertices), int(corners), int(polygons)
+    return KeptPoints(counts, str(stored["digest"]), points, float(stored.get("score", 0.0)))

@@ -22,6 +22,7 @@ from ..errors import ParameterError, SceneError
 from .creases import unmeasured
 from .framing import Framing
 from .gpu_probe import REMEDY, can_draw
+from .irises import has_irises
 
 #: How much of the background's light falls on the face.
 AMBIENT = 0.35
@@ -137,6 +138,8 @@ def furnish(scene: Any, framing: Framing, look: Look) -> list[Any]:
     SceneError : the engine is not available.
     """
     _settings(scene, look)
+    if any(has_irises(obj) for obj in scene.objects):
+        scene.display.shading.color_type = "TEXTURE"
     return [_camera(scene, framing, look), *_lights(scene, framing), _world(scene, look)]
 
 

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Bools, Ints
 from ..errors import FormatError
 from ..face.parts import Part
 from . import mesh as meshes
 from .creases import draw_in
-from .faces import FaceSource, face_of, read_face, store_points
+from .faces import face_of, read_face, store_points
 from .head import add_default_head, select_only
+from .irises import iris_polygons, lay_irises
 from .points_file import read_points
 from .points_found import find_points
 from .points_kept import has_points
@@ -32,6 +33,7 @@ PLAIN_COLOURS = {
     "Other": (0.16, 0.1, 0.08),
     "Iris": (0.1, 0.2, 0.25),
     "Pupil": (0.01, 0.01, 0.01),
+    "Mouth": (0.13, 0.035, 0.035),
 }
 _COLOUR_OF_PART = {
     Part.SKIN: 0,
@@ -42,8 +44,7 @@ _COLOUR_OF_PART = {
     Part.TONGUE: 3,
     Part.OTHER: 4,
 }
-#: Colour -> radius as a share of the distance between the pupils: 5.7 and 2.2 mm on a face of 63 mm.
-_DISCS = {5: 0.09, 6: 0.035}
+_MOUTH = list(PLAIN_COLOURS).index("Mouth")
 
 #: From this many pieces on, teeth are modelled one by one.
 MANY_TEETH = 8
@@ -143,8 +144,7 @@ def _largest(objects: list[Any], path: Path) -> Any:
 
 def paint_parts(obj: Any, *, creases: bool = False) -> None:
     """Give a mesh without materials one per part of its face, so that eyes and teeth can be told from skin."""
-    source = read_face(obj)
-    face = face_of(source)
+    face = face_of(read_face(obj))
     parts = np.asarray(face.parts)
     corners, sizes = meshes.polygon_arrays(obj.data)
     first = corners[np.cumsum(sizes) - sizes]
@@ -152,12 +152,11 @@ def paint_parts(obj: Any, *, creases: bool = False) -> None:
     for part, index in _COLOUR_OF_PART.items():
         lookup[part] = index
     colours = lookup[parts[first]]
-    centres = np.add.reduceat(source.vertices[corners], np.cumsum(sizes) - sizes) / sizes[:, None]
-    distance = _pupil_distance(source, centres)
-    eyeball = colours == _COLOUR_OF_PART[Part.EYEBALL_L]
-    for index, radius in _DISCS.items():
-        colours[eyeball & (distance < radius)] = index
+    for polygons, name in zip(iris_polygons(face, corners, sizes), ("Iris", "Pupil"), strict=True):
+        colours[polygons] = list(PLAIN_COLOURS).index(name)
     colours[_gums(face, parts, first)] = _COLOUR_OF_PART[Part.TONGUE]
+    colours[_lining(face, corners, sizes)] = _MOUTH
+    painted = {}
     for name, colour in PLAIN_COLOURS.items():
         material = bpy.data.materials.new(f"Risorius plain {name.lower()}")
         material.diffuse_color = (*colour, 1.0)
@@ -169,8 +168,25 @@ def paint_parts(obj: Any, *, creases: bool = False) -> None:
         if creases and name == "Skin":
             draw_in(material)
         obj.data.materials.append(material)
+        painted[name] = material
+    eye = {name: np.array(PLAIN_COLOURS[name]) for name in ("Sclera", "Iris", "Pupil")}
+    lay_irises(obj, face, [painted[name] for name in eye], sclera=eye["Sclera"], iris=eye["Iris"], pupil=eye["Pupil"])
     obj.data.polygons.foreach_set("material_index", colours.astype(np.int32))
     obj.data.update()
+
+
+def _lining(face: Face, corners: Ints, sizes: Ints) -> Bools:
+    """(F,) polygons of skin behind the lips, by the corners of all polygons (L,) and their sizes (F,)."""
+    anatomy, starts = face.anatomy, np.cumsum(sizes) - sizes
+    inner = np.asarray(face.parts) == Part.SKIN
+    inner[anatomy.given_skin.index] = False
+    centres = np.add.reduceat(anatomy.mesh.positions[corners], starts) / sizes[:, None]
+    lips, *eyes = (
+        np.linalg.norm(centres - np.mean([anatomy.given_skin.points[name] for name in names], axis=0), axis=1)
+        for names in (("2.2", "2.3"), ("3.7", "3.11"), ("3.8", "3.12"))
+    )
+    behind: Bools = np.logical_or.reduceat(inner[corners], starts) & (lips < np.minimum(*eyes))
+    return behind
 
 
 def _gums(face: Face, parts: Ints, first: Ints) -> Bools:
@@ -184,14 +200,3 @@ def _gums(face: Face, parts: Ints, first: Ints) -> Bools:
         return np.zeros(len(first), dtype=bool)
     large = found[counts > 4 * np.median(counts)]
     return np.isin(label[first], large)
-
-
-def _pupil_distance(source: FaceSource, centres: Floats) -> Floats:
-    """(F,) distance of polygons from the nearer pupil, as a share of that between the pupils; inf without pupils."""
-    if "3.5" not in source.points or "3.6" not in source.points:
-        return np.full(len(centres), np.inf)
-    points = [source.points[name] for name in ("3.5", "3.6")]
-    pupils = [source.vertices[p] if isinstance(p, int) else np.asarray(p, dtype=np.float64) for p in points]
-    nearest = np.minimum(*(np.linalg.norm(centres - pupil, axis=1) for pupil in pupils))
-    distance: Floats = nearest / np.linalg.norm(pupils[0] - pupils[1])
-    return distance

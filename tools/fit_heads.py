@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import risorius.api as api
-from risorius.arrays import Floats, Ints
+from risorius.arrays import Bools, Floats, Ints
 
 #: Bent default heads: size of the bends, metres, their width, and how far each axis is scaled.
 BEND, BEND_WIDTH, BEND_SCALE = 3.5e-3, 45e-3, 0.12
@@ -72,7 +72,7 @@ class SharedHeads:
     def known(self) -> Iterator[TrueHead]:
         """The heads that the method was tuned on."""
         for name in ("ict", "ict_narrow", "makehuman", "mediapipe", "makehuman_body"):
-            yield self._head(name, name, self._arrays(name)["vertices"].astype(np.float64))
+            yield self.shared(name)
         for number in range(6):
             yield self._head(f"ict identity {number}", "ict", self._identity(number))
         variants = self._arrays("makehuman_variants")
@@ -99,22 +99,25 @@ class SharedHeads:
         for seed in recipe.bent:
             yield bent_default_head(seed)
 
-    def hard(self) -> Iterator[TrueHead]:
-        """Expressions and coarse meshes."""
-        for name, weights in (
-            ("eyes closed", {"eyeBlink_L": 1.0, "eyeBlink_R": 1.0}),
-            ("mouth open 9 mm", {"jawOpen": 0.25}),
-            ("mouth open 19 mm", {"jawOpen": 0.5}),
-            ("smile", {"mouthSmile_L": 1.0, "mouthSmile_R": 1.0}),
-        ):
-            yield self._head(f"ict, {name}", "ict", self._expression(weights))
-        for cell in (0.010, 0.018):
-            head = self._head("", "ict_narrow", self._arrays("ict_narrow")["vertices"].astype(np.float64))
-            yield coarse(head, cell)
+    def shared(self, name: str) -> TrueHead:
+        """The head of a file: "ict", "ict_narrow", "makehuman", "mediapipe" or "makehuman_body"."""
+        return self._head(name, name, self._arrays(name)["vertices"].astype(np.float64))
 
-    def ict(self) -> TrueHead:
-        """The scanned mean head."""
-        return self._head("ict", "ict", self._arrays("ict")["vertices"].astype(np.float64))
+    def skin(self, name: str) -> Bools:
+        """(V,) which vertices of such a head are skin."""
+        skin: Bools = self._arrays(name)["labels"] == 0
+        return skin
+
+    def expression(self, name: str, weights: Mapping[str, float]) -> TrueHead:
+        """The scanned mean head in an expression: the weights of its shapes."""
+        vertices = self._arrays("ict")["vertices"].astype(np.float64)
+        skin, inner = self._arrays("ict_expressions"), self._arrays("ict_expressions_inner")
+        names = [str(name) for name in skin["names"]]
+        count = skin["displacement"].shape[1]
+        for shape, weight in weights.items():
+            vertices[:count] += weight * skin["displacement"][names.index(shape)]
+            vertices[count:] += weight * inner["displacement"][names.index(shape)].astype(np.float64)
+        return self._head(f"ict, {name}", "ict", vertices)
 
     def _arrays(self, name: str) -> Mapping[str, np.ndarray]:
         return _read(self._folder / f"{name}.npz")
@@ -133,17 +136,6 @@ class SharedHeads:
         inner = next(array for array in self._arrays("ict_identities_inner").values() if array.ndim == 3)[number]
         vertices[: len(skin)] = skin
         vertices[len(skin) :] += inner.astype(np.float64)
-        return vertices
-
-    def _expression(self, weights: Mapping[str, float]) -> Floats:
-        """Vertices of the scanned mean head in an expression."""
-        vertices = self._arrays("ict")["vertices"].astype(np.float64)
-        skin, inner = self._arrays("ict_expressions"), self._arrays("ict_expressions_inner")
-        names = [str(name) for name in skin["names"]]
-        count = skin["displacement"].shape[1]
-        for name, weight in weights.items():
-            vertices[:count] += weight * skin["displacement"][names.index(name)]
-            vertices[count:] += weight * inner["displacement"][names.index(name)].astype(np.float64)
         return vertices
 
 
@@ -168,39 +160,3 @@ def bent_default_head(seed: int) -> TrueHead:
 
     points = {name: bent(head.position(name)[None])[0] for name in head.points}
     return TrueHead(f"default head, bent ({seed})", bent(head.vertices), head.polygons, points)
-
-
-def coarse(head: TrueHead, cell: float) -> TrueHead:
-    """A head whose vertices within each cell of a grid, metres wide, are one."""
-    cells = np.floor(head.vertices / cell).astype(np.int64)
-    _, same = np.unique(cells, axis=0, return_inverse=True)
-    same = same.ravel()
-    count = np.bincount(same)
-    vertices = np.column_stack([np.bincount(same, head.vertices[:, k]) / count for k in range(3)])
-    triangles = [
-        same[[polygon[0], polygon[k], polygon[k + 1]]] for polygon in head.polygons for k in range(1, len(polygon) - 1)
-    ]
-    kept = [triangle for triangle in triangles if len(set(triangle.tolist())) == 3]
-    return TrueHead(f"ict_narrow, {len(vertices)} vertices", vertices, kept, head.points)
-
-
-def subdivided(head: TrueHead) -> TrueHead:
-    """A head with every polygon cut into four from its middle and those of its sides."""
-    sides: dict[tuple[int, int], int] = {}
-    vertices = list(head.vertices)
-
-    def middle(a: int, b: int) -> int:
-        key = (min(a, b), max(a, b))
-        if key not in sides:
-            sides[key] = len(vertices)
-            vertices.append((head.vertices[a] + head.vertices[b]) / 2.0)
-        return sides[key]
-
-    polygons = []
-    for polygon in head.polygons:
-        corners = [int(corner) for corner in polygon]
-        centre = len(vertices)
-        vertices.append(head.vertices[corners].mean(axis=0))
-        halves = [middle(a, b) for a, b in zip(corners, corners[1:] + corners[:1], strict=True)]
-        polygons += [(corner, halves[k], centre, halves[k - 1]) for k, corner in enumerate(corners)]
-    return TrueHead(head.name, np.array(vertices), polygons, head.points)

@@ -1,6 +1,6 @@
 """Write docs/fit.md: how well feature points are found on heads in any pose, what is refused, how long it takes.
 
-    .venv/bin/python tools/fit_report.py [--heads FOLDER] [--part known held-out ...] [--errors]
+    .venv/bin/python tools/fit_report.py [--heads FOLDER] [--part known second ...] [--errors]
 
 FOLDER holds the shared heads (`ict.npz` ...). Each part leaves its figures in out/fit/, so that parts can be measured
 one at a time; the page is written when all are there. `--errors` also writes presets/anatomy/point_errors.csv from
@@ -15,14 +15,19 @@ import json
 import os
 import time
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import fit_shapes
 import numpy as np
 import risorius.api as api
-from fit_heads import SharedHeads, TrueHead, subdivided
+from fit_effect import measure_effect
+from fit_hard import hard_heads
+from fit_heads import SharedHeads, TrueHead
+from fit_meshes import soup, subdivided
 from fit_page import page
+from fit_sides import wrong_sides
 from risorius.arrays import Floats
 from risorius.errors import ModelError
 from risorius.face.checks import with_pupils
@@ -74,9 +79,21 @@ def measured(head: TrueHead, seed: int) -> dict[str, Any]:
         "score": found.score,
         "seconds": seconds,
         "errors": errors,
+        "sides": _sides(head, vertices, there, found.positions),
         "confidence": {name: found.confidence[name] for name in errors},
         "units": _unit_errors(found.positions, {name: there(place) for name, place in head.points.items()}),
     }
+
+
+def _sides(
+    head: TrueHead, vertices: Floats, there: Callable[[Floats], Floats], found: Mapping[str, Floats]
+) -> list[str] | None:
+    """Lip and lid points on the wrong side; None where no face comes of the points."""
+    moved_head = replace(head, vertices=vertices, points={name: there(place) for name, place in head.points.items()})
+    try:
+        return wrong_sides(moved_head, found)
+    except ModelError:
+        return None
 
 
 def _unit_errors(found: Mapping[str, Floats], truth: Mapping[str, Floats]) -> dict[str, float]:
@@ -140,7 +157,7 @@ def measure_clicks(heads: SharedHeads) -> list[dict[str, Any]]:
     """Errors of the points that were not clicked, on heads that are doubtful or refused, with unsteady clicks."""
     random = np.random.default_rng(SEED)
     rows = []
-    for head in heads.held_out():
+    for head in [*heads.held_out(), *heads.reserved()]:
         try:
             alone = api.find_points(head.vertices, head.polygons, topologies=())
             if not alone.is_doubtful:
@@ -165,9 +182,9 @@ def measure_time(heads: SharedHeads) -> list[dict[str, Any]]:
     """Seconds of processor time against the number of vertices."""
     known = {head.name: head for head in heads.known()}
     fine = subdivided(known["ict"])
-    cases = [known["mediapipe"], known["ict_narrow"], known["makehuman_body"], known["ict"], fine, subdivided(fine)]
+    given = [known[name] for name in ("mediapipe", "ict_narrow", "makehuman_body", "ict")]
     rows = []
-    for head in cases:
+    for head in [*given, fine, subdivided(fine), soup(fine)]:
         marks: list[tuple[float, float]] = []
         begun = time.process_time()
         for step in api.find_points_steps(head.vertices, head.polygons, topologies=()):
@@ -213,8 +230,8 @@ def main() -> None:
         PAGE.write_text(page(read), encoding="utf-8")
 
 
-SETS = ("known", "held-out", "hard", "reserved")
-PARTS = (*SETS, "poses", "shapes", "time", "clicks")
+SETS = ("known", "second", "hard", "reserved")
+PARTS = (*SETS, "poses", "shapes", "time", "clicks", "effect")
 
 
 def _measure(part: str, heads: SharedHeads, only: str) -> list[dict[str, Any]]:
@@ -225,9 +242,16 @@ def _measure(part: str, heads: SharedHeads, only: str) -> list[dict[str, Any]]:
         return measure_time(heads)
     if part == "clicks":
         return measure_clicks(heads)
+    if part == "effect":
+        return measure_effect()
     if part == "poses":
-        return measure_poses([*heads.known(), *heads.held_out()])
-    sets = {"known": heads.known, "held-out": heads.held_out, "hard": heads.hard, "reserved": heads.reserved}
+        return measure_poses([*heads.known(), *heads.held_out(), *heads.reserved()])
+    sets = {
+        "known": heads.known,
+        "second": heads.held_out,
+        "hard": lambda: hard_heads(heads),
+        "reserved": heads.reserved,
+    }
     rows = []
     for number, head in enumerate(sets[part]()):
         if only not in head.name:

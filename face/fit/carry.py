@@ -12,18 +12,23 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Floats
 from ...errors import FormatError
+from ...physics.mesh import vertex_normals
 from ..points import closest_on_triangles
 from .doubt import DOUBTFUL_SCORE
 from .fitted import Fit, ring_shares
+from .proportions import read_proportions
 from .target import RIM, Target, feature
 from .template import FitTemplate
 
 #: How much a disagreement of the normals counts when a point is dropped on the surface, metres per turn.
 TURN = 5e-3
+_SCALE = TURN / 10e-3  # `feature` counts a turn as 10 mm
 #: Points of the surface tried for each.
 NEAREST = 8
 #: The nose tip is the middle of this share of the foremost points within reach, metres.
-TIP_SHARE, TIP_REACH = 0.04, 7e-3
+TIP_SHARE, TIP_REACH = 0.1, 7e-3
+#: Where the middles of both lids lie between an eye's right corner and its left one.
+LID_MIDDLE = {"eye_l": 0.46, "eye_r": 0.54}
 #: Usual errors of this size halve the confidence, metres.
 HALF_ERROR = 5e-3
 #: A point that lies this far from the mirror image of its twin is doubtful, metres; or from the fitted skin.
@@ -59,32 +64,47 @@ def carry(template: FitTemplate, target: Target, fit: Fit, score: float) -> Carr
     score : the face's score; poor faces make every point doubtful.
     """
     fitted = template.read(fit.skin)
-    places = _dropped(template, target, fit, fitted)
+    drop = _Drop(template, target, fit)
+    places = {name: drop.nearest(name, place) for name, place in zip(template.names, fitted, strict=True)}
     places |= _on_rims(template, fit)
     places["9.3"] = _foremost(target, places["9.3"])
+    places |= _by_proportions(template, fit, places, drop)
     return Carried(places, _confidence(template, target, fit, places, fitted, score))
 
 
-def _dropped(template: FitTemplate, target: Target, fit: Fit, fitted: Floats) -> dict[str, Floats]:
-    """Every point where the surface is nearest to it, among what is seen and faces the same way."""
-    a, b, c = (fit.skin[template.surface.triangles[:, k]] for k in range(3))
-    cross = np.cross(b - a, c - a)
-    normals = np.zeros_like(fit.skin)
-    for k in range(3):
-        np.add.at(normals, template.surface.triangles[:, k], cross)
-    facing = template.read(normals)
-    facing /= np.maximum(np.linalg.norm(facing, axis=1), 1e-30)[:, None]
-    points = target.outside
-    scale = TURN / 10e-3  # `feature` counts a turn as 10 mm
-    tree = cKDTree(feature(points.positions, points.normals * scale))
-    _, match = tree.query(feature(fitted, facing * scale), k=NEAREST)
-    places: dict[str, Floats] = {}
-    for name, place, near in zip(template.names, fitted, np.asarray(match), strict=True):
-        corners = target.surface.vertices[target.surface.triangles[np.unique(points.triangles[near])]]
+class _Drop:
+    """Drops points on the head's surface: on what is seen and faces the way that the template's points do."""
+
+    def __init__(self, template: FitTemplate, target: Target, fit: Fit) -> None:
+        facing = template.read(vertex_normals(fit.skin, template.skin.quads))
+        facing /= np.maximum(np.linalg.norm(facing, axis=1), 1e-30)[:, None]
+        self._facing = dict(zip(template.names, facing, strict=True))
+        self._surface, self._points = target.surface, target.outside
+        self._tree = cKDTree(feature(self._points.positions, self._points.normals * _SCALE))
+
+    def nearest(self, name: str, place: Floats) -> Floats:
+        """(3,) where the surface is nearest to the place (3,) of a feature point."""
+        _, near = self._tree.query(feature(place, self._facing[name] * _SCALE), k=NEAREST)
+        corners = self._surface.vertices[self._surface.triangles[np.unique(self._points.triangles[near])]]
         weights, distance = closest_on_triangles(place, corners)
         best = int(distance.argmin())
-        places[name] = weights[best] @ corners[best]
-    return places
+        return np.asarray(weights[best] @ corners[best])
+
+
+def _by_proportions(template: FitTemplate, fit: Fit, places: Mapping[str, Floats], drop: _Drop) -> dict[str, Floats]:
+    """Points on smooth skin, drawn to where the face's proportions tell, as seen in the picture."""
+    known, moved = dict(places), {}
+    for proportion in read_proportions():
+        picture = list(proportion.view.value)
+        for left in (True, False):
+            name, origin = (k if left else template.twins.get(k, k) for k in (proportion.point, proportion.origin))
+            if origin in RIM_POINTS and RIM_POINTS[origin][0] not in fit.margins:
+                continue
+            aim = proportion.place(known, template.twins, left=left)
+            place = drop.nearest(name, aim)
+            place[picture] = aim[picture]
+            known[name] = moved[name] = drop.nearest(name, place)
+    return moved
 
 
 def _on_rims(template: FitTemplate, fit: Fit) -> dict[str, Floats]:
@@ -97,9 +117,15 @@ def _on_rims(template: FitTemplate, fit: Fit) -> dict[str, Floats]:
         if where in ("left", "right"):
             places[name] = margin.corner(1.0 if where == "left" else -1.0)
         else:
-            rest = template.read(template.skin.vertices, [name])
-            places[name] = margin.at(where, ring_shares(template, template.rings[ring], rest))[0]
+            places[name] = margin.at(where, _rim_share(template, name, ring))[0]
     return places
+
+
+def _rim_share(template: FitTemplate, name: str, ring: str) -> Floats:
+    """(1,) how far a point of an edge lies from the right corner to the left one."""
+    if ring in LID_MIDDLE:
+        return np.array([LID_MIDDLE[ring]])
+    return ring_shares(template, template.rings[ring], template.read(template.skin.vertices, [name]))
 
 
 def _foremost(target: Target, tip: Floats) -> Floats:

@@ -17,10 +17,12 @@ from .align import align
 from .carry import RIM_POINTS, carry
 from .clicks import FEWEST, checked_clicks, click_misses, click_wishes, pose_from_clicks
 from .cloud import Surface
+from .crooked import Start, better_start, starting_bend
 from .doubt import DOUBTFUL_SCORE
 from .fitted import fit
 from .head_pose import HeadPose
-from .locate import HEAD, HEAD_BOX, FitProgress, Located, box_cloud, locate, looks_backwards, scored
+from .locate import HEAD, HEAD_BOX, Located, box_cloud, locate, looks_backwards, scored
+from .progress import FitProgress, part_of
 from .target import head_target
 from .template import FitTemplate, fit_template
 from .topologies import Topology, load_topologies, recognise_topology
@@ -100,10 +102,12 @@ def find_points_steps(
         return _known_points(known, places, clicked)
     surface = _welded(places, faces)
     if len(clicked) >= FEWEST:
-        located = _located_by_clicks(surface, clicked, template)
+        start = Start(_located_by_clicks(surface, clicked, template), None)
     else:
-        located = yield from _part_of(locate(surface), 0.02, 0.6)
-    return (yield from _part_of(_fitted_points(located, clicked), 0.6, 1.0))
+        located = yield from part_of(locate(surface), 0.02, 0.55)
+        yield FitProgress(0.55, "what is crooked")
+        start = better_start(located)
+    return (yield from part_of(_fitted_points(start, clicked), 0.6, 1.0))
 
 
 @dataclass(frozen=True)
@@ -128,7 +132,7 @@ def locate_points(vertices: ArrayLike, polygons: Polygons, *, refuse: bool = Tru
     """
     places = checked_vertices(vertices)
     surface = _welded(places, _checked_faces(polygons, len(places)))
-    located = finished(locate(surface, refuse=refuse))
+    located = better_start(finished(locate(surface, refuse=refuse))).place
     template = located.template
     positions = located.pose.to_mesh(template.read(template.skin.vertices))
     named = dict(zip(template.names, positions, strict=True))
@@ -197,12 +201,13 @@ def _located_by_clicks(surface: Surface, clicked: Mapping[str, Floats], template
     return Located(pose, surface, scored(surface, pose, template), template)
 
 
-def _fitted_points(located: Located, clicked: Mapping[str, Floats]) -> Generator[FitProgress, None, FoundPoints]:
+def _fitted_points(start: Start, clicked: Mapping[str, Floats]) -> Generator[FitProgress, None, FoundPoints]:
     """Bend the template onto the head and carry its points over."""
+    located = start.place
     pose, template = located.pose, located.template
     target = head_target(located.surface, pose)
     wishes = [click_wishes(clicked, pose, template)] if clicked else []
-    fitted = yield from _part_of(fit(template, target, wishes), 0.0, 0.95)
+    fitted = yield from part_of(fit(template, target, wishes, start=starting_bend(template, start.flow)), 0.0, 0.95)
     score = located.score.value
     carried = carry(template, target, fitted, score)
     positions = {name: pose.to_mesh(place) for name, place in carried.positions.items()}
@@ -218,14 +223,3 @@ def _means_corner(name: str, click: Floats, found: Floats, pose: HeadPose) -> bo
     """Whether a click means the corner of eye or mouth that was found beside it."""
     is_corner = name in RIM_POINTS and RIM_POINTS[name][1] in ("left", "right")
     return is_corner and float(np.linalg.norm(click - found)) < CLICK_SNAP * pose.size
-
-
-def _part_of(steps: Generator[FitProgress, None, _T], start: float, end: float) -> Generator[FitProgress, None, _T]:
-    """Some work as the share [start, end] of a larger one."""
-    while True:
-        try:
-            step = next(steps)
-        except StopIteration as stop:
-            result: _T = stop.value
-            return result
-        yield FitProgress(start + (end - start) * step.fraction, step.text)

@@ -10,8 +10,8 @@ import numpy as np
 from ...arrays import Floats, Ints
 from .bend import Stage, Wishes, bend
 from .ears import ear_wishes
-from .locate import FitProgress
 from .margins import Expected, Margin, find_eyes, find_mouth
+from .progress import FitProgress
 from .target import Target
 from .template import FitTemplate, Ring
 
@@ -39,9 +39,17 @@ class Fit:
     margins: Mapping[str, Margin]
 
 
-def fit(template: FitTemplate, target: Target, wishes: Sequence[Wishes] = ()) -> Generator[FitProgress, None, Fit]:
-    """Bend the template onto a head; `wishes` are places that points shall come to."""
-    moved = np.zeros((template.skin.cage_matrix.shape[1], 3))
+def fit(
+    template: FitTemplate, target: Target, wishes: Sequence[Wishes] = (), *, start: Floats | None = None
+) -> Generator[FitProgress, None, Fit]:
+    """Bend the template onto a head.
+
+    Parameters
+    ----------
+    wishes : places that points shall come to.
+    start : (C, 3) displacements of the cage to begin with; None: none.
+    """
+    moved = np.zeros((template.skin.cage_matrix.shape[1], 3)) if start is None else start
     yield FitProgress(0.0, "the face")
     moved = bend(template, target, moved, FRONT, wishes)
     yield FitProgress(0.3, "the whole head")
@@ -76,7 +84,7 @@ def _margins(template: FitTemplate, target: Target, moved: Floats) -> dict[str, 
     """The rims found where the template's lie now."""
     skin = template.skin.vertices + template.skin.cage_matrix @ moved
     expected = {name: Expected(skin[ring.margin], skin[ring.outside]) for name, ring in template.rings.items()}
-    mouth = find_mouth(target.surface, target.outside.take(target.front), expected.pop("mouth"))
+    mouth = find_mouth(target.surface, expected.pop("mouth"))
     found = find_eyes(target.surface, expected)
     return found if mouth is None else found | {"mouth": mouth}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,9 @@ from .align import align
 from .cloud import Cloud, Surface, sample
 from .head_pose import HeadPose
 from .open_mouth import open_template
-from .score import FaceScore, face_score
+from .progress import FitProgress, part_of
+from .regions import guesses_at_ends
+from .score import RELIEF_LIMIT, SCORE_LIMIT, FaceScore, face_score
 from .search import Guess, best_guesses, search_plane
 from .symmetry import symmetry_planes
 from .template import FitTemplate
@@ -26,23 +28,12 @@ HEAD_BOX = ((-0.12, -0.185, -0.175), (0.12, 0.135, 0.175))
 FACE_BOX = ((-0.068, -0.185, -0.09), (0.068, 0.0, 0.076))
 #: Guesses that are aligned, and those of them that are aligned twice.
 ALIGNED, FINALISTS = 10, 3
-#: From this score on a mesh is refused; beneath it, from this agreement of relief on, it is accepted.
-SCORE_LIMIT, RELIEF_LIMIT = 1.6, 0.6
-
-
 #: From this score on it is asked whether the mouth is open, by so many degrees; an open one must score better by this.
 GOOD_SCORE, JAW_DEGREES, OPEN_COST = 0.55, (7.0, 14.0, 21.0), 0.1
 #: Of more triangles than this, none is so large that it crosses a box with no corner inside.
 MANY = 100_000
 #: Least and greatest x, y, z round the template's origin, metres.
 Box: TypeAlias = tuple[tuple[float, float, float], tuple[float, float, float]]
-
-
-class FitProgress(NamedTuple):
-    """How far the finding is: `fraction` in [0, 1] and a `text` for people."""
-
-    fraction: float
-    text: str
 
 
 @dataclass(frozen=True)
@@ -74,27 +65,42 @@ def locate(surface: Surface, *, refuse: bool = True) -> Generator[FitProgress, N
     cloud = sample(surface, WHOLE)
     if len(cloud) == 0:
         raise ModelError("no face found: the mesh has no area; feature points need a surface")
+    guesses = yield from part_of(_guesses_of_whole(surface, cloud), 0.0, 0.55)
+    place = yield from part_of(_best_place(surface, cloud, guesses), 0.55, 0.7)
+    if place is None or not place.score.is_face:
+        guesses = yield from part_of(guesses_at_ends(surface, cloud), 0.7, 0.9)
+        turned = yield from part_of(_best_place(surface, cloud, guesses), 0.9, 0.95)
+        place = min((other for other in (place, turned) if other), key=lambda other: other.score.value, default=None)
+    if place is not None and place.score.value > GOOD_SCORE:
+        yield FitProgress(0.95, "whether the mouth is open")
+        place = _opened(place)
+    return accepted(place, refuse=refuse)
+
+
+def _guesses_of_whole(surface: Surface, cloud: Cloud) -> Generator[FitProgress, None, list[Guess]]:
+    """The best guesses about the planes of symmetry of the whole mesh."""
     area = float(np.linalg.norm(surface.cross(), axis=1).sum() / 2.0)
     diagonal = float(np.linalg.norm(np.ptp(cloud.positions, axis=0)))
     planes = symmetry_planes(cloud.positions[:: WHOLE // SYMMETRY])
     guesses: list[Guess] = []
     for number, plane in enumerate(planes):
-        yield FitProgress(0.15 + 0.5 * number / len(planes), "which way the face looks")
+        yield FitProgress(0.25 + 0.75 * number / len(planes), "which way the face looks")
         guesses += search_plane(cloud, area, diagonal, plane)
+    return best_guesses(guesses)
+
+
+def _best_place(
+    surface: Surface, cloud: Cloud, guesses: Sequence[Guess]
+) -> Generator[FitProgress, None, Located | None]:
+    """The place among some guesses that looks most like a face."""
     found: list[Located] = []
-    guesses = best_guesses(guesses)[:ALIGNED]
-    for number, guess in enumerate(guesses):
-        yield FitProgress(0.65 + 0.25 * number / len(guesses), "how large the face is")
+    for number, guess in enumerate(guesses[:ALIGNED]):
+        yield FitProgress(0.8 * number / len(guesses[:ALIGNED]), "how large the face is")
         found.append(_aligned(surface, cloud, guess.pose))
     found.sort(key=lambda place: place.score.value)
-    finalists = _distinct(found)[:FINALISTS]
-    yield FitProgress(0.9, "a closer look")
-    best = [aligned_again(place.surface, place.pose) for place in finalists]
-    found_place = min(best, key=lambda place: place.score.value, default=None)
-    if found_place is not None and found_place.score.value > GOOD_SCORE:
-        yield FitProgress(0.95, "whether the mouth is open")
-        found_place = _opened(found_place)
-    return accepted(found_place, refuse=refuse)
+    yield FitProgress(0.8, "a closer look")
+    best = [aligned_again(place.surface, place.pose) for place in _distinct(found)[:FINALISTS]]
+    return min(best, key=lambda place: place.score.value, default=None)
 
 
 def _opened(place: Located) -> Located:
@@ -117,7 +123,7 @@ def accepted(place: Located | None, *, refuse: bool = True) -> Located:
     if place is None:
         raise ModelError(f"no face found in the mesh; if it has one, {remedy}")
     score = place.score
-    if refuse and (score.value > SCORE_LIMIT or score.relief < RELIEF_LIMIT):
+    if refuse and not score.is_face:
         raise ModelError(
             f"the mesh does not look like a face: score {score.value:.2f} (at most {SCORE_LIMIT}), agreement of eyes, "
             f"nose and mouth {score.relief:.2f} (at least {RELIEF_LIMIT}); if it has a face, {remedy}"

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...arrays import Bools, Floats
-from .cloud import Cloud, Surface, nearest, sample
+from ...arrays import Floats
+from .cloud import Surface, nearest, sample
 from .rims import Neighbourhood
 
 #: A rim is taken for an opening's when its mean distance from where it is expected stays below, metres; mouths gape.
@@ -32,8 +32,8 @@ UNUSUAL = 0.5e-3
 CORNER_REACH = 9e-3
 #: Lips whose ends differ in depth by more than this are levelled, as far as this, metres; points it is done with.
 LEVEL, LEVEL_REACH, LIP_POINTS = 1.0e-3, 5e-3, 12_000
-#: An opening wider than this area is filled, where most of what shows in it lies less deep than this, metres.
-WIDE, SHALLOW, MOST = 60e-6, 2.5e-3, 0.6
+#: A mouth whose inside reaches no deeper than this is no opening but a crease, or filled with skin; metres.
+SHALLOW = 6e-3
 
 
 @dataclass(frozen=True)
@@ -76,21 +76,19 @@ class Margin:
         return np.column_stack([np.interp(shares, along, line[:, k]) for k in range(3)])
 
 
-def find_mouth(surface: Surface, seen: Cloud, expected: Expected) -> Margin | None:
+def find_mouth(surface: Surface, expected: Expected) -> Margin | None:
     """Where the lips meet, or None where the mouth has no opening.
 
     Parameters
     ----------
     surface : the head in template coordinates, normals outward.
-    seen : points of what is seen of it from the front.
     expected : where the template's lips lie now.
     """
     near = Neighbourhood(surface, expected.margin.mean(axis=0), REACH["mouth"])
     found = _candidates(near, np.array([0.0, -1.0, 0.0]), "mouth", expected, FACINGS["mouth"])
     if not found:
         return None
-    best = min(found, key=lambda margin: margin.misfit)
-    return None if _is_filled(best, seen) else _levelled(best, near)
+    return _levelled(min(found, key=lambda margin: margin.misfit), near)
 
 
 def find_eyes(surface: Surface, expected: Mapping[str, Expected]) -> dict[str, Margin]:
@@ -153,7 +151,7 @@ def _candidates(
                 continue
             misfit += _unlikeness(places, expected.margin) if kind == "eye" else 0.0
             margin = _split(places, expected.margin, misfit + (UNUSUAL if number else 0.0))
-            if margin is not None:
+            if margin is not None and (kind == "eye" or near.depth_behind(line) > SHALLOW):
                 found.append(margin)
     return found
 
@@ -223,26 +221,3 @@ def _levelled(margin: Margin, near: Neighbourhood) -> Margin:
                 edge[number] = outward[distance.argmin()]
         edges.append(edge)
     return Margin(edges[0], edges[1], margin.misfit)
-
-
-def _is_filled(margin: Margin, seen: Cloud) -> bool:
-    """Whether skin closes an opening inside its rim: what shows in it lies hardly deeper than the rim."""
-    line = margin.line()
-    if abs(_area(line)) < WIDE:
-        return False
-    inside = seen.positions[_within(line, seen.positions)]
-    if len(inside) == 0:
-        return False
-    _, beside = nearest(cKDTree(line[:, [0, 2]]), inside[:, [0, 2]])
-    return bool((inside[:, 1] - line[beside, 1] < SHALLOW).mean() > MOST)
-
-
-def _within(line: Floats, places: Floats) -> Bools:
-    """Which places (N, 3) lie within a closed line, seen from the front (crossings of a ray upward)."""
-    inside = np.zeros(len(places), dtype=bool)
-    x, z = places[:, 0], places[:, 2]
-    for a, b in zip(line, np.roll(line, -1, axis=0), strict=True):
-        spans = (a[0] > x) != (b[0] > x)
-        if spans.any():
-            inside ^= spans & (z < a[2] + (x - a[0]) * (b[2] - a[2]) / (b[0] - a[0] if b[0] != a[0] else 1.0))
-    return inside

@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ...arrays import Floats, Ints
 from .cloud import Surface
+from .pieces import joined, joined_over, side_keys
 
 
 class Neighbourhood:
@@ -41,17 +40,24 @@ class Neighbourhood:
         most = np.bincount(piece[np.ravel(votes)]).argmax()
         yield from _closed_lines(triangles[piece == most])
 
+    def depth_behind(self, rim: Ints) -> float:
+        """How much deeper than a rim (closed line of vertices) the surface that it encloses reaches, metres.
 
-def joined(triangles: Ints) -> Ints:
-    """(T,) number of the piece that each triangle belongs to; pieces are joined over sides."""
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    keys = sides[:, 0] * (int(triangles.max()) + 1) + sides[:, 1]
-    owner = np.tile(np.arange(len(triangles)), 3)
-    order = np.argsort(keys, kind="stable")
-    same = np.flatnonzero(keys[order][1:] == keys[order][:-1])
-    a, b = owner[order][same], owner[order][same + 1]
-    graph = sparse.coo_array((np.ones(len(a)), (a, b)), shape=(len(triangles), len(triangles)))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+        Infinite where it encloses none, or one with open edges: the rim bounds a hole then.
+        """
+        ahead = np.roll(rim, -1)
+        base = int(self.triangles.max()) + 1
+        keys = side_keys(self.triangles, base)
+        on_rim = np.isin(keys, np.minimum(rim, ahead) * base + np.maximum(rim, ahead))
+        piece = joined_over(keys, ~on_rim)
+        following = np.roll(self.triangles, -1, axis=1)
+        beyond = np.isin(self.triangles * base + following, ahead * base + rim).any(axis=1)
+        enclosed = np.isin(piece, piece[beyond])
+        _, number, users = np.unique(keys, return_inverse=True, return_counts=True)
+        is_open = (users[number.reshape(keys.shape)] == 1)[enclosed].any()
+        if is_open or not enclosed.any():
+            return float("inf")
+        return float(self.vertices[self.triangles[enclosed], 1].max() - self.vertices[rim, 1].max())
 
 
 def _closed_lines(triangles: Ints) -> Iterator[Ints]:

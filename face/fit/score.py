@@ -14,6 +14,8 @@ from .template import FitTemplate
 
 #: Mean difference in depth that costs one point.
 DEPTH_UNIT = 4e-3
+#: From this score on a mesh is refused; beneath it, from this agreement of relief on, it is accepted.
+SCORE_LIMIT, RELIEF_LIMIT = 1.6, 0.6
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,11 @@ class FaceScore:
     def value(self) -> float:
         """The gate's figure."""
         return self.depth / DEPTH_UNIT + 2.0 * (1.0 - self.relief) + 2.0 * (1.0 - self.coverage)
+
+    @property
+    def is_face(self) -> bool:
+        """Whether that is enough to be a face."""
+        return self.value <= SCORE_LIMIT and self.relief >= RELIEF_LIMIT
 
 
 def face_score(positions: Floats, template: FitTemplate) -> FaceScore:

@@ -28,7 +28,7 @@ MIDDLE, MIDDLE_BOTTOM, MIDDLE_TOP = 50e-3, -70e-3, 65e-3
 #: Directions round the plane's normal, and the ratio between sizes.
 TURNS, SIZE_STEP = 30, 1.15
 #: The mesh's diagonal over 0.75 is assumed to measure between these, metres of a real person.
-SMALLEST, LARGEST = 0.105, 2.6
+LENGTHS = (0.105, 2.6)
 #: Points per pixel that make a picture without holes.
 DENSITY = 5.0
 #: What a missing pixel costs, and the most that a wrong depth costs, metres; the least coverage.
@@ -69,7 +69,9 @@ class _View:
     cost: float
 
 
-def search_plane(cloud: Cloud, area: float, diagonal: float, plane: SymmetryPlane) -> list[Guess]:
+def search_plane(
+    cloud: Cloud, area: float, diagonal: float, plane: SymmetryPlane, *, lengths: tuple[float, float] = LENGTHS
+) -> list[Guess]:
     """The best guesses with one plane of symmetry, best first.
 
     Parameters
@@ -78,12 +80,13 @@ def search_plane(cloud: Cloud, area: float, diagonal: float, plane: SymmetryPlan
     area : the mesh's area, in square units of the mesh.
     diagonal : of the mesh's bounding box.
     plane : the plane of symmetry, through the face's middle.
+    lengths : what 0.75 of the diagonal may measure, metres of a real person.
     """
     aside = np.abs(cloud.positions @ plane.normal - plane.offset)
     order = np.argsort(aside)
     positions, aside = cloud.positions[order], aside[order]
     views: list[_View] = []
-    for size in _sizes(diagonal):
+    for size in _sizes(diagonal, lengths):
         density = len(positions) / area * (PIXEL * size) ** 2
         stride = max(1, int(density / DENSITY))
         count = int(np.searchsorted(aside, COLUMNS * PIXEL * size))
@@ -102,11 +105,11 @@ def best_guesses(guesses: list[Guess]) -> list[Guess]:
     return _distinct(sorted(guesses, key=lambda guess: guess.cost))
 
 
-def _sizes(diagonal: float) -> Floats:
+def _sizes(diagonal: float, lengths: tuple[float, float]) -> Floats:
     """Mesh units per metre to try."""
     length = 0.75 * diagonal
-    count = int(np.ceil(np.log(LARGEST / SMALLEST) / np.log(SIZE_STEP))) + 1
-    return np.asarray(length / LARGEST * SIZE_STEP ** np.arange(count), dtype=np.float64)
+    count = int(np.ceil(np.log(lengths[1] / lengths[0]) / np.log(SIZE_STEP))) + 1
+    return np.asarray(length / lengths[1] * SIZE_STEP ** np.arange(count), dtype=np.float64)
 
 
 def _fronts(normal: Floats) -> Iterator[Floats]:
@@ -183,7 +186,7 @@ def _judged(views: list[_View]) -> list[Guess]:
     offset = np.nanmedian(flat, axis=1)
     for _ in range(2):
         near = np.abs(flat - offset[:, None]) < CLIP
-        offset = np.nanmean(np.where(near, flat, np.nan), axis=1)
+        offset = np.where(near, flat, 0.0).sum(axis=1) / np.maximum(near.sum(axis=1), 1)
     cost = np.minimum(np.abs(flat - offset[:, None]), CLIP)
     cost = np.where(np.isnan(cost), MISSING, cost) @ weight.ravel()
     cost = cost * (1.0 + SMOOTH_COST * (1.0 - _likeness(flat, offset, template)))

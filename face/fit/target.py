@@ -11,12 +11,10 @@ from ...arrays import Bools, Floats, Ints
 from .cloud import Cloud, Surface, first_hits
 from .head_pose import HeadPose
 from .locate import HEAD_BOX, box_cloud, in_box
-from .rims import joined
+from .pieces import skin_pieces
 
 #: Points spread over the head.
 COUNT = 60_000
-#: Loose pieces smaller than this share of the largest are no skin.
-LARGE = 0.1
 #: Template coordinates as a pose.
 AT_HOME = HeadPose(np.eye(3), np.zeros(3), np.ones(3))
 #: Visibility from each side, metres.
@@ -50,7 +48,7 @@ class Target:
 def head_target(surface: Surface, pose: HeadPose) -> Target:
     """The outside of the head that lies at a pose in a mesh."""
     local = Surface(pose.to_template(surface.vertices), surface.triangles, pose.normals_to_template(surface.normals))
-    skin = _large_pieces(local.part(in_box(surface, pose, HEAD_BOX)))
+    skin = skin_pieces(local.part(in_box(surface, pose, HEAD_BOX)))
     cloud = box_cloud(skin, AT_HOME, HEAD_BOX, COUNT)
     x, y, z = cloud.positions.T
     normal = cloud.normals
@@ -65,16 +63,9 @@ def head_target(surface: Surface, pose: HeadPose) -> Target:
     return Target(skin, outside, front, _near(outside, openings, EDGE) | _near(outside, rim, RIM), rim)
 
 
-def _large_pieces(surface: Surface) -> Surface:
-    """The surface without small loose pieces: eyeballs, lashes, brows, teeth."""
-    piece = joined(surface.triangles)
-    areas = np.bincount(piece, np.linalg.norm(surface.cross(), axis=1))
-    return surface.part(areas[piece] >= LARGE * areas.max())
-
-
 def feature(positions: Floats, normals: Floats) -> Floats:
-    """(N, 6) what points are matched by: place and direction."""
-    return np.hstack([positions, TURN * normals])
+    """(..., 6) what points are matched by: place and direction."""
+    return np.concatenate([positions, TURN * normals], axis=-1)
 
 
 def _near(cloud: Cloud, places: Floats, reach: float) -> Bools:

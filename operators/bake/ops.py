@@ -8,12 +8,17 @@ import bpy
 
 from ...scene import bake, shape_keys
 from ...scene.notes import BakeKind, Note
+from ...scene.points_found import Finding
+from ...scene.points_kept import has_points, read_kept
 from ...scene.progress import Work
 from ...scene.strips import ClipShape, bake_strips
 from ..active import face_reason, target_of
 from ..base import RisoriusOperator, WorkOperator
 from ..emotion.performance import performance_of
 from ..emotion.profile import wanted_of
+from ..points.first import with_points
+from ..points.look import turn_to_face
+from ..points.show import show_finding
 from .settings import (
     clip_name,
     creases_wanted,
@@ -85,23 +90,36 @@ def strips_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
 
 
 class BakeOperator(WorkOperator):
-    """What both bakes share."""
+    """What both bakes share: the face is found first where its points are not known yet."""
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
         """Only on a face that can be written to."""
         return face_reason(context.object)
 
+    def work(self, context: Any) -> Work[bake.BakeResult | Finding]:
+        """Find the face if need be, then bake."""
+        self._is_new = not has_points(context.object)
+        return with_points(context.object, lambda: self.baking(context), scene=context.scene)
+
+    def baking(self, context: Any) -> Work[bake.BakeResult]:
+        """The bake itself."""
+        raise NotImplementedError
+
     def show_apex(self, context: Any) -> None:
         """Go to where the first expression is full: at its first frame a bake looks like nothing happened."""
         if not bpy.app.background:
             context.scene.frame_set(int(performance_of(context.object, context.scene).apex()) + 1)
 
-    def finish(self, context: Any, result: bake.BakeResult) -> str:
+    def finish(self, context: Any, result: bake.BakeResult | Finding) -> str:
         """Name what was written, and remark on what the user should know."""
+        if isinstance(result, Finding):
+            return show_finding(self, context, result)
         for remark in result.remarks:
             self.report({"WARNING"}, remark)
         self.show_apex(context)
+        if self._is_new:
+            turn_to_face(context, read_kept(context.object))
         first, last = result.frame_range
         keys = f"{len(result.keys)} shape keys" if len(result.keys) > 1 else f"shape key {result.keys[0]}"
         within = f", within {result.error * 1000.0:.2f} mm" if result.error > 0.0 else ""
@@ -122,7 +140,7 @@ class RISORIUS_OT_bake_expression(BakeOperator, bpy.types.Operator):
             timing = timing_of(context.object, context.scene)
             context.scene.frame_set(int(timing.start + timing.onset * timing.fps) + 1)
 
-    def work(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Any) -> Work[bake.BakeResult]:
         """Pose the face and write its shape."""
         return expression_work(context.object, context.scene)
 
@@ -140,7 +158,7 @@ class RISORIUS_OT_bake_motion(BakeOperator, bpy.types.Operator):
         """Only on a face that can be written to, and where something moves."""
         return face_reason(context.object) or silent_reason(context.object)
 
-    def work(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Any) -> Work[bake.BakeResult]:
         """Simulate the face and write its motion."""
         return motion_work(context.object, context.scene)
 
@@ -161,7 +179,7 @@ class RISORIUS_OT_bake_strips(BakeOperator, bpy.types.Operator):
             return "There is no clip on the timeline yet"
         return reason or silent_reason(context.object)
 
-    def work(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Any) -> Work[bake.BakeResult]:
         """Pose the face for each clip and write strips."""
         return strips_work(context.object, context.scene)
 
@@ -182,7 +200,7 @@ class RISORIUS_OT_bake_again(BakeOperator, bpy.types.Operator):
             return "Everything baked is up to date"
         return reason
 
-    def work(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Any) -> Work[bake.BakeResult]:
         """Bake each kind that is out of date, as it was baked before."""
         obj, scene = context.object, context.scene
         kinds = set(stale_clips(obj, scene).values())

@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 
 from ...scene import shape_keys
+from ...scene.points_kept import has_points
 from ..active import face_reason
 from ..sidebar import Sidebar
 from .ops import (
@@ -45,6 +46,8 @@ class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
         reason = face_reason(obj)
         if reason is not None:
             layout.label(text=reason.partition(": ")[2].partition(":")[0].capitalize(), icon="INFO")
+        elif not has_points(obj):
+            layout.label(text="Finds the face first", icon="INFO")
         column = layout.column(align=True)
         column.scale_y = 1.3
         if clips:

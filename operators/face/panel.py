@@ -7,12 +7,17 @@ from typing import Any
 import bpy
 
 from ...scene import refusals
+from ...scene.points_joined import may_be_joined
 from ...scene.points_kept import has_points
 from ..points.click import RISORIUS_OT_click_points
+from ..points.joined import RISORIUS_OT_take_over_points
 from ..points.ops import RISORIUS_OT_find_points
+from ..points.panel import kept_of
+from ..points.question import draw_question
 from ..requirements import MISSING, REMEDY, has_scipy
 from ..sidebar import Sidebar
 from .ops import RISORIUS_OT_add_head, RISORIUS_OT_import_points
+from .six import RISORIUS_OT_bake_six
 
 
 class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
@@ -35,17 +40,44 @@ class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
             column.label(text="Select the mesh of a face,", icon="INFO")
             column.label(text="or start with the default head:", icon="BLANK1")
         elif has_points(obj):
-            layout.label(text=obj.name, icon="CHECKMARK")
+            self._draw_known(layout, obj)
         else:
-            column = layout.column(align=True)
-            column.label(text=obj.name, icon="MESH_DATA")
-            column.label(text="Needs its feature points:", icon="INFO")
-            find = column.column(align=True)
-            find.scale_y = 1.3
-            find.operator(RISORIUS_OT_find_points.bl_idname, icon="VIEWZOOM")
-            column.operator(RISORIUS_OT_click_points.bl_idname, icon="RESTRICT_SELECT_OFF")
-            column.operator(RISORIUS_OT_import_points.bl_idname, icon="IMPORT")
+            self._draw_unknown(layout, obj)
         layout.operator(RISORIUS_OT_add_head.bl_idname, icon="USER")
+
+    def _draw_known(self, layout: Any, obj: Any) -> None:
+        """A face with its points, or the question whether it is one."""
+        kept = kept_of(obj)
+        if kept is not None and kept.is_questioned:
+            box = layout.box().column(align=True)
+            box.label(text="Is this the face?", icon="ERROR")
+            draw_question(box, kept)
+            return
+        layout.label(text=obj.name, icon="CHECKMARK")
+        _large(layout).operator(RISORIUS_OT_bake_six.bl_idname, icon="PLAY")
+
+    def _draw_unknown(self, layout: Any, obj: Any) -> None:
+        """A mesh whose points are not known: the first step, all in one, and what helps where that fails."""
+        column = layout.column(align=True)
+        column.label(text=obj.name, icon="MESH_DATA")
+        if may_be_joined(obj):
+            box = layout.box().column(align=True)
+            box.label(text="A face was joined into it?", icon="INFO")
+            box.operator(RISORIUS_OT_take_over_points.bl_idname, icon="LINKED")
+        column = _large(layout)
+        column.operator(RISORIUS_OT_find_points.bl_idname, icon="VIEWZOOM")
+        column.operator(RISORIUS_OT_bake_six.bl_idname, icon="PLAY")
+        column = layout.column(align=True)
+        column.label(text="Where that finds no face:")
+        column.operator(RISORIUS_OT_click_points.bl_idname, icon="RESTRICT_SELECT_OFF")
+        column.operator(RISORIUS_OT_import_points.bl_idname, icon="IMPORT")
+
+
+def _large(layout: Any) -> Any:
+    """Room for what comes first."""
+    column = layout.column(align=True)
+    column.scale_y = 1.3
+    return column
 
 
 class RISORIUS_PT_face(Sidebar, bpy.types.Panel):

@@ -8,12 +8,18 @@ from typing import Any
 import bpy
 
 from ...errors import SceneError
-from ...scene import action, film, gltf, refusals, shape_keys
+from ...scene import action, bake, film, gltf, refusals, shape_keys
+from ...scene.points_found import Finding
 from ...scene.progress import Work, part_of
 from ...scene.studio import Camera, Engine, Look
 from ..active import face_reason, target_of
 from ..bake.ops import motion_work
 from ..base import RisoriusOperator, WorkOperator
+from ..points.first import with_points
+from ..points.show import show_finding
+
+#: The share of a bake before a film in the whole.
+BAKING = 0.3
 
 
 class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
@@ -31,28 +37,28 @@ class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
         reason = refusals.reason(context.object, writing=False)
         return face_reason(context.object) if reason is None and not moves(context.object) else reason
 
-    def work(self, context: Any) -> Work[film.FilmResult]:
-        """Bake what is laid out where nothing is baked yet, then render and encode."""
-        obj, chosen = context.object, context.scene.risorius.film
-        path = film_path(chosen)
-        rendered_share = 0.0
-        if not moves(obj):
-            rendered_share = 0.3
-            yield from part_of(motion_work(obj, context.scene), 0.0, rendered_share)
-        start, end = frame_range(context)
-        pictures = None if chosen.output == "MP4" else path.with_suffix("")
-        work = film.render_film(
-            target_of(obj).objects(),
-            path if chosen.output != "PNG" else None,
-            start=start,
-            end=end,
-            look=look_of(chosen),
-            frames=pictures,
-        )
-        return (yield from part_of(work, rendered_share, 1.0))
+    def work(self, context: Any) -> Work[film.FilmResult | Finding]:
+        """Bake what is laid out where nothing moves the face yet, then render and encode.
 
-    def finish(self, context: Any, result: film.FilmResult) -> str:
+        Closed early, that bake is taken away again.
+        """
+        obj = context.object
+        if moves(obj):
+            return (yield from rendering(context))
+        baking = with_points(obj, lambda: motion_work(obj, context.scene), scene=context.scene)
+        baked = yield from part_of(baking, 0.0, BAKING)
+        if isinstance(baked, Finding):
+            return baked
+        try:
+            return (yield from part_of(rendering(context), BAKING, 1.0))
+        except GeneratorExit:
+            bake.clear(target_of(obj), clips=[baked.clip])
+            raise
+
+    def finish(self, context: Any, result: film.FilmResult | Finding) -> str:
         """Say where it is."""
+        if isinstance(result, Finding):
+            return show_finding(self, context, result)
         for remark in result.remarks:
             self.report({"WARNING"}, remark)
         where = " and ".join(str(place) for place in (result.path, result.frames) if place is not None)
@@ -80,6 +86,20 @@ class RISORIUS_OT_export_gltf(RisoriusOperator, bpy.types.Operator):
         path = absolute(context.scene.risorius.film.model, ".glb", keep=(".glb", ".gltf"))
         exported = gltf.export_gltf(target_of(context.object).objects(), path)
         return f"Exported {', '.join(exported.clips)} to {exported.path}"
+
+
+def rendering(context: Any) -> Work[film.FilmResult]:
+    """Render and encode as it is chosen."""
+    chosen = context.scene.risorius.film
+    path, (start, end) = film_path(chosen), frame_range(context)
+    return film.render_film(
+        target_of(context.object).objects(),
+        path if chosen.output != "PNG" else None,
+        start=start,
+        end=end,
+        look=look_of(chosen),
+        frames=None if chosen.output == "MP4" else path.with_suffix(""),
+    )
 
 
 def moves(obj: Any) -> bool:

@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from ..active import face_reason
+from ..active import ready_reason
 from ..requirements import has_scipy
 from ..sidebar import Sidebar
 from .ops import RISORIUS_OT_reset_muscles
@@ -70,7 +70,7 @@ class RISORIUS_PT_muscles(Sidebar, bpy.types.Panel):
     def draw(self, context: Any) -> None:
         """The list, the marked muscle in words, and the way back."""
         layout, obj = self.layout, context.object
-        reason = face_reason(obj)
+        reason = ready_reason(obj)
         if reason is not None or not has_scipy():
             layout.label(text="Needs a face with feature points", icon="INFO")
             return

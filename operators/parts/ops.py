@@ -11,7 +11,7 @@ from ...face.parts import Part
 from ...scene.mesh import read_parts
 from ...scene.parts_found import find_parts, forget_parts, set_part
 from ..base import RisoriusOperator
-from ..points.ops import no_points_reason, points_reason
+from ..points.reasons import no_points_reason, points_reason
 from .props import PARTS
 
 

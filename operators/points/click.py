@@ -20,8 +20,9 @@ from ..base import WorkOperator
 from ..requirements import need_scipy
 from .canvas import Canvas, text_width
 from .diagram import HEIGHT, NOW, draw_diagram
-from .ops import points_reason, show_finding
 from .props import redraw
+from .reasons import points_reason
+from .show import show_finding
 from .view import Viewport
 
 #: What is asked for, in this order, and where it lies. Left and right are the face's own.
@@ -41,6 +42,8 @@ LOOKING = {
     *("NUMPAD_PERIOD", "NUMPAD_PLUS", "NUMPAD_MINUS", "LEFT_ALT", "LEFT_SHIFT", "LEFT_CTRL"),
 }
 LETTERS = 15.0
+#: Pixels that a click may lie beside the surface: the chin's underside is its outline when seen from the front.
+MISS = 14.0
 
 
 class Clicks:
@@ -114,7 +117,7 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
         """Show them; clicks are kept so that the work can be done again."""
         if self._clicks is not None:
             self.clicks = json.dumps({name: place.tolist() for name, place in self._clicks.places.items()})
-        return show_finding(context, result)
+        return show_finding(self, context, result)
 
     def invoke(self, context: Any, event: Any) -> set[str]:
         """Ask for the first point; clicks given by a script need no asking."""
@@ -173,7 +176,7 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
             return {"PASS_THROUGH"}
         assert self._clicks is not None
         visible = Visible.of(context.object, context.evaluated_depsgraph_get())
-        place = visible.hit(*viewport.ray(pixel), self._surface)
+        place = hit_near(visible, viewport, pixel, self._surface, MISS * context.preferences.system.ui_scale)
         if place is None:
             self.report({"WARNING"}, "That is beside the face: click on its surface")
             return {"RUNNING_MODAL"}
@@ -242,6 +245,17 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
                 room = viewport.region.width - text_width(words, 12.0 * scale) - 8.0
                 canvas.text((min(at[0], room), at[1]), words, 12.0 * scale, NOW)
         canvas.draw()
+
+
+def hit_near(visible: Visible, viewport: Any, pixel: tuple[float, float], surface: Surface, miss: float) -> Any:
+    """(3,) the place of the resting surface under a pixel, or under one as near to it as `miss`; None beside that."""
+    for far in np.linspace(0.0, miss, 5):
+        for turn in np.linspace(0.0, 2.0 * np.pi, 13 if far > 0.0 else 2)[:-1]:
+            beside = (pixel[0] + far * float(np.cos(turn)), pixel[1] + far * float(np.sin(turn)))
+            place = visible.hit(*viewport.ray(beside), surface)
+            if place is not None:
+                return place
+    return None
 
 
 def _given(text: str) -> dict[str, Floats]:

@@ -14,12 +14,16 @@ from ...scene.points_kept import KeptPoints, Origin, read_kept, write_kept
 from ...scene.points_mirrored import plane_of_points
 from ...scene.points_seen import Visible
 from ..base import RisoriusOperator
-from .ops import label_of, no_points_reason
+from .ops import label_of
 from .overlay import point_at
 from .props import mark, redraw
+from .reasons import no_points_reason
+from .show import show_points
 from .view import Viewport
 
 TOOL = "risorius.drag_points"
+#: Pixels that the mouse may tremble in a click that only marks a point.
+STILL = 2.0
 
 
 class RISORIUS_OT_drag_point(bpy.types.Operator):
@@ -35,12 +39,13 @@ class RISORIUS_OT_drag_point(bpy.types.Operator):
         return no_points_reason(context.object) is None and bool(context.window_manager.risorius.points.show)
 
     def invoke(self, context: Any, event: Any) -> set[str]:
-        """Take hold of the point under the mouse; without one the click is for others."""
+        """Take hold of the point under the mouse. A press beside all points does nothing: others would move the object."""
         viewport = Viewport.of(context)
         pixel = None if viewport is None else viewport.pixel(event)
         name = None if pixel is None else point_at(context, pixel)
-        if name is None:
-            return {"PASS_THROUGH"}
+        if name is None or pixel is None:
+            return {"CANCELLED"}
+        self._pressed, self._has_left = pixel, False
         obj = context.object
         self._name, self._obj = name, obj.name
         self._surface = Surface.of(obj.data)
@@ -56,25 +61,34 @@ class RISORIUS_OT_drag_point(bpy.types.Operator):
         """Follow the mouse; release to put, Esc to leave all as it was."""
         obj = bpy.data.objects[self._obj]
         if event.type == "MOUSEMOVE":
-            viewport = Viewport.of(context)
-            pixel = None if viewport is None else viewport.pixel(event)
-            if viewport is not None and pixel is not None:
-                visible = Visible.of(obj, context.evaluated_depsgraph_get())
-                place = visible.hit(*viewport.ray(pixel), self._surface)
-                if place is not None:
-                    mirror = context.window_manager.risorius.points.mirror
-                    write_kept(obj, self.dragged(place, mirror=mirror))
-                    redraw()
+            self._follow(context, event, obj)
             return {"RUNNING_MODAL"}
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             write_kept(obj, self._before)
             return self._end(context, {"CANCELLED"})
         if event.type == "LEFTMOUSE" and event.value == "RELEASE":
+            self._follow(context, event, obj)
             if read_kept(obj) == self._before:
                 return self._end(context, {"CANCELLED"})
             self.report({"INFO"}, f"Moved {label_of(self._name)}")
             return self._end(context, {"FINISHED"})
         return {"RUNNING_MODAL"}
+
+    def _follow(self, context: Any, event: Any, obj: Any) -> None:
+        """Put the point under the mouse, once that has left the place where it was pressed."""
+        viewport = Viewport.of(context)
+        pixel = None if viewport is None else viewport.pixel(event)
+        if viewport is None or pixel is None:
+            return
+        away = max(abs(pixel[0] - self._pressed[0]), abs(pixel[1] - self._pressed[1]))
+        self._has_left = self._has_left or away > STILL
+        if not self._has_left:
+            return
+        visible = Visible.of(obj, context.evaluated_depsgraph_get())
+        place = visible.hit(*viewport.ray(pixel), self._surface)
+        if place is not None:
+            write_kept(obj, self.dragged(place, mirror=context.window_manager.risorius.points.mirror))
+            redraw()
 
     def dragged(self, place: Any, *, mirror: bool) -> KeptPoints:
         """The points with this one at a place of the resting surface, and its counterpart on the other side."""
@@ -122,7 +136,7 @@ class RISORIUS_OT_use_drag_tool(RisoriusOperator, bpy.types.Operator):
 
     def run(self, context: Any) -> str:
         """Show the points and take the tool in hand."""
-        context.window_manager.risorius.points.show = True
+        show_points(context)
         if not bpy.app.background:
             bpy.ops.wm.tool_set_by_id(name=TOOL)
         return "Drag points with the left mouse button; any other tool ends it"

@@ -14,47 +14,20 @@ from mathutils import Vector
 
 from ...errors import RisoriusError, SceneError
 from ...mpeg4 import FAPS, FEATURE_POINTS
-from ...scene import refusals
 from ...scene.faces import stored_points
 from ...scene.points_bound import followed
 from ...scene.points_found import Finding, find_points
-from ...scene.points_kept import KeptPoint, has_points, mesh_counts, read_kept, refuse_foreign_mesh, write_kept
+from ...scene.points_kept import KeptPoint, has_points, mesh_counts, read_kept, write_kept
 from ...scene.points_seen import Visible
 from ...scene.progress import Work
 from ..base import RisoriusOperator, WorkOperator
-from .props import list_names, mark
+from .props import mark
+from .reasons import no_points_reason, points_reason
+from .show import show_finding, show_points
 from .view import Viewport
 
-#: From this score on it is said that a mesh looks little like a face.
-STRANGE = 1.3
 #: How much of a face is seen after jumping to a point: times the distance between the eyes' outer corners.
 CLOSE_UP = 1.2
-
-
-def points_reason(obj: Any | None) -> str | None:
-    """Why no points can be kept with the active object, or None."""
-    reason = refusals.reason(obj, writing=False)
-    if reason is None:
-        try:
-            refuse_foreign_mesh(obj)
-        except SceneError as refusal:
-            return str(refusal)
-    return reason
-
-
-def no_points_reason(obj: Any | None) -> str | None:
-    """Why the active object has no points to work with, or None."""
-    reason = points_reason(obj)
-    if reason is None and obj is not None and not has_points(obj):
-        return f"{obj.name}: has no feature points yet: find, click or import them"
-    return reason
-
-
-def show_finding(context: Any, finding: Finding) -> str:
-    """Show the points, and say what was found."""
-    list_names()
-    context.window_manager.risorius.points.show = True
-    return finding.summary(context.object.name)
 
 
 class RISORIUS_OT_find_points(WorkOperator, bpy.types.Operator):
@@ -75,14 +48,8 @@ class RISORIUS_OT_find_points(WorkOperator, bpy.types.Operator):
         return find_points(context.object, scene=context.scene)
 
     def finish(self, context: Any, result: Finding) -> str:
-        """Show them, with a warning where the mesh hardly passes for a face."""
-        if result.score > STRANGE:
-            self.report(
-                {"WARNING"},
-                f"{context.object.name} looks little like a face (score {result.score:.2f}, faces have 0 to {STRANGE}):"
-                " look at its points, drag them, or click a few",
-            )
-        return show_finding(context, result)
+        """Show them."""
+        return show_finding(self, context, result)
 
 
 class OnePoint(RisoriusOperator):
@@ -125,7 +92,7 @@ class RISORIUS_OT_jump_to_point(OnePoint, bpy.types.Operator):
         kept = followed(read_kept(obj), obj.data).kept
         if self.point not in kept.points:
             raise SceneError(obj.name, f"has no feature point {self.point}")
-        state.show = True
+        show_points(context)
         mark(state, self.point)
         viewport = Viewport.of(context)
         if viewport is not None:

@@ -25,7 +25,11 @@ RADIUS, MARKED_RADIUS, TOUCH, LETTERS = 4.0, 6.5, 14.0, 11.0
 SURE, UNSURE, WRONG = (0.16, 0.78, 0.86), (0.98, 0.80, 0.20), (0.96, 0.28, 0.20)
 RIM, MARK = (0.05, 0.05, 0.05, 0.9), (1.0, 1.0, 1.0, 1.0)
 
+#: What is behind the words beside the mouse, and their second line.
+PAPER, GREY = (0.06, 0.06, 0.07, 0.94), (0.75, 0.75, 0.75, 1.0)
+
 _handler: Any = None
+_hovered: str | None = None
 
 
 def confidence_colour(confidence: float) -> Colour:
@@ -38,26 +42,31 @@ def confidence_colour(confidence: float) -> Colour:
     return r, g, b, 1.0
 
 
-def drawn_points(context: Any) -> tuple[KeptPoints, dict[str, Floats], set[str]] | None:
-    """Points that are drawn now, where in the world they are, and the hidden ones; None where nothing is drawn."""
+def shows_points(context: Any) -> bool:
+    """Whether the points of the active object are drawn now."""
     obj, viewport = context.object, Viewport.of(context)
     state = context.window_manager.risorius.points
     if obj is None or viewport is None or obj.mode != "OBJECT" or not state.show or not has_points(obj):
-        return None
+        return False
     if not obj.visible_get() or not context.space_data.overlay.show_overlays:
-        return None
+        return False
     try:
-        kept = read_kept(obj)
+        return read_kept(obj).counts == mesh_counts(obj.data)
     except RisoriusError:
+        return False
+
+
+def drawn_points(context: Any) -> tuple[KeptPoints, dict[str, Floats], Visible] | None:
+    """Points that are drawn now, where in the world they are, and what they are on; None where nothing is drawn."""
+    if not shows_points(context):
         return None
-    if kept.counts != mesh_counts(obj.data):
-        return None
+    obj, state = context.object, context.window_manager.risorius.points
+    kept = read_kept(obj)
     visible = Visible.of(obj, context.evaluated_depsgraph_get())
     places = visible.places(kept)
     if state.doubtful_only:
         places = {n: p for n, p in places.items() if kept.points[n].confidence < DOUBTFUL or n == active_name(state)}
-    behind = visible.hidden(places, *viewport.eye())
-    return kept, places, {name for name, is_hidden in zip(places, behind, strict=True) if is_hidden}
+    return kept, places, visible
 
 
 def point_at(context: Any, pixel: tuple[float, float]) -> str | None:
@@ -65,14 +74,17 @@ def point_at(context: Any, pixel: tuple[float, float]) -> str | None:
     drawn, viewport = drawn_points(context), Viewport.of(context)
     if drawn is None or viewport is None:
         return None
-    _, places, hidden = drawn
+    _, places, visible = drawn
     touch = TOUCH * context.preferences.system.ui_scale
-    near = []
+    near = {}
     for name, place in places.items():
         there = viewport.on_screen(place)
         if there is not None and abs(there[0] - pixel[0]) < touch and abs(there[1] - pixel[1]) < touch:
-            near.append((name in hidden, (there[0] - pixel[0]) ** 2 + (there[1] - pixel[1]) ** 2, name))
-    return min(near)[2] if near else None
+            near[name] = (there[0] - pixel[0]) ** 2 + (there[1] - pixel[1]) ** 2
+    if not near:
+        return None
+    behind = dict(zip(places, visible.hidden(places, *viewport.eye()), strict=True))
+    return min((bool(behind[name]), far, name) for name, far in near.items())[2]
 
 
 class Labels:
@@ -98,7 +110,9 @@ def _draw() -> None:
     drawn, viewport = drawn_points(context), Viewport.of(context)
     if drawn is None or viewport is None or context.region != viewport.region:
         return
-    kept, places, hidden = drawn
+    kept, places, visible = drawn
+    behind = visible.hidden(places, *viewport.eye())
+    hidden = {name for name, is_hidden in zip(places, behind, strict=True) if is_hidden}
     state, scale = context.window_manager.risorius.points, context.preferences.system.ui_scale
     marked = active_name(state)
     seen = ((name, viewport.on_screen(place)) for name, place in places.items())
@@ -117,6 +131,33 @@ def _draw() -> None:
             x, y = spots[name][0] + 1.8 * RADIUS * scale, spots[name][1] - 4.0 * scale
             if words and written.has_room((x, y), words, size):
                 canvas.text((x, y), words, size, (1.0, 1.0, 1.0, 1.0))
+    canvas.draw()
+    if _hovered in spots:
+        _draw_name(_hovered, kept.points[_hovered].confidence, spots[_hovered], viewport, scale)
+
+
+def hover(name: str | None) -> None:
+    """The mouse is over this point, or over none."""
+    global _hovered
+    _hovered = name
+
+
+def words_of(name: str, confidence: float) -> tuple[str, str]:
+    """What is told of the point under the mouse: number and place, and how sure it is."""
+    return f"{name}  {FEATURE_POINTS[name].location}", f"{confidence:.0%} sure"
+
+
+def _draw_name(name: str, confidence: float, at: tuple[float, float], viewport: Viewport, scale: float) -> None:
+    """The name of the point under the mouse, over everything."""
+    canvas, size, lines = Canvas(), 1.25 * LETTERS * scale, words_of(name, confidence)
+    width = max(text_width(line, size) for line in lines) + 12.0 * scale
+    left = min(at[0] + 12.0 * scale, viewport.region.width - width)
+    low = min(at[1] + 12.0 * scale, viewport.region.height - 3.4 * size)
+    canvas.disc(at, MARKED_RADIUS * scale, MARK)
+    canvas.disc(at, RADIUS * scale, confidence_colour(confidence))
+    canvas.box((left, low), (left + width, low + 3.4 * size), PAPER)
+    canvas.text((left + 6.0 * scale, low + 2.0 * size), lines[0], size, MARK)
+    canvas.text((left + 6.0 * scale, low + 0.6 * size), lines[1], size, GREY)
     canvas.draw()
 
 

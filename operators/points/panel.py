@@ -14,6 +14,7 @@ from ..face.ops import RISORIUS_OT_forget_points, RISORIUS_OT_import_points
 from ..sidebar import Sidebar
 from .click import RISORIUS_OT_click_points
 from .drag import RISORIUS_OT_use_drag_tool
+from .look import RISORIUS_OT_look_at_face
 from .ops import (
     RISORIUS_OT_export_points,
     RISORIUS_OT_find_points,
@@ -123,6 +124,7 @@ class RISORIUS_PT_points(Sidebar, bpy.types.Panel):
         row = layout.row(align=True)
         row.prop(state, "show", icon="HIDE_OFF" if state.show else "HIDE_ON", toggle=True)
         row.prop(state, "labels", text="")
+        row.operator(RISORIUS_OT_look_at_face.bl_idname, text="", icon="ZOOM_SELECTED")
         count = f"{len(kept.points)} points"
         layout.label(text=f"{count}, {doubtful} to look at" if doubtful else count, icon="INFO")
         layout.template_list("RISORIUS_UL_points", "", state, "names", state, "active", rows=ROWS)

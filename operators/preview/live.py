@@ -18,7 +18,7 @@ from ...errors import RisoriusError
 from ...scene import preview, shape_keys
 from ...scene.live_face import LiveFace, uid_of
 from ...scene.progress import Progress, Work
-from ..active import face_reason, target_of
+from ..active import ready_reason, target_of
 from ..changes import listen, listen_to_time, unlisten
 from ..emotion.performance import performance_of
 from ..emotion.profile import Wanted, wanted_of
@@ -59,7 +59,7 @@ def trouble() -> str:
 
 def ask(obj: Any) -> None:
     """Show `obj` as it is chosen now, soon."""
-    if not is_on() or getattr(obj, "type", "") != "MESH" or face_reason(obj) is not None:
+    if not is_on() or getattr(obj, "type", "") != "MESH" or ready_reason(obj) is not None:
         return
     _live.asked, _live.since = uid_of(obj), time.monotonic()
     if not bpy.app.timers.is_registered(_answer):
@@ -101,7 +101,7 @@ def _step() -> float | None:
         return _prepare()
     uid = _live.asked if _live.asked is not None else _live.rough
     obj = object_of(uid) if uid is not None else None
-    if obj is None or face_reason(obj) is not None:
+    if obj is None or ready_reason(obj) is not None:
         _live.asked = _live.rough = None
         return None
     face = _face_of(obj)
@@ -238,7 +238,7 @@ def _after_frame(scene: Any, *_: Any) -> None:
 def _play_or_rest(obj: Any, face: LiveFace, scene: Any) -> None:
     """Show `obj` as it is laid out, or as it is where that is baked or cannot be shown."""
     try:
-        if shape_keys.has_own(obj) or face_reason(obj) is not None or not face.is_of(target_of(obj)):
+        if shape_keys.has_own(obj) or ready_reason(obj) is not None or not face.is_of(target_of(obj)):
             rest(obj)
         else:
             play(obj, face, scene)

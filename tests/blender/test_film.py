@@ -121,6 +121,21 @@ def test_a_face_that_nothing_moves_is_baked_before_it_is_filmed(head: Any, tmp_p
     assert movie.frame_duration == 9
 
 
+def test_a_cancelled_film_takes_its_bake_away_again(head: Any, tmp_path: Path) -> None:
+    from risorius.operators.film.ops import RISORIUS_OT_render_film
+
+    chosen = bpy.context.scene.risorius.film
+    chosen.path, chosen.width, chosen.height = str(tmp_path / "film.mp4"), 64, 64
+    head.risorius.bake.onset = head.risorius.bake.apex = head.risorius.bake.offset = 0.1
+    work = RISORIUS_OT_render_film.work(None, bpy.context)
+    while not shape_keys.has_own(head):
+        next(work)
+    next(work)
+    work.close()
+    assert head.data.shape_keys is None
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.smoke
 def test_unwritable_output_is_refused_before_rendering(
     head: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -17,7 +17,7 @@ EMOTIONS = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
 
 def write_apexes(name: str, face: Face, folder: Path, *, fine: bool = False) -> list[Path]:
     """Write NAME-emotions.png and NAME-words.png of a head into a folder."""
-    sitter = Sitter(name, face, fine=fine)
+    sitter = Sitter.of_head(name, face, fine=fine)
     sheets = {"emotions": (EMOTIONS, 2), "words": (tuple(words()), 3)}
     written = []
     for sheet, (shown, columns) in sheets.items():

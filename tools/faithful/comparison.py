@@ -25,7 +25,7 @@ LEGEND = "shape, model (exact drive), distance: grey 0, blue 1, yellow 2.5, red 
 
 def write_comparison(name: str, face: Face, shapes: Sequence[Shape], folder: Path) -> list[Path]:
     """Write NAME-scans-1.png and so on of a head's shapes into a folder."""
-    sitter = Sitter(name, face, width=300, height=360)
+    sitter = Sitter.of_head(name, face, width=300, height=360)
     poses = [face.pose(shape.frame, drive=Drive.EXACT).positions for shape in shapes]
     cells = []
     coloured = [distance_colours(face, pose - shape.positions) for pose, shape in zip(poses, shapes, strict=True)]

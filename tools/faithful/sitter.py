@@ -23,13 +23,11 @@ from risorius.scene.studio import Look, render_frame, studio
 from risorius.scene.subjects import paint_parts
 
 from .heads import lash_vertices
-from .irises import irises
 
 #: The face fills the picture: of the height that a portrait shows, this much, about a centre so much lower and deeper.
 CLOSENESS, LOWER, DEEPER = 0.76, 0.045, 0.14
 
 _COLOUR = "faithful"
-_EYE = ("sclera", "iris", "pupil")
 
 
 class View(StrEnum):
@@ -45,22 +43,32 @@ class View(StrEnum):
 
 
 class Sitter:
-    """One face in an otherwise empty Blender file."""
+    """One face that is pictured in any positions."""
 
-    def __init__(self, name: str, face: Face, *, width: int = 360, height: int = 432, fine: bool = False) -> None:
-        """`name` as in `HEADS`; `width` and `height` of its pictures in pixels, even; `fine` as in `Look`."""
+    def __init__(
+        self,
+        objects: Sequence[Any],
+        *,
+        width: int = 360,
+        height: int = 432,
+        fine: bool = False,
+        framing: Framing | None = None,
+    ) -> None:
+        """`objects`: the face, then what is pictured with it; `width`, `height` in even pixels; `fine` as in `Look`."""
+        self._object, self._objects = objects[0], list(objects)
+        self._look = Look(width=width, height=height, fine=fine)
+        self._framing = framing or _close(framing_of(self._object))
+
+    @classmethod
+    def of_head(cls, name: str, face: Face, *, width: int = 360, height: int = 432, fine: bool = False) -> Sitter:
+        """A head of `HEADS` in an otherwise empty Blender file."""
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         if name == "default":
-            self._object = head_object(api.build_default_head(), name)
-            bpy.context.collection.objects.link(self._object)
-            self._objects = [self._object]
+            objects = [head_object(api.build_default_head(), name)]
+            bpy.context.collection.objects.link(objects[0])
         else:
-            self._object = _plain_object(name, face)
-            self._objects = [self._object, *irises(self._object, face)]
-        self._look = Look(width=width, height=height, fine=fine)
-        framing = framing_of(self._object)
-        centre = framing.point(0.0, -LOWER, -DEEPER)
-        self._framing: Framing = replace(framing, centre=centre, height=CLOSENESS * framing.height)
+            objects = [_plain_object(name, face)]
+        return cls(objects, width=width, height=height, fine=fine)
 
     def shots(self, poses: Sequence[Floats], view: View, colours: Sequence[Floats] | None = None) -> list[Floats]:
         """Pictures (height, width, 3) of poses (V, 3) in the face's coordinates.
@@ -85,6 +93,11 @@ class Sitter:
         return pictures
 
 
+def _close(framing: Framing) -> Framing:
+    """The face rather than head and neck."""
+    return replace(framing, centre=framing.point(0.0, -LOWER, -DEEPER), height=CLOSENESS * framing.height)
+
+
 def _plain_object(name: str, face: Face) -> Any:
     """An object for a face that brings no materials, coloured by its parts, in the scene; lash strips are not drawn."""
     lashes = lash_vertices(name)
@@ -95,9 +108,6 @@ def _plain_object(name: str, face: Face) -> Any:
     bpy.context.collection.objects.link(obj)
     store_points(obj, {n: tuple(point.position.tolist()) for n, point in face.points.items()})
     paint_parts(obj)
-    for material in obj.data.materials:
-        if material.name.endswith(_EYE):
-            material.roughness = 1.0  # a highlight on a flat cornea hides the pupil
     return obj
 
 

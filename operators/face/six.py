@@ -1,0 +1,67 @@
+"""One button: the six emotions of a face, found if need be, one after another on the timeline."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...scene import bake, performance, shape_keys
+from ...scene.points_found import Finding
+from ...scene.points_kept import read_kept
+from ...scene.progress import Work
+from ..active import face_reason, target_of
+from ..bake.ops import creases_wanted
+from ..base import WorkOperator
+from ..points.first import with_points
+from ..points.look import turn_to_face
+from ..points.show import show_finding
+
+
+class RISORIUS_OT_bake_six(WorkOperator, bpy.types.Operator):
+    """Bake joy, surprise, fear, anger, sadness and disgust: a shape key each, one after another on the timeline. \
+The face is found first where its points are not known"""
+
+    bl_idname = "risorius.bake_six"
+    bl_label = "Six Emotions"
+    bl_options = {"REGISTER", "UNDO"}
+    title = "Baking six emotions"
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only on a face that can be written to."""
+        return face_reason(context.object)
+
+    def work(self, context: Any) -> Work[list[bake.BakeResult] | Finding]:
+        """Find the face if need be, then bake all six."""
+        return with_points(context.object, lambda: self.baking(context), scene=context.scene)
+
+    def baking(self, context: Any) -> Work[list[bake.BakeResult]]:
+        """One after another; closed early, those that are done and were not there before are taken away again."""
+        obj, target = context.object, target_of(context.object)
+        cues, before = performance.cues_of(performance.ARCHETYPES), set(shape_keys.read_own(obj.data).clips)
+        fps, creases = bake.scene_fps(context.scene), creases_wanted(obj)
+        try:
+            return (yield from performance.pose_all(target, cues, fps, creases))
+        except GeneratorExit:
+            made = set(shape_keys.read_own(obj.data).clips) - before
+            if made:
+                bake.clear(target, clips=sorted(made))
+            raise
+
+    def finish(self, context: Any, result: list[bake.BakeResult] | Finding) -> str:
+        """Put them on the timeline, and show the first at its apex."""
+        if isinstance(result, Finding):
+            return show_finding(self, context, result)
+        for remark in dict.fromkeys(remark for one in result for remark in one.remarks):
+            self.report({"WARNING"}, remark)
+        scene, apex = context.scene, result[0].frame_range
+        last = performance.line_up(target_of(context.object), result)
+        scene.frame_start, scene.frame_end = performance.FIRST_FRAME, max(last, int(scene.frame_end))
+        if not bpy.app.background:
+            scene.frame_set(round(sum(apex) / 2.0))
+            turn_to_face(context, read_kept(context.object))
+        return f"{context.object.name}: six emotions, frames 1 to {last}; press the space bar over the face to play"
+
+
+CLASSES = (RISORIUS_OT_bake_six,)

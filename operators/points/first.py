@@ -1,0 +1,35 @@
+"""First the face, then what is to be done with it: a button that needs feature points finds them itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import bpy
+
+from ...scene.points_found import Finding, find_points
+from ...scene.points_kept import forget_points, has_points
+from ...scene.progress import Work, part_of
+
+T = TypeVar("T")
+
+#: The share of finding the face in the whole.
+SHARE = 0.4
+
+
+def with_points(obj: Any, then: Callable[[], Work[T]], *, scene: Any) -> Work[T | Finding]:
+    """Find the face of `obj` where it has no points yet, then go on with the other work and return its result.
+
+    With a window a doubtful face ends it early, and what was found is returned: somebody should look first.
+    Closing it before its end leaves no points behind.
+    """
+    if has_points(obj):
+        return (yield from then())
+    finding = yield from part_of(find_points(obj, scene=scene), 0.0, SHARE)
+    if finding.kept.is_questioned and not bpy.app.background:
+        return finding
+    try:
+        return (yield from part_of(then(), SHARE, 1.0))
+    except GeneratorExit:
+        forget_points(obj)
+        raise

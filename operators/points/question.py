@@ -1,0 +1,69 @@
+"""Is this the face? Asked where what was found is unlike most faces, and open until it is answered."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import bpy
+
+from ...face.fit.doubt import DOUBTFUL_SCORE
+from ...scene.points_kept import KeptPoints, read_kept, write_kept
+from ..base import RisoriusOperator
+from ..face.ops import RISORIUS_OT_forget_points
+from .reasons import no_points_reason
+
+
+class RISORIUS_OT_accept_points(RisoriusOperator, bpy.types.Operator):
+    """Yes: the points are on the face, as far as can be seen. Single ones can still be dragged"""
+
+    bl_idname = "risorius.accept_points"
+    bl_label = "Yes, Keep These Points"
+    bl_options = {"REGISTER", "UNDO"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where it is asked."""
+        reason = no_points_reason(context.object)
+        if reason is None and not read_kept(context.object).is_questioned:
+            return "Nobody doubts these points"
+        return reason
+
+    def run(self, context: Any) -> str:
+        """Ask no more."""
+        obj = context.object
+        write_kept(obj, replace(read_kept(obj), score=0.0))
+        return f"{obj.name}: its points are kept; now bake an expression"
+
+
+class RISORIUS_MT_is_this_the_face(bpy.types.Menu):
+    """The question, beside the mouse."""
+
+    bl_idname = "RISORIUS_MT_is_this_the_face"
+    bl_label = "Is this the face?"
+    layout: Any
+
+    def draw(self, context: Any) -> None:
+        """Why it is asked, and the answers."""
+        draw_question(self.layout, read_kept(context.object))
+
+
+def draw_question(layout: Any, kept: KeptPoints) -> None:
+    """Why it is asked, and the answers: in the menu and in the panel."""
+    layout.label(text="Do eyes, nose, lips fit?", icon="QUESTION")
+    layout.label(text="It is unlike most faces:", icon="BLANK1")
+    layout.label(text=f"score {kept.score:.2f}, most to {DOUBTFUL_SCORE:g}", icon="BLANK1")
+    layout.operator_context = "INVOKE_DEFAULT"
+    layout.operator(RISORIUS_OT_accept_points.bl_idname, icon="CHECKMARK")
+    layout.operator("risorius.click_points", text="Click Six Points Instead", icon="RESTRICT_SELECT_OFF")
+    layout.operator(RISORIUS_OT_forget_points.bl_idname, text="No, Forget Them", icon="X")
+
+
+def ask_whether_right(context: Any, kept: KeptPoints) -> None:
+    """Open the question beside the mouse where there is doubt and a window; the panel goes on asking."""
+    if kept.is_questioned and not bpy.app.background and context.window is not None:
+        bpy.ops.wm.call_menu(name=RISORIUS_MT_is_this_the_face.bl_idname)
+
+
+CLASSES = (RISORIUS_OT_accept_points, RISORIUS_MT_is_this_the_face)

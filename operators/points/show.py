@@ -1,0 +1,37 @@
+"""Showing feature points that were found: on the face, from its front, with a question where they are doubtful."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ...face.fit.doubt import DOUBTFUL_SCORE
+from ...scene.points_carried import carry_rest
+from ...scene.points_found import Finding
+from ...scene.points_seen import Visible
+from .look import turn_to_face
+from .props import list_names
+from .question import ask_whether_right
+
+
+def show_points(context: Any) -> None:
+    """Show the points of the active object, on what its modifiers make of it."""
+    list_names()
+    if not Visible.of(context.object, context.evaluated_depsgraph_get()).same_polygons:
+        carry_rest(context.object)
+    context.window_manager.risorius.points.show = True
+
+
+def show_finding(operator: Any, context: Any, finding: Finding) -> str:
+    """Show the points, ask where they are doubtful, and say what was found."""
+    show_points(context)
+    for problem in finding.unreadable:
+        operator.report({"WARNING"}, f"A saved topology was passed over: {problem}")
+    turn_to_face(context, finding.kept)
+    if finding.kept.is_questioned:
+        operator.report(
+            {"WARNING"},
+            f"{context.object.name} is unlike most faces (score {finding.score:.2f}, most have 0 to"
+            f" {DOUBTFUL_SCORE:g}): look whether its points are right, or click six of them",
+        )
+    ask_whether_right(context, finding.kept)
+    return finding.summary(context.object.name)

@@ -1,0 +1,70 @@
+"""Operators for known topologies: save the points for every mesh like this one, and remove what was saved."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...scene.points_presets import preset_paths, remove_preset, save_preset
+from ..base import RisoriusOperator
+from .reasons import no_points_reason
+
+
+class RISORIUS_OT_save_topology(RisoriusOperator, bpy.types.Operator):
+    """Remember these points for every mesh with the same polygons: Find Face knows it at once, in any file, whatever \
+its shape. Correct the points first"""
+
+    bl_idname = "risorius.save_topology"
+    bl_label = "Save as Known Topology"
+    bl_options = {"REGISTER"}
+    needs_scipy = False
+
+    called: bpy.props.StringProperty(  # type: ignore[valid-type]
+        name="Name", description="What this kind of mesh is called. A topology of the same name is replaced"
+    )
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where there are points."""
+        return no_points_reason(context.object)
+
+    def invoke(self, context: Any, event: Any) -> Any:
+        """Ask for the name."""
+        self.called = self.called or context.object.data.name
+        return context.window_manager.invoke_props_dialog(self)
+
+    def run(self, context: Any) -> str:
+        """Save them."""
+        path = save_preset(context.object, self.called)
+        return f"Find Face knows meshes like {context.object.name} from now on ({path})"
+
+
+class RISORIUS_OT_remove_topology(RisoriusOperator, bpy.types.Operator):
+    """Forget this saved topology. Meshes whose points were found with it keep them"""
+
+    bl_idname = "risorius.remove_topology"
+    bl_label = "Remove Known Topology"
+    bl_options = {"REGISTER"}
+    needs_scipy = False
+
+    file: bpy.props.StringProperty(  # type: ignore[valid-type]
+        name="File", description="Name of its file without ending", options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where some were saved."""
+        return None if preset_paths() else "No topology has been saved"
+
+    def invoke(self, context: Any, event: Any) -> Any:
+        """Ask first: this cannot be undone."""
+        return context.window_manager.invoke_confirm(self, event)
+
+    def run(self, context: Any) -> str:
+        """Remove it."""
+        remove_preset(self.file)
+        return f"Find Face does not know {self.file} any more"
+
+
+CLASSES = (RISORIUS_OT_save_topology, RISORIUS_OT_remove_topology)
