@@ -51,6 +51,9 @@ class RISORIUS_OT_drag_emotion(bpy.types.Operator):
 
     def modal(self, context: Any, event: Any) -> set[str]:
         """Follow the pointer; release to keep, Esc or the right button to have it back."""
+        if self._obj not in bpy.data.objects:
+            self._let_go(context)
+            return {"CANCELLED"}
         if event.type == "MOUSEMOVE":
             pixel: Pixel = (float(event.mouse_region_x), float(event.mouse_region_y))
             if self._clicked is not None and math.dist(pixel, self._hand.pointer) > STILL * self._scale:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import bpy
@@ -96,6 +97,7 @@ def numbers_of(wheel: Wheel, scale: float) -> dict[int, Box]:
     return {activation: Box(x - half, y - half, x + half, y + half) for activation, (x, y) in spots.items()}
 
 
+@lru_cache(maxsize=8)
 def labels_of(wheel: Wheel, scale: float) -> dict[str, Box]:
     """Word -> where it is written."""
 

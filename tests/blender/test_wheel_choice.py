@@ -92,6 +92,13 @@ def test_a_click_on_what_is_chosen_is_no_step_of_undo(head: Any, drag: Drag) -> 
     assert drag.send("LEFTMOUSE", WHEEL.pixel(323.4, 5.4), "RELEASE") == {"CANCELLED"}
 
 
+def test_a_face_that_is_deleted_meanwhile_ends_the_drag(head: Any, drag: Drag) -> None:
+    drag.send("LEFTMOUSE", WHEEL.pixel(70.3, 4.9))
+    bpy.data.objects.remove(head)
+    assert drag.send("MOUSEMOVE", WHEEL.pixel(20.0, 3.0)) == {"CANCELLED"}
+    assert drag.said is None
+
+
 def test_control_leaves_words_aside(head: Any, drag: Drag) -> None:
     emotion = head.risorius.emotion
     drag.send("LEFTMOUSE", WHEEL.pixel(70.0, 4.9), ctrl=True)
