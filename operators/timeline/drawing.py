@@ -11,8 +11,8 @@ from ..changes import listen, listen_to_time, unlisten
 from ..points.canvas import Canvas, Colour, text_width
 from .bars import Bar, lay_out
 from .colours import colour_of
-from .ops import clip_title
 from .props import active_clip, sounding
+from .titles import clip_title
 
 #: Pixels at a scale of 1: letters, their distance from the bar's beginning, a rim.
 LETTERS, INDENT, RIM = 11.0, 5.0, 1.2

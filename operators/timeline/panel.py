@@ -15,9 +15,9 @@ from .ops import (
     RISORIUS_OT_duplicate_clip,
     RISORIUS_OT_move_clip,
     RISORIUS_OT_remove_clip,
-    clip_title,
 )
 from .props import active_clip
+from .titles import clip_title
 
 #: The menu of preset files, by name: the library knows the timeline, and not the other way round.
 LIBRARY = "RISORIUS_MT_library"

@@ -10,7 +10,7 @@ import pytest
 import risorius.api as api
 from risorius.operators.changes import listen, listen_to_time, unlisten
 from risorius.operators.emotion.performance import performance_of
-from risorius.operators.timeline.ops import clip_title
+from risorius.operators.timeline.titles import clip_title
 
 pytestmark = pytest.mark.smoke
 
