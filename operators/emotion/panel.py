@@ -8,6 +8,8 @@ from typing import Any
 import bpy
 
 from ..sidebar import Sidebar
+from ..timeline.linked import linked_clip
+from ..timeline.titles import clip_title
 from ..wheel.panel import RISORIUS_PT_wheel
 from ..wheel.places import between
 from .ops import RISORIUS_OT_reset_activation
@@ -35,6 +37,9 @@ class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
         row = layout.row(align=True)
         row.prop(wheel, "show", icon="HIDE_OFF" if wheel.show else "HIDE_ON", toggle=True)
         row.popover(RISORIUS_PT_wheel.__name__, text="", icon="PREFERENCES")
+        clip = linked_clip(context.object)
+        if clip is not None:
+            layout.label(text=f"Edits the clip {clip_title(clip)}", icon="LINKED")
         layout.row().prop(emotion, "by", expand=True)
         on_wheel = emotion.by == "WHEEL"
         layout.prop(emotion, "angle" if on_wheel else "word")

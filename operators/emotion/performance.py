@@ -11,6 +11,7 @@ from ...arrays import Floats
 from ...mpeg4 import Cue, Drawn, Liveliness, Ramp, drawn_within
 from ...scene.bake import scene_fps
 from ..timeline.props import sounding
+from ..timeline.titles import clip_title
 from .profile import Wanted, title_of, wanted_of
 
 #: Between the seeds of one clip and the next, so that clips of one emotion differ.
@@ -62,7 +63,7 @@ def performance_of(obj: Any, scene: Any) -> Performance:
     if timeline.clips:
         clips = sounding(timeline)
         choices = [(clip.emotion, clip, {"peak": clip.peak, "ramp": Ramp(clip.ramp)}) for clip in clips]
-        titles = [str(clip.name).strip() or title_of(clip.emotion) for clip in clips]
+        titles = [clip_title(clip) for clip in clips]
     else:
         choices = [(obj.risorius.emotion, obj.risorius.bake, {})]
         titles = [title_of(obj.risorius.emotion)]

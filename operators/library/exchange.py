@@ -89,8 +89,8 @@ def load(preset: Preset, obj: Any, context: Any) -> str:
     for name, value in preset.contractions.items():
         entry = by_hand.add()
         entry.name, entry.contraction = name, value
-    changed(obj.risorius.emotion, context)
     retimed(obj.risorius.timeline, context)
+    changed(obj.risorius.emotion, context)
     what = "expression" if preset.emotion is not None else f"{len(preset.clips)} clips"
     return f"{obj.name}: loaded {what}"
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..changes import follow, unlisten
+from ..changes import changed, follow, unlisten
 from .props import active_clip
 
 #: Set first, for it brings its own place and strength; set last, for the others may switch it.
@@ -33,10 +33,11 @@ def copy_choice(source: Any, target: Any) -> None:
 
 
 def show_clip(obj: Any) -> None:
-    """Load the selected clip into the Emotion panel, where they are linked."""
+    """Load the selected clip into the Emotion panel, where they are linked, and let the face show it in full."""
     clip = linked_clip(obj)
-    if clip is not None:
+    if clip is not None and not _copying:
         copy_choice(clip.emotion, obj.risorius.emotion)
+        changed(obj.risorius.emotion, None)
 
 
 def linked_clip(obj: Any) -> Any | None:

@@ -10,17 +10,12 @@ from ...mpeg4.timing import load_timings
 from ..active import face_reason
 from ..base import RisoriusOperator
 from ..changes import retimed
-from ..emotion.profile import title_of
 from .linked import copy_choice
 from .props import active_clip
+from .titles import clip_title
 
 #: What of a clip a timing preset says.
 TIMES = ("onset", "apex", "offset", "peak", "ramp")
-
-
-def clip_title(clip: Any) -> str:
-    """The name the user gave, or the emotion's."""
-    return str(clip.name).strip() or title_of(clip.emotion)
 
 
 def copy_clip(source: Any, target: Any) -> None:

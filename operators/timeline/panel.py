@@ -6,9 +6,8 @@ from typing import Any
 
 import bpy
 
-from ...mpeg4.profile import Archetype
-from ..emotion.profile import profile_of
 from ..sidebar import Sidebar
+from .colours import icon_of
 from .ops import (
     RISORIUS_MT_clip_timing,
     RISORIUS_MT_clips,
@@ -16,30 +15,15 @@ from .ops import (
     RISORIUS_OT_duplicate_clip,
     RISORIUS_OT_move_clip,
     RISORIUS_OT_remove_clip,
-    clip_title,
 )
 from .props import active_clip
-
-_ICON_OF_ARCHETYPE = {
-    Archetype.JOY: "STRIP_COLOR_03",
-    Archetype.SADNESS: "STRIP_COLOR_05",
-    Archetype.ANGER: "STRIP_COLOR_01",
-    Archetype.FEAR: "STRIP_COLOR_06",
-    Archetype.DISGUST: "STRIP_COLOR_04",
-    Archetype.SURPRISE: "STRIP_COLOR_02",
-}
+from .titles import clip_title
 
 #: The menu of preset files, by name: the library knows the timeline, and not the other way round.
 LIBRARY = "RISORIUS_MT_library"
 
 #: Rows of the list.
 ROWS = 5
-
-
-def emotion_icon(clip: Any) -> str:
-    """A colour for the archetype that a clip's emotion is nearest to; grey for none."""
-    weights = profile_of(clip.emotion).weights
-    return _ICON_OF_ARCHETYPE[max(weights, key=lambda name: weights[name])] if weights else "STRIP_COLOR_09"
 
 
 class RISORIUS_UL_clips(bpy.types.UIList):
@@ -52,7 +36,7 @@ class RISORIUS_UL_clips(bpy.types.UIList):
         silent = (item.mute and not item.solo) or (not item.solo and any(clip.solo for clip in data.clips))
         split = layout.split(factor=0.6, align=True)
         split.active = not silent
-        split.label(text=clip_title(item), icon=emotion_icon(item))
+        split.label(text=clip_title(item), icon_value=icon_of(item.emotion))
         row = split.row(align=True)
         row.label(text=str(item.start))
         row.prop(item, "solo", text="", icon="SOLO_ON" if item.solo else "SOLO_OFF", emboss=False)

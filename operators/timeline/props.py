@@ -21,13 +21,20 @@ def _chosen(owner: Any, context: Any) -> None:
     show_clip(owner.id_data)
 
 
+def _renamed(owner: Any, context: Any) -> None:
+    """What is written on its bar is another name; the face stays as it is shown."""
+    from .drawing import redraw
+
+    redraw()
+
+
 class RISORIUS_PG_clip(bpy.types.PropertyGroup):
     """One expression in time."""
 
     name: bpy.props.StringProperty(  # type: ignore[valid-type]
         name="Name",
         description="What the clip, its marker and its strip are called. Empty: named after the emotion",
-        update=retimed,
+        update=_renamed,
     )
     emotion: bpy.props.PointerProperty(type=RISORIUS_PG_emotion)  # type: ignore[valid-type]
     start: bpy.props.IntProperty(  # type: ignore[valid-type]
@@ -65,14 +72,14 @@ class RISORIUS_PG_clip(bpy.types.PropertyGroup):
 def _amount(name: str, description: str, most: float, **options: Any) -> Any:
     """How much of a variation."""
     return bpy.props.FloatProperty(
-        name=name, description=description, default=0.0, min=0.0, max=most, precision=2, update=retimed, **options
+        name=name, description=description, default=0.0, min=0.0, max=most, precision=2, **options
     )
 
 
-def _seed(what: str) -> Any:
+def _seed(what: str, **options: Any) -> Any:
     """From which number it is drawn."""
     return bpy.props.IntProperty(
-        name="Seed", description=f"Another number draws other {what}", default=1, min=0, update=retimed
+        name="Seed", description=f"Another number draws other {what}", default=1, min=0, **options
     )
 
 
@@ -84,8 +91,9 @@ class RISORIUS_PG_variation(bpy.types.PropertyGroup):
         "How far each expression departs from the typical one: 0 not at all, 1 anywhere within the emotion's ranges. "
         "Clips with a seed of their own keep it",
         1.0,
+        update=retimed,
     )
-    draws_seed: _seed("expressions")  # type: ignore[valid-type]
+    draws_seed: _seed("expressions", update=retimed)  # type: ignore[valid-type]
     blinks: _amount(  # type: ignore[valid-type]
         "Blinks (/min)",
         "Blinks per minute: people at rest blink 17 times, in conversation 26 times, when reading 4.5 times. "

@@ -126,3 +126,18 @@ def placed(free: Box, corner: Corner, *, radius: float, margin: float, foot: flo
     x = free.left + margin + shown if at_left else free.right - margin - shown
     y = free.low + margin + foot + shown if at_foot else free.high - margin - shown
     return Wheel((x, y), shown)
+
+
+def under(free: Box, pixel: Pixel, angle: float, away: float, *, radius: float, margin: float) -> Wheel:
+    """The wheel that has a point of it under a pixel; moved where it would leave what is to be seen.
+
+    Parameters
+    ----------
+    free : where there is room. angle, away : the point, degrees and activation; 0 is the centre.
+    radius : pixels. margin : pixels around it.
+    """
+    x, y = Wheel((0.0, 0.0), radius).pixel(angle, away)
+    keep = radius + margin
+    spans = ((pixel[0] - x, free.left, free.right), (pixel[1] - y, free.low, free.high))
+    centre = [min(max(wish, low + keep), max(high - keep, low + keep)) for wish, low, high in spans]
+    return Wheel((centre[0], centre[1]), radius)

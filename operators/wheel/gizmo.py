@@ -95,12 +95,12 @@ def attach() -> None:
 
 
 def detach() -> None:
-    """Let go of pictures and keys; Blender keeps the keys of a gizmo otherwise."""
+    """Let go of pictures and keys; Blender keeps the keys of a gizmo otherwise, and those that the user has."""
     forget_pictures()
     manager = bpy.context.window_manager
-    config = None if manager is None else manager.keyconfigs.default
-    if config is not None and KEYMAP in config.keymaps:
-        config.keymaps.remove(config.keymaps[KEYMAP])
+    for config in () if manager is None else (manager.keyconfigs.user, manager.keyconfigs.default):
+        if config is not None and KEYMAP in config.keymaps:
+            config.keymaps.remove(config.keymaps[KEYMAP])
 
 
 CLASSES = (RISORIUS_GT_wheel, RISORIUS_GGT_wheel)

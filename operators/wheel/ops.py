@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import bpy
 
 from ..base import RisoriusOperator
 from .caption import title_of
-from .choice import REACH, Choice, Hand, choose_pixel, choose_word, strengthen, turn
-from .geometry import Pixel
+from .choice import Hand, choose_word, strengthen, turn
+from .dragging import Dragging
 from .view import label_at, reason_hidden, redraw, scale_of, wheel_of
 
-#: Pixels at a scale of 1 that a hand moves while it clicks on a label.
-STILL = 4.0
-HELP = "Ctrl: No Snapping to Words   Shift: Fine   Release: Choose   Esc, Right Mouse: Back"
 
-
-class RISORIUS_OT_drag_emotion(bpy.types.Operator):
+class RISORIUS_OT_drag_emotion(Dragging, bpy.types.Operator):
     """Choose an emotion by clicking or dragging on the emotion wheel"""
 
     bl_idname = "risorius.drag_emotion"
@@ -38,59 +33,16 @@ class RISORIUS_OT_drag_emotion(bpy.types.Operator):
         wheel, pixel = wheel_of(context), (float(event.mouse_region_x), float(event.mouse_region_y))
         if wheel is None:
             return {"PASS_THROUGH"}
-        self._wheel, self._obj, self._scale = wheel, context.object.name, scale_of(context)
-        self._before = Choice.of(context.object.risorius.emotion)
-        self._hand, self._clicked = Hand(pixel, pixel), None if event.ctrl else label_at(wheel, pixel, self._scale)
-        if self._clicked is not None:
-            choose_word(self._emotion(), self._clicked)
+        self._take_hold(context, wheel, Hand(pixel, pixel), scale_of(context))
+        word = None if event.ctrl else label_at(wheel, pixel, self._scale)
+        if word is not None:
+            self._clicked = True
+            choose_word(self._emotion(), word)
         else:
             self._choose(event)
         context.window_manager.modal_handler_add(self)
         self._show(context)
         return {"RUNNING_MODAL"}
-
-    def modal(self, context: Any, event: Any) -> set[str]:
-        """Follow the pointer; release to keep, Esc or the right button to have it back."""
-        if event.type == "MOUSEMOVE":
-            pixel: Pixel = (float(event.mouse_region_x), float(event.mouse_region_y))
-            if self._clicked is not None and math.dist(pixel, self._hand.pointer) > STILL * self._scale:
-                self._clicked = None
-            if pixel != self._hand.pointer and self._clicked is None:
-                self._hand = self._hand.moved(pixel, fine=event.shift)
-                self._choose(event)
-                self._show(context)
-        elif event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            self._before.write(self._emotion())
-            self._let_go(context)
-            return {"CANCELLED"}
-        elif event.type == "LEFTMOUSE" and event.value == "RELEASE":
-            self._let_go(context)
-            return {"CANCELLED"} if Choice.of(self._emotion()) == self._before else {"FINISHED"}
-        return {"RUNNING_MODAL"}
-
-    def _emotion(self) -> Any:
-        """The emotion that is being chosen."""
-        return bpy.data.objects[self._obj].risorius.emotion
-
-    def _choose(self, event: Any) -> None:
-        """Choose what is under the hand."""
-        reach = 0.0 if event.ctrl else REACH * self._scale
-        choose_pixel(self._emotion(), self._wheel, self._hand.at, reach=reach)
-
-    def _show(self, context: Any) -> None:
-        """Say in the status bar what is chosen and which keys there are."""
-        context.workspace.status_text_set(f"{title_of(self._emotion())}   {HELP}")
-        redraw()
-
-    def _let_go(self, context: Any) -> None:
-        """Give the status bar back."""
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
-        redraw()
-
-    def cancel(self, context: Any) -> None:
-        """Blender ends the operator itself."""
-        self._let_go(context)
 
 
 class RISORIUS_OT_nudge_emotion(RisoriusOperator, bpy.types.Operator):

@@ -101,11 +101,10 @@ def _draw_words(canvas: Canvas, wheel: Wheel, theme: Theme, scale: float) -> Non
             canvas.ring(spot, 0.0, (LARGE_DOT + 1.0) * scale, theme.back)
             canvas.ring(spot, 0.0, LARGE_DOT * scale, (*COLOURS[Archetype(word)], 1.0))
         else:
-            canvas.ring(spot, 0.0, DOT * scale, (*theme.text[:3], 0.75))
+            canvas.ring(spot, 0.0, DOT * scale, (*theme.text[:3], 0.85))
     for word, box in labels_of(wheel, scale).items():
-        strength = 1.0 if places()[word].is_archetype else 0.85
         at = (box.left, box.low + 0.2 * box.height)
-        canvas.text(at, word.capitalize(), letters(wheel, word, scale), (*theme.text[:3], strength), shadow=theme.back)
+        canvas.text(at, word.capitalize(), letters(wheel, word, scale), theme.text, shadow=theme.back)
 
 
 def _draw_point(canvas: Canvas, wheel: Wheel, choice: Choice, scale: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import bpy
@@ -30,20 +31,26 @@ def scale_of(context: Any) -> float:
     return float(context.preferences.system.ui_scale)
 
 
-def reason_hidden(context: Any) -> str | None:
-    """Why there is no wheel in the context's viewport, or None."""
+def reason_faceless(context: Any) -> str | None:
+    """Why there is nothing to choose an emotion for in the context's viewport, or None."""
     obj, space = context.object, context.space_data
     if space is None or space.type != "VIEW_3D":
         return "The emotion wheel is in the 3D viewport"
-    if not context.window_manager.risorius.wheel.show:
-        return "The emotion wheel is hidden: show it in the Emotion panel"
-    if not space.show_gizmo:
-        return "The viewport shows no gizmos"
     if obj is None or obj.type != "MESH" or not has_points(obj):
         return "The active object is no face with feature points"
     if obj.mode != "OBJECT" or not obj.is_editable:
         return f"{obj.name}: is not in Object mode, or linked from another file"
     return None
+
+
+def reason_hidden(context: Any) -> str | None:
+    """Why there is no wheel in the context's viewport, or None."""
+    if not context.window_manager.risorius.wheel.show:
+        return "The emotion wheel is hidden: show it in the Emotion panel"
+    reason = reason_faceless(context)
+    if reason is None and not context.space_data.show_gizmo:
+        return "The viewport shows no gizmos"
+    return reason
 
 
 def wheel_of(context: Any) -> Wheel | None:
@@ -56,7 +63,7 @@ def wheel_of(context: Any) -> Wheel | None:
         return None  # in a quad view only the last of the four, the user's own
     state, scale = context.window_manager.risorius.wheel, scale_of(context)
     return placed(
-        _free(context, Corner(state.corner), scale),
+        free_of(context, Corner(state.corner), scale),
         Corner(state.corner),
         radius=state.size / 2.0 * scale,
         margin=MARGIN * scale,
@@ -64,8 +71,8 @@ def wheel_of(context: Any) -> Wheel | None:
     )
 
 
-def _free(context: Any, corner: Corner, scale: float) -> Box:
-    """What is to be seen of the context's region."""
+def free_of(context: Any, corner: Corner, scale: float) -> Box:
+    """What is to be seen of the context's region, and has room for a wheel in this corner."""
     region, space = context.region, context.space_data
     covers = [
         Box(other.x - region.x, other.y - region.y, other.x - region.x + other.width, other.y - region.y + other.height)
@@ -96,6 +103,7 @@ def numbers_of(wheel: Wheel, scale: float) -> dict[int, Box]:
     return {activation: Box(x - half, y - half, x + half, y + half) for activation, (x, y) in spots.items()}
 
 
+@lru_cache(maxsize=8)
 def labels_of(wheel: Wheel, scale: float) -> dict[str, Box]:
     """Word -> where it is written."""
 

@@ -91,7 +91,7 @@ def test_a_mesh_without_points_is_told_what_it_needs(cube: Any) -> None:
 
 def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     shown = drawn()
-    order = "main face parts points topologies emotion muscles tissue timeline bake film"
+    order = "main face parts points topologies emotion muscles tissue timeline variation bake film"
     assert list(shown) == [f"RISORIUS_PT_{name}" for name in order.split()]
     assert ("label", head.name) in shown["RISORIUS_PT_main"]
     asked = [name for kind, name in shown["RISORIUS_PT_emotion"] if kind in {"prop", "popover"}]
@@ -101,6 +101,18 @@ def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     assert ("label", "Joy") in drawn()["RISORIUS_PT_emotion"]
     head.risorius.emotion.angle = 0.2
     assert ("label", "Between joy and fear") in drawn()["RISORIUS_PT_emotion"]
+
+
+def test_a_face_with_clips_shows_them_and_bakes_them(head: Any) -> None:
+    assert ("operator", "risorius.bake_expression") in drawn()["RISORIUS_PT_bake"]
+    bpy.ops.risorius.add_clip()
+    shown = drawn()
+    assert ("list", "clips") in shown["RISORIUS_PT_timeline"]
+    assert ("label", "Edits the clip joy") in shown["RISORIUS_PT_emotion"]
+    assert ("operator", "risorius.bake_strips") in shown["RISORIUS_PT_bake"]
+    assert ("operator", "risorius.bake_expression") not in shown["RISORIUS_PT_bake"]
+    head.risorius.timeline.linked = False
+    assert not [text for _, text in drawn()["RISORIUS_PT_emotion"] if "clip" in text]
 
 
 def test_missing_scipy_is_said_with_the_remedy(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,9 +8,9 @@ import bpy
 import numpy as np
 import pytest
 import risorius.api as api
-from risorius.operators.changes import listen_to_time, unlisten
+from risorius.operators.changes import listen, listen_to_time, unlisten
 from risorius.operators.emotion.performance import performance_of
-from risorius.operators.timeline.ops import clip_title
+from risorius.operators.timeline.titles import clip_title
 
 pytestmark = pytest.mark.smoke
 
@@ -140,6 +140,28 @@ def test_retiming_a_clip_tells_the_preview(head: Any) -> None:
     finally:
         unlisten(listener)
     assert heard == [head, head]
+
+
+def test_the_face_is_asked_to_show_the_clip_that_is_added_or_selected(head: Any) -> None:
+    add(head, "joy", 1)
+    add(head, "fear", 20)
+    timeline = head.risorius.timeline
+    timeline.linked = True
+    heard: list[tuple[Any, str]] = []
+
+    def listener(obj: Any) -> None:
+        heard.append((obj, obj.risorius.emotion.word))
+
+    listen(listener)
+    try:
+        timeline.active = 0
+        assert heard[-1] == (head, "joy")
+        heard.clear()
+        bpy.ops.risorius.add_clip()
+    finally:
+        unlisten(listener)
+    assert heard[-1] == (head, "joy")
+    assert titles(head) == ["joy", "fear", "joy"]
 
 
 def test_one_undo_takes_an_added_clip_back(head: Any) -> None:

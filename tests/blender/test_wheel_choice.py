@@ -12,10 +12,11 @@ import pytest
 import risorius.api as api
 from risorius.operators.changes import listen, unlisten
 from risorius.operators.emotion.profile import profile_of, wanted_of
-from risorius.operators.wheel import gizmo, ops
+from risorius.operators.wheel import gizmo, ops, pick
 from risorius.operators.wheel.caption import caption, caption_at
 from risorius.operators.wheel.choice import Choice, Hand, choose_pixel, choose_point, choose_word, strengthen, turn
-from risorius.operators.wheel.geometry import Wheel
+from risorius.operators.wheel.dragging import Dragging
+from risorius.operators.wheel.geometry import Box, Wheel
 from risorius.operators.wheel.places import spots
 from risorius.operators.wheel.view import reason_hidden
 
@@ -27,17 +28,22 @@ WHEEL = Wheel((200.0, 300.0), 140.0)
 class Drag(SimpleNamespace):
     """A drag without a window: the operator's own methods, fed with events."""
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        super().__init__()
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, operator: Any = ops.RISORIUS_OT_drag_emotion) -> None:
+        super().__init__(operator=operator, chooses_on=operator.chooses_on, chooses_by=operator.chooses_by)
         monkeypatch.setattr(ops, "wheel_of", lambda context: WHEEL)
         monkeypatch.setattr(ops, "label_at", lambda wheel, pixel, scale: None)
-        for name in ("_emotion", "_choose", "_show", "_let_go"):
-            setattr(self, name, getattr(ops.RISORIUS_OT_drag_emotion, name).__get__(self))
+        monkeypatch.setattr(pick, "free_of", lambda context, corner, scale: Box(0.0, 0.0, 1000.0, 800.0))
+        for name in ("_take_hold", "_emotion", "_choose", "_show", "_help"):
+            setattr(self, name, getattr(operator, name).__get__(self))
+        self._let_go = Dragging._let_go.__get__(self)
         self.context = SimpleNamespace(
             object=bpy.context.object,
+            region=SimpleNamespace(type="WINDOW", as_pointer=lambda: 0),
             preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
             workspace=SimpleNamespace(status_text_set=self._say),
-            window_manager=SimpleNamespace(modal_handler_add=lambda operator: None),
+            window_manager=SimpleNamespace(
+                modal_handler_add=lambda operator: None, risorius=bpy.context.window_manager.risorius
+            ),
         )
         self.said: Any = None
 
@@ -48,7 +54,7 @@ class Drag(SimpleNamespace):
         """One event."""
         held = {"ctrl": False, "shift": False} | keys
         event = SimpleNamespace(type=kind, value=value, mouse_region_x=pixel[0], mouse_region_y=pixel[1], **held)
-        act = ops.RISORIUS_OT_drag_emotion.modal if hasattr(self, "_hand") else ops.RISORIUS_OT_drag_emotion.invoke
+        act = self.operator.modal if hasattr(self, "_hand") else self.operator.invoke
         return act(self, self.context, event)
 
 
@@ -92,6 +98,13 @@ def test_a_click_on_what_is_chosen_is_no_step_of_undo(head: Any, drag: Drag) -> 
     assert drag.send("LEFTMOUSE", WHEEL.pixel(323.4, 5.4), "RELEASE") == {"CANCELLED"}
 
 
+def test_a_face_that_is_deleted_meanwhile_ends_the_drag(head: Any, drag: Drag) -> None:
+    drag.send("LEFTMOUSE", WHEEL.pixel(70.3, 4.9))
+    bpy.data.objects.remove(head)
+    assert drag.send("MOUSEMOVE", WHEEL.pixel(20.0, 3.0)) == {"CANCELLED"}
+    assert drag.said is None
+
+
 def test_control_leaves_words_aside(head: Any, drag: Drag) -> None:
     emotion = head.risorius.emotion
     drag.send("LEFTMOUSE", WHEEL.pixel(70.0, 4.9), ctrl=True)
@@ -119,6 +132,22 @@ def test_a_press_on_a_label_is_its_word(head: Any, drag: Drag, monkeypatch: pyte
 def test_beside_the_wheel_a_press_is_for_others(head: Any, drag: Drag, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ops, "wheel_of", lambda context: None)
     assert drag.send("LEFTMOUSE", (0.0, 0.0)) == {"PASS_THROUGH"}
+
+
+def test_picking_begins_at_what_is_chosen_and_ends_with_a_click(head: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    emotion = head.risorius.emotion
+    before = Choice.of(emotion)
+    hand = Drag(monkeypatch, pick.RISORIUS_OT_pick_emotion)
+    hand.send("F3", (500.0, 400.0))
+    assert Choice.of(emotion) == before
+    assert before.pixel(hand._wheel) == pytest.approx((500.0, 400.0))
+    fear = hand._wheel.pixel(70.3, 4.9)
+    hand.send("LEFTMOUSE", fear, "RELEASE")  # of the click that chose in the menu
+    hand.send("MOUSEMOVE", fear)
+    assert hand.send("LEFTMOUSE", fear) == {"FINISHED"}
+    assert emotion.word == "fear"
+    pick._hide()
+    assert pick._shown is None
 
 
 def test_every_word_is_chosen_at_its_place(head: Any) -> None:
@@ -190,8 +219,9 @@ def test_the_wheel_is_there_for_faces_in_object_mode_only(head: Any) -> None:
 
 
 def test_the_wheel_has_its_keys_while_it_is_registered() -> None:
-    config = bpy.context.window_manager.keyconfigs.default
+    configs = bpy.context.window_manager.keyconfigs
+    config = configs.default
     keys = gizmo.RISORIUS_GGT_wheel.setup_keymap(config).keymap_items
     assert {item.idname for item in keys} == {"risorius.drag_emotion", "risorius.nudge_emotion"}
     gizmo.detach()
-    assert gizmo.KEYMAP not in config.keymaps
+    assert not [one.name for one in configs if gizmo.KEYMAP in one.keymaps]

@@ -7,7 +7,7 @@ import math
 
 import pytest
 import risorius.api as api
-from risorius.operators.wheel.geometry import SMALLEST_RADIUS, Box, Corner, Wheel, free_box, placed
+from risorius.operators.wheel.geometry import SMALLEST_RADIUS, Box, Corner, Wheel, free_box, placed, under
 from risorius.operators.wheel.places import CENTRE, between, labels, nearest_word, places, spots
 
 pytestmark = pytest.mark.smoke
@@ -116,6 +116,16 @@ def test_the_wheel_lies_in_its_corner_clear_of_what_covers_the_viewport(corner: 
     assert (y < 380.0) == corner.value.startswith("BOTTOM")
     assert y - 140.0 - 40.0 >= free.low
     assert y + 140.0 <= free.high
+
+
+def test_a_wheel_at_the_pointer_has_its_point_there_and_stays_to_be_seen() -> None:
+    free = Box(50.0, 0.0, 950.0, 760.0)
+    wheel = under(free, (500.0, 400.0), 90.0, 3.5, radius=140.0, margin=20.0)
+    assert wheel.pixel(90.0, 3.5) == pytest.approx((500.0, 400.0))
+    for pixel in ((55.0, 5.0), (945.0, 755.0)):
+        x, y = under(free, pixel, 90.0, 3.5, radius=140.0, margin=20.0).centre
+        assert free.left + 160.0 <= x <= free.right - 160.0
+        assert free.low + 160.0 <= y <= free.high - 160.0
 
 
 def test_a_small_viewport_has_a_small_wheel_and_a_tiny_one_none() -> None:

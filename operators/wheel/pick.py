@@ -1,0 +1,113 @@
+"""The wheel at the pointer, for those who have it hidden: from Blender's search, or a key of one's own."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, NamedTuple
+
+import bpy
+
+from .caption import caption
+from .choice import Choice, Hand
+from .dragging import Dragging
+from .geometry import Corner, Wheel, under
+from .picture import draw_wheel
+from .view import FOOT, MARGIN, free_of, reason_faceless, scale_of
+
+
+class _Shown(NamedTuple):
+    """A wheel that is shown: in which region, of which object; and Blender's handle of its drawing."""
+
+    wheel: Wheel
+    region: int
+    obj: str
+    handle: Any
+
+
+_shown: _Shown | None = None
+
+
+class RISORIUS_OT_pick_emotion(Dragging, bpy.types.Operator):
+    """Show the emotion wheel at the pointer: move to see the face change, click to choose"""
+
+    bl_idname = "risorius.pick_emotion"
+    bl_label = "Pick Emotion on the Wheel"
+    bl_options = {"UNDO", "BLOCKING"}
+
+    chooses_on: ClassVar[str] = "PRESS"
+    chooses_by: ClassVar[str] = "Click"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Where there is a face."""
+        reason = reason_faceless(context)
+        if reason is not None:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def invoke(self, context: Any, event: Any) -> set[str]:
+        """Show the wheel so that what is chosen lies under the pointer."""
+        if context.region is None or context.region.type != "WINDOW":
+            self.report({"ERROR"}, "The pointer is not over a 3D viewport: move it there and search again")
+            return {"CANCELLED"}
+        now, scale = Choice.of(context.object.risorius.emotion), scale_of(context)
+        pointer = (float(event.mouse_region_x), float(event.mouse_region_y))
+        free, radius = free_of(context, Corner.BOTTOM_LEFT, scale), context.window_manager.risorius.wheel.size / 2.0
+        away = 0.0 if now.is_centre() else now.activation
+        margin = (MARGIN + FOOT) * scale
+        wheel = under(free, pointer, now.degrees(), away, radius=radius * scale, margin=margin)
+        self._take_hold(context, wheel, Hand(now.pixel(wheel), pointer), scale)
+        _show(wheel, context.region.as_pointer(), self._obj)
+        context.window_manager.modal_handler_add(self)
+        self._show(context)
+        return {"RUNNING_MODAL"}
+
+    def _let_go(self, context: Any) -> None:
+        """Take the wheel away."""
+        _hide()
+        super()._let_go(context)
+
+
+def _show(wheel: Wheel, region: int, obj: str) -> None:
+    """Begin to draw it."""
+    global _shown
+    _hide()
+    _shown = _Shown(wheel, region, obj, bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_PIXEL"))
+
+
+def _draw() -> None:
+    """Draw handler: in pixels of the region."""
+    context = bpy.context
+    if _shown is None or context.region.as_pointer() != _shown.region or _shown.obj not in bpy.data.objects:
+        return
+    now = Choice.of(bpy.data.objects[_shown.obj].risorius.emotion)
+    draw_wheel(_shown.wheel, now, caption(now), scale_of(context), context.preferences.themes[0])
+
+
+def _menu(menu: Any, context: Any) -> None:
+    """In the Object menu, where Blender's search finds it."""
+    if reason_faceless(context) is None:
+        menu.layout.operator_context = "INVOKE_REGION_WIN"
+        menu.layout.separator()
+        menu.layout.operator(RISORIUS_OT_pick_emotion.bl_idname)
+
+
+def attach() -> None:
+    """Enter the menu."""
+    bpy.types.VIEW3D_MT_object.append(_menu)
+
+
+def detach() -> None:
+    """Leave the menu, and draw no more."""
+    bpy.types.VIEW3D_MT_object.remove(_menu)
+    _hide()
+
+
+def _hide() -> None:
+    """Draw no more."""
+    global _shown
+    if _shown is not None:
+        bpy.types.SpaceView3D.draw_handler_remove(_shown.handle, "WINDOW")
+        _shown = None
+
+
+CLASSES = (RISORIUS_OT_pick_emotion,)
