@@ -110,7 +110,7 @@ class WorkOperator(RisoriusOperator):
             return self._advance(context)
         except RisoriusError as refusal:
             self.stop(context)
-            self.report({"ERROR"}, textwrap.fill(str(refusal), LINE))
+            self.report({"ERROR"}, " \n".join(textwrap.wrap(str(refusal), LINE)))
             return {"CANCELLED"}
         except BaseException:
             self.stop(context)

@@ -44,8 +44,11 @@ def _meshes(heads: SharedHeads) -> Iterator[TrueHead]:
     for count in COUNTS:
         yield decimated(heads.shared("makehuman"), count)
     yield meshes.face_mask(narrow)
+    fine = meshes.subdivided(heads.shared("ict"))
+    yield fine
+    yield meshes.subdivided(fine)
     yield meshes.soup(heads.shared("ict"))
-    yield meshes.soup(meshes.subdivided(heads.shared("ict")))
+    yield meshes.soup(fine)
     yield meshes.not_manifold(heads.shared("ict"))
     yield meshes.not_manifold(heads.shared("makehuman"))
 

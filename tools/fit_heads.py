@@ -79,7 +79,7 @@ class SharedHeads:
         for label, vertices in zip(variants["names"], variants["vertices"], strict=True):
             yield self._head(f"makehuman {label}", "makehuman", vertices.astype(np.float64))
 
-    def held_out(self) -> Iterator[TrueHead]:
+    def second(self) -> Iterator[TrueHead]:
         """The second set: once new to the method, tuned on since."""
         return self._made(SECOND)
 

@@ -45,7 +45,8 @@ def subdivided(head: TrueHead) -> TrueHead:
     centres = np.add.reduceat(head.vertices[corners], starts) / sizes[:, None]
     vertices = np.concatenate([head.vertices, head.vertices[sides].mean(axis=1), centres])
     centre = len(head.vertices) + len(sides) + np.repeat(np.arange(len(sizes)), sizes)
-    return replace(head, vertices=vertices, polygons=list(np.column_stack([corners, side, centre, before])))
+    name = f"{head.name.split(',')[0]}, {len(vertices):,} vertices"
+    return replace(head, name=name, vertices=vertices, polygons=list(np.column_stack([corners, side, centre, before])))
 
 
 def soup(head: TrueHead, seed: int = 1) -> TrueHead:
@@ -53,7 +54,7 @@ def soup(head: TrueHead, seed: int = 1) -> TrueHead:
     noise = np.random.default_rng(seed).normal(scale=SCAN_NOISE, size=head.vertices.shape)
     triangles = triangles_of(head)
     vertices = (head.vertices + noise)[triangles.ravel()]
-    name = f"{head.name}, {len(vertices):,} unwelded vertices"
+    name = f"{head.name.split(',')[0]}, {len(vertices):,} unwelded vertices"
     return replace(head, name=name, vertices=vertices, polygons=list(np.arange(len(vertices)).reshape(-1, 3)))
 
 

@@ -25,13 +25,13 @@ import risorius.api as api
 from fit_effect import measure_effect
 from fit_hard import hard_heads
 from fit_heads import SharedHeads, TrueHead
-from fit_meshes import soup, subdivided
 from fit_page import page
 from fit_sides import wrong_sides
 from risorius.arrays import Floats
 from risorius.errors import ModelError
 from risorius.face.checks import with_pupils
 from risorius.face.fit.clicks import ASKED
+from risorius.face.fit.doubt import DOUBTFUL_SCORE
 from risorius.face.fit.find import locate_points
 from risorius.face.frame import fapu, head_frame
 
@@ -77,6 +77,7 @@ def measured(head: TrueHead, seed: int) -> dict[str, Any]:
     return {
         "name": head.name,
         "score": found.score,
+        "vertices": len(vertices),
         "seconds": seconds,
         "errors": errors,
         "sides": _sides(head, vertices, there, found.positions),
@@ -154,21 +155,25 @@ def measure_shapes() -> list[dict[str, Any]]:
 
 
 def measure_clicks(heads: SharedHeads) -> list[dict[str, Any]]:
-    """Errors of the points that were not clicked, on heads that are doubtful or refused, with unsteady clicks."""
+    """Errors of the points that were not clicked, with unsteady clicks, on heads that were doubtful or refused."""
+    measured = {row["name"]: row for part in ("second", "reserved") for row in _figures(part)}
     random = np.random.default_rng(SEED)
     rows = []
-    for head in [*heads.held_out(), *heads.reserved()]:
-        try:
-            alone = api.find_points(head.vertices, head.polygons, topologies=())
-            if not alone.is_doubtful:
-                continue
-            before = _distances(alone, head)
-        except ModelError:
-            before = {}
+    for head in [*heads.second(), *heads.reserved()]:
+        row = measured[head.name]
+        if row.get("score", np.inf) <= DOUBTFUL_SCORE:
+            continue
         clicks = {name: head.points[name] + random.normal(scale=UNSTEADY, size=3) for name in ASKED}
         after = _distances(api.find_points(head.vertices, head.polygons, clicks, topologies=()), head)
-        rows.append({"name": head.name, "before": before, "errors": {k: e for k, e in after.items() if k not in ASKED}})
-        print("clicks", head.name, f"{np.median(list(after.values())):.2f} mm", flush=True)
+        others = {name: error for name, error in after.items() if name not in ASKED}
+        rows.append({"name": head.name, "before": row.get("errors", {}), "errors": others})
+        print("clicks", head.name, f"{np.median(list(others.values())):.2f} mm", flush=True)
+    return rows
+
+
+def _figures(part: str) -> list[dict[str, Any]]:
+    """What was measured of a part."""
+    rows: list[dict[str, Any]] = json.loads((FIGURES / f"{part}.json").read_text())
     return rows
 
 
@@ -176,25 +181,6 @@ def _distances(found: api.FoundPoints, head: TrueHead) -> dict[str, float]:
     """Distance of each found point from the true one, mm."""
     names = found.positions.keys() & head.points.keys()
     return {name: 1000.0 * float(np.linalg.norm(found.positions[name] - head.points[name])) for name in names}
-
-
-def measure_time(heads: SharedHeads) -> list[dict[str, Any]]:
-    """Seconds of processor time against the number of vertices."""
-    known = {head.name: head for head in heads.known()}
-    fine = subdivided(known["ict"])
-    given = [known[name] for name in ("mediapipe", "ict_narrow", "makehuman_body", "ict")]
-    rows = []
-    for head in [*given, fine, subdivided(fine), soup(fine)]:
-        marks: list[tuple[float, float]] = []
-        begun = time.process_time()
-        for step in api.find_points_steps(head.vertices, head.polygons, topologies=()):
-            marks.append((time.process_time() - begun, step.fraction))
-        frame = next(seconds for seconds, fraction in marks if fraction >= 0.6)
-        rows.append(
-            {"name": head.name, "vertices": len(head.vertices), "frame": frame, "all": time.process_time() - begun}
-        )
-        print("time", rows[-1], flush=True)
-    return rows
 
 
 def main() -> None:
@@ -224,31 +210,28 @@ def main() -> None:
         arguments.json.write_text(json.dumps(errors, indent=1), encoding="utf-8")
     if arguments.only:
         return
-    figures = {part: FIGURES / f"{part}.json" for part in PARTS}
-    if all(path.is_file() for path in figures.values()):
-        read = {part: json.loads(path.read_text()) for part, path in figures.items()}
+    if all((FIGURES / f"{part}.json").is_file() for part in PARTS):
+        read = {part: _figures(part) for part in PARTS}
         PAGE.write_text(page(read), encoding="utf-8")
 
 
 SETS = ("known", "second", "hard", "reserved")
-PARTS = (*SETS, "poses", "shapes", "time", "clicks", "effect")
+PARTS = (*SETS, "poses", "shapes", "clicks", "effect")
 
 
 def _measure(part: str, heads: SharedHeads, only: str) -> list[dict[str, Any]]:
     """The rows of one part; of a set of heads, those whose names contain a text."""
     if part == "shapes":
         return measure_shapes()
-    if part == "time":
-        return measure_time(heads)
     if part == "clicks":
         return measure_clicks(heads)
     if part == "effect":
         return measure_effect()
     if part == "poses":
-        return measure_poses([*heads.known(), *heads.held_out(), *heads.reserved()])
+        return measure_poses([*heads.known(), *heads.second(), *heads.reserved()])
     sets = {
         "known": heads.known,
-        "second": heads.held_out,
+        "second": heads.second,
         "hard": lambda: hard_heads(heads),
         "reserved": heads.reserved,
     }

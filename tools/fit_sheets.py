@@ -51,7 +51,7 @@ def chosen(folder: Path, part: str) -> Iterator[TrueHead]:
     heads = SharedHeads(folder)
     sets = {
         "known": heads.known,
-        "second": heads.held_out,
+        "second": heads.second,
         "hard": lambda: hard_heads(heads),
         "reserved": heads.reserved,
     }

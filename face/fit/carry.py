@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -16,6 +16,7 @@ from ...physics.mesh import vertex_normals
 from ..points import closest_on_triangles
 from .doubt import DOUBTFUL_SCORE
 from .fitted import Fit, ring_shares
+from .margins import Margin
 from .proportions import read_proportions
 from .target import RIM, Target, feature
 from .template import FitTemplate
@@ -63,10 +64,12 @@ def carry(template: FitTemplate, target: Target, fit: Fit, score: float) -> Carr
     ----------
     score : the face's score; poor faces make every point doubtful.
     """
+    fit = replace(fit, margins={ring: margin for ring, margin in fit.margins.items() if _is_sound(ring, margin)})
     fitted = template.read(fit.skin)
     drop = _Drop(template, target, fit)
     places = {name: drop.nearest(name, place) for name, place in zip(template.names, fitted, strict=True)}
     places |= _on_rims(template, fit)
+    places |= _lids_in_order(places, drop)
     places["9.3"] = _foremost(target, places["9.3"])
     places |= _by_proportions(template, fit, places, drop)
     return Carried(places, _confidence(template, target, fit, places, fitted, score))
@@ -119,6 +122,31 @@ def _on_rims(template: FitTemplate, fit: Fit) -> dict[str, Floats]:
         else:
             places[name] = margin.at(where, _rim_share(template, name, ring))[0]
     return places
+
+
+def _is_sound(ring: str, margin: Margin) -> bool:
+    """Whether the upper lid lies above the lower one: not where a rim runs round twice, as on noisy skin."""
+    if ring not in LID_MIDDLE:
+        return True
+    middle = np.array([LID_MIDDLE[ring]])
+    return bool(margin.at("upper", middle)[0][2] > margin.at("lower", middle)[0][2])
+
+
+def _lids_in_order(places: Mapping[str, Floats], drop: _Drop) -> dict[str, Floats]:
+    """Middles of lids whose upper one lies below the lower one: the mirror image of the other eye's, or exchanged."""
+    mended: dict[str, Floats] = {}
+    pairs = (("3.1", "3.3"), ("3.2", "3.4"))
+    for (upper, lower), twins in zip(pairs, pairs[::-1], strict=True):
+        if places[upper][2] > places[lower][2]:
+            continue
+        if places[twins[0]][2] > places[twins[1]][2]:
+            flip = np.array([-1.0, 1.0, 1.0])
+            mended |= {
+                name: drop.nearest(name, flip * places[twin]) for name, twin in zip((upper, lower), twins, strict=True)
+            }
+        else:
+            mended |= {upper: places[lower], lower: places[upper]}
+    return mended
 
 
 def _rim_share(template: FitTemplate, name: str, ring: str) -> Floats:

@@ -30,6 +30,8 @@ FACINGS = {"eye": (0.3, 0.1, 0.45), "mouth": (0.2, 0.05, 0.4)}
 UNUSUAL = 0.5e-3
 #: The inner corner of an eye may lie this far beyond the rim seen from the front, metres.
 CORNER_REACH = 9e-3
+#: The corners of a mouth, and the outer one of an eye, lie this near to the ends of the rim, metres.
+CORNER_END = 2e-3
 #: Lips whose ends differ in depth by more than this are levelled, as far as this, metres; points it is done with.
 LEVEL, LEVEL_REACH, LIP_POINTS = 1.0e-3, 5e-3, 12_000
 #: A mouth whose inside reaches no deeper than this is no opening but a crease, or filled with skin; metres.
@@ -88,7 +90,8 @@ def find_mouth(surface: Surface, expected: Expected) -> Margin | None:
     found = _candidates(near, np.array([0.0, -1.0, 0.0]), "mouth", expected, FACINGS["mouth"])
     if not found:
         return None
-    return _levelled(min(found, key=lambda margin: margin.misfit), near)
+    best = min(found, key=lambda margin: margin.misfit)
+    return _met(_levelled(best, near), expected, right=True, left=True)
 
 
 def find_eyes(surface: Surface, expected: Mapping[str, Expected]) -> dict[str, Margin]:
@@ -104,7 +107,11 @@ def find_eyes(surface: Surface, expected: Mapping[str, Expected]) -> dict[str, M
         name: _candidates(near[name], _view(name, 0.25), "eye", eye, FACINGS["eye"]) for name, eye in expected.items()
     }
     chosen = _pair(found["eye_l"], found["eye_r"])
-    return {name: _with_inner_corner(near[name], margin, name, expected[name]) for name, margin in chosen.items()}
+    eyes = {}
+    for name, margin in chosen.items():
+        met = _met(margin, expected[name], right=name == "eye_r", left=name == "eye_l")
+        eyes[name] = _with_inner_corner(near[name], met, name, expected[name])
+    return eyes
 
 
 def _view(eye: str, outward: float) -> Floats:
@@ -175,16 +182,35 @@ def _dense(line: Floats, parts: int = 4) -> Floats:
 
 
 def _split(line: Floats, expected: Floats, misfit: float) -> Margin | None:
+    """A closed line cut at its ends."""
+    along = line @ _way(expected)
+    return _cut(line, int(along.argmin()), int(along.argmax()), misfit)
+
+
+def _way(expected: Floats) -> Floats:
+    """(3,) unit vector from an opening's right corner to its left one."""
+    across = expected[expected[:, 0].argmax()] - expected[expected[:, 0].argmin()]
+    return np.asarray(across / np.linalg.norm(across))
+
+
+def _cut(line: Floats, right: int, left: int, misfit: float) -> Margin | None:
     """A closed line cut at its corners: what runs to the subject's left is the upper edge."""
-    way = expected[:, 0].argmax(), expected[:, 0].argmin()
-    across = expected[way[0]] - expected[way[1]]
-    along = line @ across
-    right, left = int(along.argmin()), int(along.argmax())
     ahead = np.roll(line, -right, axis=0)
     place = (left - right) % len(line)
     upper = ahead[: place + 1]
     lower = np.vstack([ahead[place:], ahead[:1]])[::-1]
     return None if len(upper) < 2 or len(lower) < 2 else Margin(upper, lower, misfit)
+
+
+def _met(margin: Margin, expected: Expected, *, right: bool, left: bool) -> Margin:
+    """A rim with corners where it lies deepest near its ends: there lids, or lips, meet."""
+    line = margin.line()
+    along = line @ _way(expected.margin)
+    ends = []
+    for reach, is_met in ((-along, right), (along, left)):
+        near_end = np.flatnonzero(reach > reach.max() - (CORNER_END if is_met else 0.0) - 1e-9)
+        ends.append(int(near_end[line[near_end, 1].argmax()]))
+    return _cut(line, ends[0], ends[1], margin.misfit) or margin
 
 
 def _with_inner_corner(near: Neighbourhood, margin: Margin, eye: str, expected: Expected) -> Margin:

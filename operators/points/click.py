@@ -247,7 +247,7 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
         canvas.draw()
 
 
-def hit_near(visible: Visible, viewport: Any, pixel: tuple[float, float], surface: Surface, miss: float) -> Any:
+def hit_near(visible: Visible, viewport: Viewport, pixel: tuple[float, float], surface: Surface, miss: float) -> Any:
     """(3,) the place of the resting surface under a pixel, or under one as near to it as `miss`; None beside that."""
     for far in np.linspace(0.0, miss, 5):
         for turn in np.linspace(0.0, 2.0 * np.pi, 13 if far > 0.0 else 2)[:-1]:

@@ -39,7 +39,7 @@ class RISORIUS_OT_drag_point(bpy.types.Operator):
         return no_points_reason(context.object) is None and bool(context.window_manager.risorius.points.show)
 
     def invoke(self, context: Any, event: Any) -> set[str]:
-        """Take hold of the point under the mouse. A press beside all points does nothing: others would move the object."""
+        """Take hold of the point under the mouse. Beside them nothing happens: passed on, it would move the object."""
         viewport = Viewport.of(context)
         pixel = None if viewport is None else viewport.pixel(event)
         name = None if pixel is None else point_at(context, pixel)

@@ -38,7 +38,7 @@ def test_a_click_just_beside_the_outline_means_the_outline(head: Any) -> None:
         """A millimetre for each pixel, from the front."""
         return np.array([pixel[0] / 1000.0, -1.0, lowest + pixel[1] / 1000.0]), np.array([0.0, 1.0, 0.0])
 
-    viewport = SimpleNamespace(ray=ray)
+    viewport: Any = SimpleNamespace(ray=ray)
     assert visible.hit(*ray((0.0, -5.0)), surface) is None
     place = click.hit_near(visible, viewport, (0.0, -5.0), surface, 14.0)
     assert place is not None

@@ -252,5 +252,3 @@ def test_the_diagram_marks_the_point_in_its_paper() -> None:
     assert all(0 < x < diagram.WIDTH and 0 < y < diagram.HEIGHT for x, y in discs)
     assert spots["3.7"][0] > spots["9.3"][0] > spots["3.12"][0]
     assert spots["3.7"][1] > spots["9.3"][1] > spots["8.3"][1] > spots["2.1"][1]
-
-

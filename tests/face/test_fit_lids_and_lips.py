@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import risorius.api as api
+from risorius.arrays import Floats
+from risorius.face.fit.carry import _lids_in_order
 from risorius.face.fit.cloud import Surface
 from risorius.face.fit.rims import Neighbourhood
 
@@ -45,12 +47,12 @@ def test_a_rim_round_a_hole_has_nothing_behind_it() -> None:
         assert near.depth_behind(edge_of_the_pocket()) == np.inf
 
 
-def errors_mm(shared: Path, head: object, expression: str, names: tuple[str, ...]) -> dict[str, float]:
-    """How far feature points are found from the true ones in an expression of a scanned head."""
+def errors_mm(shared: Path, head: object, expression: str | None, names: tuple[str, ...]) -> dict[str, float]:
+    """How far feature points are found from the true ones on a scanned head, at rest or in an expression."""
     shapes = np.load(shared / "heads" / "ict_expressions.npz")
     inner = np.load(shared / "heads" / "ict_expressions_inner.npz")
     displacement = np.zeros_like(head.vertices)  # type: ignore[attr-defined]
-    for side in "LR":
+    for side in "LR" if expression else "":
         number = list(shapes["names"]).index(f"{expression}_{side}")
         skin = shapes["displacement"][number]
         displacement[: len(skin)] += skin[: len(displacement)]
@@ -70,3 +72,26 @@ def test_shut_eyes_with_lashes_end_at_their_corners(shared: Path, shared_head: C
 def test_a_smile_takes_the_lips_corners_along(shared: Path, shared_head: Callable) -> None:
     errors = errors_mm(shared, shared_head("ict_narrow"), "mouthSmile", ("8.3", "8.4", "2.4", "2.5"))
     assert max(errors.values()) < 4.0, errors
+
+
+def test_lids_and_lips_meet_where_their_rims_lie_deepest(shared: Path, shared_head: Callable) -> None:
+    errors = errors_mm(shared, shared_head("ict_narrow"), None, ("3.7", "3.12", "2.4", "2.5"))
+    assert max(errors.values()) < 1.0, errors
+
+
+@pytest.mark.parametrize("swapped", [("3.1", "3.3"), ("3.2", "3.4"), ("3.1", "3.3", "3.2", "3.4")])
+def test_an_upper_lid_never_ends_below_the_lower_one(swapped: tuple[str, ...]) -> None:
+    class Anywhere:
+        """A surface that is everywhere."""
+
+        def nearest(self, name: str, place: Floats) -> Floats:
+            return place
+
+    sound = {"3.1": (30.0, 5.0), "3.3": (30.0, -5.0), "3.2": (-30.0, 4.0), "3.4": (-30.0, -4.0)}
+    places = {name: np.array([x, 0.0, z]) * 1e-3 for name, (x, z) in sound.items()}
+    for upper, lower in zip(swapped[::2], swapped[1::2], strict=True):
+        places[upper], places[lower] = places[lower], places[upper]
+    mended = {**places, **_lids_in_order(places, Anywhere())}
+    for upper, lower in (("3.1", "3.3"), ("3.2", "3.4")):
+        assert mended[upper][2] > mended[lower][2]
+        assert np.sign(mended[upper][0]) == np.sign(sound[upper][0])

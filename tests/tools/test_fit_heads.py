@@ -35,7 +35,7 @@ def heads(tool: Callable[[str], ModuleType], shared: Path) -> Any:
 def test_the_reserved_heads_are_no_heads_of_the_other_sets(heads: Any) -> None:
     reserved = list(heads.reserved())
     assert len(reserved) == 15
-    for other in [*heads.known(), *heads.held_out()]:
+    for other in [*heads.known(), *heads.second()]:
         for head in reserved:
             if len(head.vertices) == len(other.vertices):
                 apart = np.linalg.norm(head.vertices - other.vertices, axis=1)
@@ -58,7 +58,7 @@ def test_hard_heads_keep_their_points_on_their_skin(tool: Callable[[str], Module
         assert max(int(np.max(polygon)) for polygon in head.polygons) < len(head.vertices)
         gaps = cKDTree(head.vertices).query(np.array([head.points[name] for name in ("3.7", "9.3", "4.3")]))[0]
         assert gaps.max() < (2e-3 if len(head.vertices) > 3000 else 12e-3), head.name
-    assert len(names) == 32
+    assert len(names) == 34
 
 
 def test_what_is_buried_under_hair_is_no_point(tool: Callable[[str], ModuleType], heads: Any) -> None:

@@ -35,6 +35,8 @@ def head_row(name: str, error: float) -> dict[str, Any]:
         "errors": dict.fromkeys(points, error),
         "confidence": dict.fromkeys(points, 0.9),
         "units": {"es0": 0.07},
+        "vertices": 25959,
+        "seconds": error,
     }
 
 
@@ -47,7 +49,6 @@ def figures() -> dict[str, list[dict[str, Any]]]:
         "hard": [head_row("ict, hair", 5.0), {"name": "ict, sack", "refused": "no face"}],
         "poses": [{"name": "ict", "right": True}, {"name": "makehuman", "right": False}],
         "shapes": [{"name": "cube", "score": 4.0, "relief": 0.1, "seconds": 1.0}],
-        "time": [{"name": "ict", "vertices": 25959, "frame": 2.0, "all": 3.0}],
         "clicks": [{"name": "ict 2", "before": {"9.3": 9.0}, "errors": {"9.3": 1.5}}],
         "effect": [
             {"name": "exact", "points": [0.0], "ev": [0.9, 0.8], "fap": [0.0]},
@@ -73,6 +74,7 @@ def test_the_page_says_what_was_measured(tool: Callable[[str], ModuleType]) -> N
     assert cells(page, "ict, hair") == ["ict, hair", "0.50", "5.0 / 5.0 / 5.0", "3.7"]
     assert cells(page, "ict, sack")[1] == "refused"
     assert cells(page, "jittered by 4.0 mm, 1 times")[1:] == ["3.0", "20 / 29", "0.60", "0.50"]
+    assert cells(page, "25,959")[1:] == ["5", "3.0"]
     assert cells(page, "cube")[1] == "4.00"
     assert cells(page, "ict 2")[1:3] == ["9.0 / 9.0 / 9.0", "1.5 / 1.5 / 1.5"]
 
