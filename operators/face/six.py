@@ -11,7 +11,7 @@ from ...scene.points_found import Finding
 from ...scene.points_kept import read_kept
 from ...scene.progress import Work
 from ..active import face_reason, target_of
-from ..bake.ops import creases_wanted
+from ..bake.settings import creases_wanted
 from ..base import WorkOperator
 from ..points.first import with_points
 from ..points.look import turn_to_face

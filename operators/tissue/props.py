@@ -144,7 +144,8 @@ def tissue_of(obj: Any) -> str | Tissue:
     chosen = obj.risorius.tissue
     if chosen.kind != OWN:
         return str(chosen.kind)
-    return Tissue(**{name: float(getattr(chosen, name)) for name in FIGURES})
+    figures: dict[str, Any] = {name: float(getattr(chosen, name)) for name in FIGURES}
+    return Tissue(**figures)
 
 
 CLASSES = (RISORIUS_PG_tissue,)
