@@ -64,8 +64,14 @@ def remove_all() -> None:
             modifier = _modifier(obj)
             if modifier is not None:
                 obj.modifiers.remove(modifier)
+    remove_unused()
+
+
+def remove_unused() -> None:
+    """Take away what no object shows any more: places on meshes, and the modifier's group."""
+    shown = {obj.data for obj in bpy.data.objects if obj.type == "MESH" and _modifier(obj) is not None}
     for mesh in bpy.data.meshes:
-        attribute = mesh.attributes.get(ATTRIBUTE) if mesh.library is None else None
+        attribute = mesh.attributes.get(ATTRIBUTE) if mesh.library is None and mesh not in shown else None
         if attribute is not None and not mesh.is_editmode:
             mesh.attributes.remove(attribute)
     for tree in [tree for tree in bpy.data.node_groups if _is_ours(tree)]:

@@ -40,6 +40,7 @@ class _Live:
         self.since = 0.0
         self.work: Work[None] | None = None
         self.trouble = ""
+        self.count = 0
         self.apexes: dict[tuple[int, str], Floats] = {}
 
 
@@ -255,6 +256,20 @@ def replay(obj: Any) -> None:
         _play_or_rest(obj, face, bpy.context.scene)
 
 
+def _after_update(*_: Any) -> None:
+    """Objects came or went: what is left of the preview of one that is gone goes, too."""
+    count = len(bpy.data.objects)
+    if count == _live.count or not _live.faces:
+        return
+    _live.count = count
+    gone = [uid for uid in _live.faces if object_of(uid) is None]
+    for uid in gone:
+        del _live.faces[uid]
+        shown.pop(uid, None)
+    if gone:
+        preview.remove_unused()
+
+
 def _before_save(*_: Any) -> None:
     """Nothing of a preview goes into a file."""
     if not bpy.app.background:
@@ -285,6 +300,7 @@ def _handlers() -> tuple[tuple[Any, Any], ...]:
     on = bpy.app.handlers
     return (
         (on.frame_change_post, _after_frame),
+        (on.depsgraph_update_post, _after_update),
         (on.save_pre, _before_save),
         (on.save_post, _after_save),
         (on.undo_post, _after_undo),

@@ -184,5 +184,18 @@ def test_the_film_is_rendered_beside_the_file(window: Window, work: Path) -> Non
     assert (work / "face.glb").read_bytes()[:4] == b"glTF"
 
 
+def test_a_deleted_face_leaves_nothing_of_its_preview(window: Window) -> None:
+    window.ask(
+        "bpy.context.window_manager.risorius.preview.show = True\n"
+        "with in_viewport(): bpy.ops.risorius.add_head()\n"
+        "kept = bpy.context.object.data\n"
+        "kept.use_fake_user = True"
+    )
+    window.wait("[m.name for m in bpy.context.object.modifiers if m.name == 'Risorius Preview']")
+    window.ask("for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)")
+    window.wait("'risorius_preview' not in kept.attributes")
+    window.wait("not any(tree.name.startswith('Risorius Preview') for tree in bpy.data.node_groups)")
+
+
 def test_blender_did_not_complain(window: Window) -> None:
     assert "Traceback" not in window.log(), window.log()[-3000:]
