@@ -90,7 +90,9 @@ def strips_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
 
 
 class BakeOperator(WorkOperator):
-    """What both bakes share: the face is found first where its points are not known yet."""
+    """What all bakes share: the face is found first where its points are not known yet."""
+
+    _is_new = False
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:

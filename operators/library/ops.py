@@ -128,7 +128,7 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
     def show_apex(self, context: Any) -> None:
         """Stay at the frame: it is where the motion begins."""
 
-    def work(self, context: Any) -> Work[BakeResult]:
+    def baking(self, context: Any) -> Work[BakeResult]:
         """Simulate the stream at the scene's rate."""
         obj, path = context.object, Path(bpy.path.abspath(self.filepath))
         stream = read_fap(path)
