@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
+from .face.animation_tables import AnimationTable, AnimationTables, TableError
 from .face.creases import Creases
 from .face.default_head import HeadMesh, build_default_head
 from .face.face import Clip, Face
@@ -28,6 +29,8 @@ from .face.mechanisms import ADDITIONS, MUSCLE_GROUPS, Mechanism
 from .face.parts import Part
 from .face.points import REQUIRED as REQUIRED_POINTS
 from .face.pose import Pose
+from .face.table_building import face_animation_tables
+from .face.table_files import read_animation_tables, write_animation_tables, write_face_def_tables
 from .face.wishes import Drive
 from .mpeg4 import (
     ARCHETYPES,
@@ -62,6 +65,7 @@ from .mpeg4 import (
     load_emotions,
     load_timings,
     read_fap,
+    read_fap_json,
     read_fba,
     recognise,
     recognise_features,
@@ -69,6 +73,7 @@ from .mpeg4 import (
     sequence,
     viseme_frame,
     write_fap,
+    write_fap_json,
     write_fba,
 )
 
@@ -82,6 +87,8 @@ __all__ = [
     "REQUIRED_POINTS",
     "VISEMES",
     "WORDS",
+    "AnimationTable",
+    "AnimationTables",
     "Archetype",
     "Beliefs",
     "Clip",
@@ -104,6 +111,7 @@ __all__ = [
     "Profile",
     "Ramp",
     "Rule",
+    "TableError",
     "Timing",
     "Topology",
     "VisemeField",
@@ -117,6 +125,7 @@ __all__ = [
     "envelope",
     "expression",
     "expression_frame",
+    "face_animation_tables",
     "fap",
     "find_points",
     "find_points_steps",
@@ -124,7 +133,9 @@ __all__ = [
     "load_emotions",
     "load_timings",
     "load_topologies",
+    "read_animation_tables",
     "read_fap",
+    "read_fap_json",
     "read_fba",
     "read_topology",
     "recognise",
@@ -134,7 +145,10 @@ __all__ = [
     "save_topology",
     "sequence",
     "viseme_frame",
+    "write_animation_tables",
+    "write_face_def_tables",
     "write_fap",
+    "write_fap_json",
     "write_fba",
 ]
 

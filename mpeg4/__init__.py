@@ -6,7 +6,7 @@ profile, wheel, intermediate         ranges of FAPs; activation and angle; mixin
 expressions                          a word, or a point of the wheel, becomes a profile
 timing                               profiles become frames
 features, recognition                frames become beliefs
-fap_stream, filling, fap_file        frames on disk, and what they do not state
+fap_stream, filling, fap_file, fap_json   frames on disk, and what they do not state
 fba                                  the binary stream
 """
 
@@ -25,6 +25,7 @@ from .archetypes import (
 from .emotion_presets import WORDS, load_emotions
 from .expressions import default_variant, expression, find_word, neighbours
 from .fap_file import read_fap, write_fap
+from .fap_json import read_fap_json, write_fap_json
 from .fap_stream import FapStream
 from .fba import Decoded, decode_fba, encode_fba, read_fba, write_fba
 from .features import FEATURES, Feature, faps_from_features
@@ -132,6 +133,7 @@ __all__ = [
     "load_timings",
     "neighbours",
     "read_fap",
+    "read_fap_json",
     "read_fba",
     "recognise",
     "recognise_features",
@@ -140,5 +142,6 @@ __all__ = [
     "strengths",
     "viseme_frame",
     "write_fap",
+    "write_fap_json",
     "write_fba",
 ]
