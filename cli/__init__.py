@@ -12,6 +12,7 @@ import json
 import sys
 
 from ..errors import RisoriusError
+from .capture import add_capture_verbs
 from .emotions import add_emotion_verbs
 from .faces import add_face_verbs
 from .films import add_film_verbs
@@ -59,4 +60,5 @@ def _parser() -> argparse.ArgumentParser:
     add_stream_verbs(verbs)
     add_film_verbs(verbs)
     add_face_verbs(verbs)
+    add_capture_verbs(verbs)
     return parser
