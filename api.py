@@ -10,6 +10,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from .face.animation_tables import AnimationTable, AnimationTables, TableError
+from .face.blendshapes import arkit_shapes
+from .face.captured import CaptureFormat, read_capture
 from .face.creases import Creases
 from .face.default_head import HeadMesh, build_default_head
 from .face.face import Clip, Face
@@ -25,6 +27,7 @@ from .face.fit.topologies import (
     write_topology,
 )
 from .face.frame import Fapu
+from .face.landmarks import LandmarkReading, read_points
 from .face.mechanisms import ADDITIONS, MUSCLE_GROUPS, Mechanism
 from .face.parts import Part
 from .face.points import REQUIRED as REQUIRED_POINTS
@@ -76,6 +79,7 @@ from .mpeg4 import (
     write_fap_json,
     write_fba,
 )
+from .mpeg4.capture import CaptureShape, KeyShape, load_key_names, load_shapes, write_fap_csv
 
 __all__ = [
     "ADDITIONS",
@@ -91,6 +95,8 @@ __all__ = [
     "AnimationTables",
     "Archetype",
     "Beliefs",
+    "CaptureFormat",
+    "CaptureShape",
     "Clip",
     "Creases",
     "Cue",
@@ -105,6 +111,8 @@ __all__ = [
     "FitProgress",
     "FoundPoints",
     "HeadMesh",
+    "KeyShape",
+    "LandmarkReading",
     "Mechanism",
     "Part",
     "Pose",
@@ -116,6 +124,7 @@ __all__ = [
     "Topology",
     "VisemeField",
     "archetype",
+    "arkit_shapes",
     "between",
     "build_default_head",
     "decode_fba",
@@ -131,12 +140,16 @@ __all__ = [
     "find_points_steps",
     "initial_profile",
     "load_emotions",
+    "load_key_names",
+    "load_shapes",
     "load_timings",
     "load_topologies",
     "read_animation_tables",
+    "read_capture",
     "read_fap",
     "read_fap_json",
     "read_fba",
+    "read_points",
     "read_topology",
     "recognise",
     "recognise_features",
@@ -148,6 +161,7 @@ __all__ = [
     "write_animation_tables",
     "write_face_def_tables",
     "write_fap",
+    "write_fap_csv",
     "write_fap_json",
     "write_fba",
 ]
