@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,6 +22,10 @@ READABLE, WRITABLE = (".fap", ".fba", ".json", ".csv"), (".fap", ".fba", ".json"
 SOURCES = (
     "info FILE | convert FILE OUT | play FILE OUT; or a FILE to look into, or an emotion WORD to write as a stream"
 )
+
+
+#: Seconds of work after which its progress is said.
+PATIENCE = 1.0
 
 
 def add_stream_verbs(verbs: Any) -> None:
@@ -129,7 +134,7 @@ def _read(path: Path, arguments: argparse.Namespace) -> tuple[FapStream, list[st
     suffix = path.suffix.lower()
     if suffix == ".fba":
         try:
-            decoded = api.decode_fba(path.read_bytes(), path=path, strict=arguments.strict)
+            decoded = api.decode_fba(path.read_bytes(), path=path, strict=arguments.strict, progress=_counted("bytes"))
         except OSError as error:
             raise FormatError(path, f"cannot be read ({error.strerror})") from error
         stream, damage = decoded.stream, [str(error) for error in decoded.damage]
@@ -156,7 +161,9 @@ def _write(path: Path, stream: FapStream, arguments: argparse.Namespace) -> None
 
     suffix = path.suffix.lower()
     if suffix == ".fba":
-        api.write_fba(path, stream, quantiser=arguments.quantiser, refresh=arguments.refresh)
+        api.write_fba(
+            path, stream, quantiser=arguments.quantiser, refresh=arguments.refresh, progress=_counted("frames")
+        )
     elif suffix == ".json":
         api.write_fap_json(path, stream)
     elif suffix == ".csv":
@@ -219,7 +226,7 @@ def _tables(arguments: argparse.Namespace) -> Result:
     options = {"faps": arguments.faps} if arguments.faps else {}
     face = face_of(arguments)
     tables = api.face_animation_tables(
-        face, steps=arguments.steps, others=arguments.others, progress=_counted, **options
+        face, steps=arguments.steps, others=arguments.others, progress=_counted("FAPs"), **options
     )
     writers[suffix](arguments.out, tables)
     rows = {
@@ -239,7 +246,15 @@ def _tables(arguments: argparse.Namespace) -> Result:
     return Result({"out": arguments.out, "tables": rows}, [*lines, f"wrote {arguments.out}"])
 
 
-def _counted(done: int, count: int) -> None:
-    """Progress on standard error, a line for every tenth FAP."""
-    if done % 10 == 0 or done == count:
-        print(f"{100 * done // count:3d} %  {done} of {count} FAPs", file=sys.stderr, flush=True)
+def _counted(what: str) -> Callable[[int, int], None]:
+    """Progress on standard error: a line for every tenth, once the work has taken a while."""
+    began, shown = time.monotonic(), 0
+
+    def report(done: int, count: int) -> None:
+        nonlocal shown
+        tenth = 10 * done // count
+        if tenth > shown and time.monotonic() - began > PATIENCE:
+            shown = tenth
+            print(f"{10 * tenth:3d} %  {done} of {count} {what}", file=sys.stderr, flush=True)
+
+    return report

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -46,6 +46,8 @@ class _Reading:
     coding: Coding | None = None
     start: int = 0  # bit behind the last start code
     last: int = -1  # frame
+    begun: int = -1  # frame of the last I frame
+    offset: int | None = None  # frames from the stream's begin to that of its time codes
     lost: bool = False  # whether frames are missing before the next one
     frames: dict[int, Floats] = field(default_factory=dict)
     visemes: dict[int, VisemeField] = field(default_factory=dict)
@@ -63,7 +65,13 @@ def read_fba(path: str | Path, *, strict: bool = False) -> FapStream:
     return decode_fba(data, path=file, strict=strict).stream
 
 
-def decode_fba(data: bytes, *, path: str | Path = "FBA stream", strict: bool = False) -> Decoded:
+def decode_fba(
+    data: bytes,
+    *,
+    path: str | Path = "FBA stream",
+    strict: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Decoded:
     """Decode an FBA bitstream, predictive coding.
 
     Damage costs the frames up to the next start code. Where that I frame has a time code, the frames after it keep
@@ -74,6 +82,7 @@ def decode_fba(data: bytes, *, path: str | Path = "FBA stream", strict: bool = F
     data : the bytes.
     path : what errors name; its stem is the stream's name.
     strict : refuse any damage.
+    progress : called with the number of bytes done, and of all, at each start code.
 
     Raises
     ------
@@ -82,7 +91,7 @@ def decode_fba(data: bytes, *, path: str | Path = "FBA stream", strict: bool = F
     """
     reading = _Reading(BitReader(data))
     damage: list[FormatError] = []
-    for problem in _decoded(reading):
+    for problem in _decoded(reading, progress):
         error = FormatError(path, problem, offset=min(reading.bits.byte, len(data)))
         if strict:
             raise error
@@ -92,7 +101,7 @@ def decode_fba(data: bytes, *, path: str | Path = "FBA stream", strict: bool = F
     return Decoded(_stream(reading, Path(path).stem), tuple(damage))
 
 
-def _decoded(reading: _Reading) -> Iterator[str]:
+def _decoded(reading: _Reading, progress: Callable[[int, int], None] | None) -> Iterator[str]:
     """Decode all frames; yields what is wrong, and goes on at the next start code."""
     bits = reading.bits
     if int.from_bytes(bits.data[:4]) in (SEQUENCE_START, OLD_SEQUENCE_START):
@@ -108,6 +117,8 @@ def _decoded(reading: _Reading) -> Iterator[str]:
                 return
             if code is not None:
                 reading.start = bits.position
+                if progress is not None:
+                    progress(bits.byte, len(bits.data))
             _read_plane(reading)
         except EndOfBits:
             yield "ends before its end code: it is cut off or damaged"
@@ -124,14 +135,35 @@ def _go_on(reading: _Reading) -> bool:
     bits = reading.bits
     bits.position = reading.start
     found = bits.seek_start_code(PLANE_STARTS)
-    for index in [index for index, end in reading.ends.items() if end > bits.position]:
-        for kept in (reading.frames, reading.visemes, reading.expressions, reading.ends):
-            kept.pop(index, None)
-    reading.last = max(reading.frames, default=-1)
+    _forget(reading, [index for index, end in reading.ends.items() if end > bits.position])
     reading.coding, reading.lost = None, True
     bits.position += 32
     reading.start = bits.position
     return found
+
+
+def _forget(reading: _Reading, indices: list[int]) -> None:
+    """Drop frames that were misread."""
+    for index in indices:
+        for kept in (reading.frames, reading.visemes, reading.expressions, reading.ends):
+            kept.pop(index, None)
+    reading.last = max(reading.frames, default=-1)
+
+
+def _timed(reading: _Reading, index: int, seconds: int) -> int:
+    """The frame of a time code: where frames go on after damage. What was misread beyond it is dropped.
+
+    Time codes tell whole seconds: the first frame at or after them is meant. They need not begin at 0.
+    """
+    at = first_frame_of(seconds, reading.rate or DEFAULT_RATE)
+    if not reading.lost:
+        reading.offset = at - index if reading.offset is None else reading.offset
+        return index
+    at -= reading.offset or 0
+    if not reading.begun < at <= index + LONGEST_GAP:
+        return index
+    _forget(reading, [misread for misread in reading.frames if misread >= at])
+    return at
 
 
 def _read_plane(reading: _Reading) -> None:
@@ -149,14 +181,14 @@ def _read_plane(reading: _Reading) -> None:
         reading.coding = read_coding(bits, reading.coding.limits if reading.coding else DEFAULT_LIMITS)
     if reading.coding is None:
         raise Damage("has a P frame without an I frame before it")
-    if reading.lost and clock.seconds is not None:
-        timed = first_frame_of(clock.seconds, reading.rate or DEFAULT_RATE)
-        index = timed if index < timed <= index + LONGEST_GAP else index
+    if clock.seconds is not None:
+        index = _timed(reading, index, clock.seconds)
     if index >= LONGEST:
         raise Damage(f"makes more than {LONGEST} frames: cut it")
     flags = read_levels(bits, reading.coding, intra=intra)
     _keep(reading, reading.coding, index, flags)
     reading.last, reading.lost = index, False
+    reading.begun = index if intra else reading.begun
 
 
 def _keep(reading: _Reading, coding: Coding, index: int, flags: tuple[tuple[int, ...], ...]) -> None:

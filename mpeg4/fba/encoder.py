@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ...errors import FormatError, ParameterError
@@ -27,7 +27,12 @@ from .syntax import (
 FACE_ONLY, INTRA_FACE = 0b001, 0b101  # is_intra and the two bits of the object mask
 
 
-def encode_fba(stream: FapStream, *, quantiser: int = 1, refresh: float = 10.0) -> bytes:
+Report = Callable[[int, int], None]
+
+
+def encode_fba(
+    stream: FapStream, *, quantiser: int = 1, refresh: float = 10.0, progress: Report | None = None
+) -> bytes:
     """The FBA bitstream of a stream, predictive coding.
 
     An I frame with a start code begins the stream, follows after `refresh` seconds, and comes wherever the mask changes
@@ -38,6 +43,7 @@ def encode_fba(stream: FapStream, *, quantiser: int = 1, refresh: float = 10.0) 
     stream : what to code; values are rounded to whole FAP units. Name, version and first frame number are not coded.
     quantiser : 0 (lossless, values up to 1860) or 1..31 times each FAP's own step (`Fap.quant_step`).
     refresh : seconds from one start code to the next: so much is lost at most where bytes are damaged.
+    progress : called with the number of frames done, and of all.
 
     Raises
     ------
@@ -56,13 +62,22 @@ def encode_fba(stream: FapStream, *, quantiser: int = 1, refresh: float = 10.0) 
     for run in runs(stream, quantiser, refresh):
         _write_run(bits, run, rate, quantiser, last)
         last = run.pictures[-1].index
+        if progress is not None:
+            progress(last + 1, len(stream.frames))
     bits.start_code(SEQUENCE_END)
     return bits.data()
 
 
-def write_fba(path: str | Path, stream: FapStream, *, quantiser: int = 1, refresh: float = 10.0) -> None:
+def write_fba(
+    path: str | Path,
+    stream: FapStream,
+    *,
+    quantiser: int = 1,
+    refresh: float = 10.0,
+    progress: Report | None = None,
+) -> None:
     """Write a stream as an FBA file; as `encode_fba`, and FormatError where it cannot be written."""
-    data = encode_fba(stream, quantiser=quantiser, refresh=refresh)
+    data = encode_fba(stream, quantiser=quantiser, refresh=refresh, progress=progress)
     try:
         Path(path).write_bytes(data)
     except OSError as error:

@@ -56,11 +56,15 @@ def _begun(picture: Picture, quantiser: int) -> Run:
     steps = [channel.step_at(quantiser) for channel in channels]
     levels = [level_of(value, step) for value, step in zip(picture.values, steps, strict=True)]
     largest = limit_of(LARGEST_LIMIT_CODE, quantiser)
-    for channel, level, value, step in zip(channels, levels, picture.values, steps, strict=True):
-        if channel.top is None and abs(level) > largest:
+    for place, (channel, value) in enumerate(zip(channels, picture.values, strict=True)):
+        if channel.top is not None:
+            continue
+        reach = limit_of(LARGEST_LIMIT_CODE, 1) * channel.step_at(min(quantiser, 1))
+        if abs(value) > reach:
             remedy = "choose quantiser 1 or more" if quantiser == 0 else "no quantiser can code more"
-            rule = f"must lie within {largest * step} FAP units in frame {picture.index} ({remedy})"
+            rule = f"must lie within {reach} FAP units in frame {picture.index} ({remedy})"
             raise ParameterError(channel.name, rule, value)
+        levels[place] = min(max(levels[place], -largest), largest)  # limits are whole levels, rounded down
     return Run([picture], [levels], [level * step for level, step in zip(levels, steps, strict=True)])
 
 

@@ -62,6 +62,32 @@ def test_damage_costs_frames_up_to_the_next_start_code_and_time_goes_on() -> Non
         decode_fba(bytes(broken), strict=True)
 
 
+@pytest.mark.parametrize("flip", [0xFF, 0x10, 0x01])
+def test_damage_anywhere_in_a_run_leaves_the_other_runs_alone(flip: int) -> None:
+    """Even where misread symbols run beyond the next start code: it is looked for from the last one on."""
+    stream, data = example()
+    _, second, third, _ = planes(data)
+    for place in range(second + 4, third, 4):
+        broken = bytearray(data)
+        broken[place] ^= flip
+        frames = decode_fba(bytes(broken)).stream.frames
+        assert frames.shape == (80, 68), place
+        np.testing.assert_array_equal(frames[:20], stream.frames[:20])
+        np.testing.assert_array_equal(frames[40:], stream.frames[40:])
+
+
+def test_time_codes_need_not_begin_at_zero() -> None:
+    """A recording cut out of a longer one: it begins at 2 s; the run behind damage keeps its place."""
+    stream, data = example()
+    cut = bytearray(data[:5] + data[planes(data)[1] :])
+    second = planes(bytes(cut))[1] + 4
+    cut[second : second + 3] = b"\0\0\0"
+    decoded = decode_fba(bytes(cut)).stream
+    np.testing.assert_array_equal(decoded.frames[:20], stream.frames[20:40])
+    assert not decoded.mask[20:40].any()
+    np.testing.assert_array_equal(decoded.frames[40:], stream.frames[60:])
+
+
 def test_a_stream_is_joined_in_the_middle() -> None:
     stream, data = example()
     decoded = decode_fba(data[planes(data)[2] - 1 :])

@@ -32,10 +32,17 @@ def steps(quantiser: int) -> np.ndarray:
 
 
 def assert_within_quantiser(decoded: FapStream, stream: FapStream, quantiser: int) -> None:
-    """Same masks; values within half a step of the stream's rounded ones; fields exact but for rounding."""
+    """Same masks; values within half a step of the stream's rounded ones; fields exact but for rounding.
+
+    Beyond the largest level, which is rounded down to a whole one, values end on it.
+    """
     np.testing.assert_array_equal(decoded.mask, stream.mask)
-    error = np.abs(decoded.frames - np.rint(stream.frames))
-    assert np.nanmax(error / steps(quantiser), initial=0.0) <= 0.5
+    wanted = np.rint(stream.frames)
+    error = np.abs(decoded.frames - wanted)
+    end = 1860 // max(quantiser, 1) * steps(quantiser)
+    allowed = np.maximum(0.5 * steps(quantiser), np.abs(wanted) - end)
+    assert not (error > allowed).any()
+    assert np.nanmax(error / steps(quantiser), initial=0.0) < 1.0
     assert set(decoded.visemes) == set(stream.visemes)
     for index, field in stream.visemes.items():
         got = decoded.visemes[index]
@@ -120,6 +127,14 @@ def test_frames_that_state_nothing_are_skipped_and_stay_unknown() -> None:
     np.testing.assert_array_equal(decoded.frames, frames)  # the last two state nothing, and are there
 
 
+@pytest.mark.parametrize("quantiser", [0, 2, 4, 5, 6, 31])
+def test_full_strength_is_not_rounded_beyond_itself(quantiser: int) -> None:
+    expressions = {index: ExpressionField(1, 63 if index % 2 else 0, 2, 62) for index in range(4)}
+    stream = FapStream(np.full((4, 68), np.nan), visemes={0: VisemeField(1, 2, 63)}, expressions=expressions)
+    decoded = decode_fba(encode_fba(stream, quantiser=quantiser), strict=True).stream
+    assert_within_quantiser(decoded, stream, quantiser)
+
+
 def test_rates_are_coded_in_sixteenths_and_for_television() -> None:
     frames = np.zeros((2, 68))
     for fps, coded in ((12.5, 12.5), (30.0 * NTSC, 30.0 * NTSC), (24.98, 25.0 * NTSC), (12.51, 12.5)):
@@ -141,6 +156,15 @@ def test_a_jump_beyond_the_limits_of_p_frames_becomes_an_i_frame() -> None:
     data = encode_fba(FapStream(frames))
     assert data.count(PLANE_START) == 2
     np.testing.assert_array_equal(decode_fba(data).stream.frames, frames)
+
+
+@pytest.mark.parametrize("quantiser", [1, 8, 31])
+def test_the_ends_of_the_range_are_coded(quantiser: int) -> None:
+    frames = np.full((3, 68), np.nan)
+    frames[:, 3] = 1860.0 * 2, -1860.0 * 2, 0.0
+    stream = FapStream(frames)
+    decoded = decode_fba(encode_fba(stream, quantiser=quantiser), strict=True).stream
+    assert_within_quantiser(decoded, stream, quantiser)
 
 
 def test_what_cannot_be_coded_is_refused_with_the_remedy() -> None:
@@ -169,3 +193,14 @@ def test_files(tmp_path: Path) -> None:
         write_fba(tmp_path / "none" / "face.fba", stream)
     with pytest.raises(FormatError, match="cannot be read"):
         read_fba(tmp_path / "gone.fba")
+
+
+def test_progress_runs_to_the_end() -> None:
+    stream = FapStream(np.zeros((45, 68)), fps=10.0)
+    seen: list[tuple[int, int]] = []
+    data = encode_fba(stream, refresh=2.0, progress=lambda done, count: seen.append((done, count)))
+    assert seen == [(20, 45), (40, 45), (45, 45)]
+    seen.clear()
+    decode_fba(data, progress=lambda done, count: seen.append((done, count)))
+    assert [count for _, count in seen] == [len(data)] * 3
+    assert [done for done, _ in seen] == sorted({done for done, _ in seen})
