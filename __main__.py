@@ -11,8 +11,8 @@ from .cli import main
 def run() -> None:
     """Run one verb and leave with its exit code.
 
-    Blender as a Python module may wait forever for threads of its own when Python ends in order (after a glTF export, for
-    one). By then everything is written and printed, so the process leaves at once.
+    Blender as a Python module may wait forever for threads of its own when Python ends in order (after a glTF export,
+    for one). By then everything is written and printed, so the process leaves at once.
     """
     code = main()
     if "bpy" in sys.modules:
