@@ -44,6 +44,9 @@ STEPS = 4
 INNER_PARTS = (Part.TEETH_LOWER, Part.TONGUE)
 INNER_FAPS = (*GROUPS[6], *GROUPS[7], 3, 14, 15)
 
+#: open_jaw takes lips and chin along; see `_Solver.carried`.
+JAW = 3
+
 #: Vertices that never move farther than this share of the distance of the pupils (6 micrometres) are left out.
 MOVED = 1e-4
 
@@ -102,14 +105,15 @@ def face_animation_tables(
     for name, choices, value in (("drive", Drive, drive), ("others", Others, others)):
         if value not in list(choices):
             raise ParameterError(name, f"must be one of {', '.join(choices)}", value)
-    tables = {}
-    solve = _Solver(face, Drive(drive), Others(others))
-    for done, table in enumerate(_tables(solve, numbers, steps), start=1):
+    tables: dict[int, AnimationTable] = {}
+    solver = _Solver(face, Drive(drive), Others(others), tables)
+    jaw_last = sorted(numbers, key=lambda number: number == JAW)
+    for done, table in enumerate(_tables(solver, jaw_last, steps), start=1):
         if table is not None:
             tables[table.fap] = table
         if progress is not None:
             progress(done, len(numbers))
-    return AnimationTables(face.vertices.copy(), tables)
+    return AnimationTables(face.vertices.copy(), dict(sorted(tables.items())))
 
 
 @dataclass(frozen=True)
@@ -119,16 +123,36 @@ class _Solver:
     face: Face
     drive: Drive
     others: Others
+    tables: Mapping[int, AnimationTable]  # those that are there already
 
     def shift(self, number: int, value: float) -> Floats:
         """(V, 3) metres that all vertices move at a value of one FAP."""
-        shift = np.zeros_like(self.face.vertices)
-        if value != 0.0:
-            frame = np.full(FAP_COUNT, 0.0 if self.others is Others.STILL else np.nan)
-            frame[number - 1] = value
-            shift += self.face.pose(frame, drive=self.drive).positions - self.face.vertices
+        if value == 0.0:
+            return np.zeros_like(self.face.vertices)
+        if number == JAW and self.others is Others.STILL:
+            return self.carried(value)
+        shift = self.posed(number, value, 0.0 if self.others is Others.STILL else np.nan)
         if number not in INNER_FAPS:
             shift[np.isin(self.face.parts, INNER_PARTS)] = 0.0
+        return shift
+
+    def posed(self, number: int, value: float, other: float) -> Floats:
+        """(V, 3) metres between rest and the pose of one FAP, all others at a value."""
+        frame = np.full(FAP_COUNT, other)
+        frame[number - 1] = value
+        return np.asarray(self.face.pose(frame, drive=self.drive).positions - self.face.vertices, dtype=np.float64)
+
+    def carried(self, value: float) -> Floats:
+        """(V, 3) metres of the jaw: it takes lips and chin along, and what their own tables do of that is taken off.
+
+        Played together with lips that go down, this is an opening jaw. (Lips and chin held by force while the jaw opens
+        leave spikes between the points that are held.) FAPs without a table follow the jaw.
+        """
+        shift = self.posed(JAW, value, np.nan)
+        seen = self.face.measure(self.face.vertices + shift)
+        for number, table in self.tables.items():
+            if number not in (JAW, *GROUPS[6], *GROUPS[7]) and not np.isnan(seen[number - 1]):
+                shift[table.vertices] -= table.displacement(float(seen[number - 1]))
         return shift
 
 
