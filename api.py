@@ -9,6 +9,9 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
+from .face.animation_tables import AnimationTable, AnimationTables, TableError
+from .face.blendshapes import arkit_shapes
+from .face.captured import CaptureFormat, read_capture
 from .face.creases import Creases
 from .face.default_head import HeadMesh, build_default_head
 from .face.face import Clip, Face
@@ -24,10 +27,13 @@ from .face.fit.topologies import (
     write_topology,
 )
 from .face.frame import Fapu
+from .face.landmarks import LandmarkReading, read_points
 from .face.mechanisms import ADDITIONS, MUSCLE_GROUPS, Mechanism
 from .face.parts import Part
 from .face.points import REQUIRED as REQUIRED_POINTS
 from .face.pose import Pose
+from .face.table_building import face_animation_tables
+from .face.table_files import read_animation_tables, write_animation_tables, write_face_def_tables
 from .face.wishes import Drive
 from .mpeg4 import (
     ARCHETYPES,
@@ -39,19 +45,24 @@ from .mpeg4 import (
     Archetype,
     Beliefs,
     Cue,
+    Decoded,
     Drawn,
     ExpressionField,
     Fap,
     FapStream,
+    Filling,
     Liveliness,
     Profile,
     Ramp,
+    Rule,
     Timing,
     VisemeField,
     archetype,
     between,
+    decode_fba,
     drawn_within,
     emotion_weights,
+    encode_fba,
     envelope,
     expression,
     expression_frame,
@@ -60,12 +71,18 @@ from .mpeg4 import (
     load_emotions,
     load_timings,
     read_fap,
+    read_fap_json,
+    read_fba,
     recognise,
     recognise_features,
+    recognise_words,
     sequence,
     viseme_frame,
     write_fap,
+    write_fap_json,
+    write_fba,
 )
+from .mpeg4.capture import CaptureShape, KeyShape, load_key_names, load_shapes, write_fap_csv
 
 __all__ = [
     "ADDITIONS",
@@ -77,11 +94,16 @@ __all__ = [
     "REQUIRED_POINTS",
     "VISEMES",
     "WORDS",
+    "AnimationTable",
+    "AnimationTables",
     "Archetype",
     "Beliefs",
+    "CaptureFormat",
+    "CaptureShape",
     "Clip",
     "Creases",
     "Cue",
+    "Decoded",
     "Drawn",
     "Drive",
     "ExpressionField",
@@ -89,43 +111,65 @@ __all__ = [
     "Fap",
     "FapStream",
     "Fapu",
+    "Filling",
     "FitProgress",
     "FoundPoints",
     "HeadMesh",
+    "KeyShape",
+    "LandmarkReading",
     "Liveliness",
     "Mechanism",
     "Part",
     "Pose",
     "Profile",
     "Ramp",
+    "Rule",
+    "TableError",
     "Timing",
     "Topology",
     "VisemeField",
     "archetype",
+    "arkit_shapes",
     "between",
     "build_default_head",
+    "decode_fba",
     "default_face",
     "drawn_within",
     "emotion_weights",
+    "encode_fba",
     "envelope",
     "expression",
     "expression_frame",
+    "face_animation_tables",
     "fap",
     "find_points",
     "find_points_steps",
     "initial_profile",
     "load_emotions",
+    "load_key_names",
+    "load_shapes",
     "load_timings",
     "load_topologies",
+    "read_animation_tables",
+    "read_capture",
     "read_fap",
+    "read_fap_json",
+    "read_fba",
+    "read_points",
     "read_topology",
     "recognise",
     "recognise_features",
     "recognise_topology",
+    "recognise_words",
     "save_topology",
     "sequence",
     "viseme_frame",
+    "write_animation_tables",
+    "write_face_def_tables",
     "write_fap",
+    "write_fap_csv",
+    "write_fap_json",
+    "write_fba",
 ]
 
 

@@ -1,0 +1,147 @@
+"""Verbs for what trackers and engines use: import, export."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import FormatError, RisoriusError
+from .films import NEEDS_BLENDER, ShowProgress, silent_blender
+from .options import add_face, face_of, verb
+from .result import Result, UsageError
+
+#: Files of `export shapes` that need Blender; .npz does not.
+BLENDER_SUFFIXES = (".blend", ".glb")
+
+
+def add_capture_verbs(verbs: Any) -> None:
+    """Add import and export to the verbs."""
+    importing = verb(verbs, "import", _import)
+    importing.add_argument("file", type=Path, help="OpenFace, ARKit, Live Link Face or MediaPipe: .csv, .json, .jsonl")
+    importing.add_argument("--out", type=Path, help="the .fap file to write")
+    kinds = ("openface", "arkit", "mediapipe", "landmarks", "faps")
+    importing.add_argument("--kind", choices=kinds, help="what the file is (default: as its columns tell)")
+    importing.add_argument("--fps", type=float, help="frames per second of the stream (default: the recording's)")
+    importing.add_argument("--rate", type=float, help="frames per second of a recording that does not say them")
+    importing.add_argument("--aspect", type=_aspect, default=16.0 / 9.0, help="landmarks: the picture's WIDTH:HEIGHT")
+    about = "landmarks: seconds in which the face is neutral (default: its usual shape)"
+    importing.add_argument("--neutral", type=float, nargs=2, metavar=("FROM", "TO"), help=about)
+
+    exporting = verb(verbs, "export", _export)
+    exporting.add_argument("what", choices=("csv", "shapes"), help="FAPs as a table; or shape keys that engines know")
+    exporting.add_argument("source", type=Path, nargs="*", help="csv: a .fap file, or a tracker's file")
+    exporting.add_argument("--out", type=Path, required=True, help="csv: .csv; shapes: .npz, in Blender .blend or .glb")
+    add_face(exporting)
+    names = "shapes: arkit, ict_facekit, oculus_visemes, or a .toml file (default: arkit)"
+    exporting.add_argument("--names", default="arkit", help=names)
+    exporting.add_argument("--replace", action="store_true", help="shapes: write over keys of the same names")
+
+
+def _aspect(text: str) -> float:
+    """16:9, or a number."""
+    width, _, height = text.partition(":")
+    try:
+        return float(width) / float(height or 1.0)
+    except ZeroDivisionError:
+        raise argparse.ArgumentTypeError("the picture's height must not be 0") from None
+
+
+def _import(arguments: argparse.Namespace) -> Result:
+    """Read what a tracker wrote as a FAP stream."""
+    from .. import api
+
+    stream = api.read_capture(
+        arguments.file,
+        kind=arguments.kind,
+        fps=arguments.fps,
+        rate=arguments.rate,
+        aspect=arguments.aspect,
+        neutral=None if arguments.neutral is None else tuple(arguments.neutral),
+    )
+    if arguments.out:
+        api.write_fap(arguments.out, stream)
+    known = ~np.isnan(stream.frames)
+    faps = [int(place) + 1 for place in np.flatnonzero(known.any(axis=0))]
+    unknown = int((~known.any(axis=1)).sum())
+    data = {
+        "name": stream.name,
+        "fps": stream.fps,
+        "frames": len(stream.frames),
+        "unknown_frames": unknown,
+        "faps": faps,
+        "out": arguments.out,
+    }
+    title = f"{stream.name}: {len(stream.frames)} frames at {stream.fps:g} per second, {len(faps)} FAPs"
+    lines = [title + (f", {unknown} frames unknown" if unknown else "")]
+    for number in faps:
+        column = stream.frames[:, number - 1]
+        lines.append(f"F{number:<3} {api.fap(number).name:<24} {np.nanmin(column):8.0f} .. {np.nanmax(column):8.0f}")
+    return Result(data, [*lines, *([f"wrote {arguments.out}"] if arguments.out else [])])
+
+
+def _export(arguments: argparse.Namespace) -> Result:
+    """Write FAPs as a table, or a face's shape keys under the names that engines know."""
+    return _export_csv(arguments) if arguments.what == "csv" else _export_shapes(arguments)
+
+
+def _export_csv(arguments: argparse.Namespace) -> Result:
+    """A stream as CSV."""
+    from .. import api
+
+    if len(arguments.source) != 1:
+        raise UsageError("export csv needs one file to read: a .fap, or a tracker's .csv or .json")
+    path = arguments.source[0]
+    stream = api.read_fap(path) if path.suffix.lower() == ".fap" else api.read_capture(path)
+    api.write_fap_csv(arguments.out, stream)
+    data = {"frames": len(stream.frames), "fps": stream.fps, "out": arguments.out}
+    return Result(data, [f"wrote {arguments.out}: {len(stream.frames)} frames at {stream.fps:g} per second"])
+
+
+def _export_shapes(arguments: argparse.Namespace) -> Result:
+    """Shape keys of a face."""
+    if arguments.source:
+        raise UsageError("export shapes takes its face from --mesh and --points")
+    suffix = arguments.out.suffix.lower()
+    replaced: tuple[str, ...] = ()
+    if suffix == ".npz":
+        keys = _shapes_to_npz(arguments)
+    elif suffix in BLENDER_SUFFIXES:
+        keys, replaced = _shapes_in_blender(arguments)
+    else:
+        raise UsageError(f"--out must end in .npz, {' or '.join(BLENDER_SUFFIXES)}")
+    data = {"keys": keys, "replaced": replaced, "out": arguments.out}
+    return Result(data, [f"wrote {arguments.out}: {len(keys)} shape keys", *keys])
+
+
+def _shapes_to_npz(arguments: argparse.Namespace) -> tuple[str, ...]:
+    """Names (N,) and displacements (N, V, 3) in metres as NumPy's file."""
+    from .. import api
+
+    face = face_of(arguments)
+    shapes = api.arkit_shapes(face, arguments.names)
+    moved = np.stack([positions - face.vertices for positions in shapes.values()])
+    try:
+        np.savez_compressed(arguments.out, names=np.array(list(shapes)), displacement=moved.astype(np.float32))
+    except OSError as error:
+        problem = f"cannot be written ({error.strerror}): choose a folder you may write to"
+        raise FormatError(arguments.out, problem) from error
+    return tuple(shapes)
+
+
+def _shapes_in_blender(arguments: argparse.Namespace) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Names of the keys, and of those that were replaced."""
+    if arguments.mesh is None and arguments.points is not None:
+        raise UsageError("--points needs --mesh")
+    try:
+        from ..scene.blendshape_keys import blendshape_file
+    except ModuleNotFoundError as missing:
+        if missing.name in ("bpy", "mathutils"):
+            raise RisoriusError(NEEDS_BLENDER) from None
+        raise
+    options = {name: getattr(arguments, name) for name in ("mesh", "points", "names", "replace")}
+    with silent_blender():
+        written = blendshape_file(arguments.out, **options, progress=ShowProgress())
+    return written.keys, written.replaced
