@@ -131,6 +131,8 @@ def _axes(points: Mapping[str, Floats]) -> Floats:
         raise ModelError("the feature points lie on one line or in one spot: they do not form a face")
     fitted: Floats = _rotation_between(source, target).T
     modelled = np.rint(fitted)
+    if not np.array_equal(modelled @ modelled.T, np.eye(3)):  # far from any axes: no rotation at all
+        return fitted
     cosine = (np.trace(fitted @ modelled.T) - 1.0) / 2.0
     return modelled if np.arccos(np.clip(cosine, -1.0, 1.0)) < MODELLED_TOLERANCE else fitted
 

@@ -9,10 +9,23 @@ import pytest
 import risorius.api as api
 from risorius.api import Face
 from risorius.face.default_head import HeadMesh
+from risorius.face.frame import head_frame
 from scipy.spatial.transform import Rotation
 
 #: FAPs 1 and 2 are visemes and expressions: no feature point measures them.
 NOT_MEASURED = {1, 2}
+
+
+def test_the_frame_is_a_rotation_however_the_head_lies(head: HeadMesh) -> None:
+    places = {name: head.vertices[point] if isinstance(point, int) else point for name, point in head.points.items()}
+    upright = head_frame(places).axes
+    for seed in range(300):
+        turn = Rotation.random(random_state=seed).as_matrix()
+        axes = head_frame({name: turn @ np.asarray(place) for name, place in places.items()}).axes
+        np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+        assert np.linalg.det(axes) > 0.0
+        lies_askew = Rotation.from_matrix(axes @ turn @ upright.T).magnitude()
+        assert lies_askew < np.radians(20.0), f"seed {seed}"
 
 
 @pytest.mark.parametrize("name", ["ict", "makehuman", "mediapipe"])
