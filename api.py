@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
+from .face.animation_tables import AnimationTable, AnimationTables, TableError
 from .face.creases import Creases
 from .face.default_head import HeadMesh, build_default_head
 from .face.face import Clip, Face
@@ -28,6 +29,8 @@ from .face.mechanisms import ADDITIONS, MUSCLE_GROUPS, Mechanism
 from .face.parts import Part
 from .face.points import REQUIRED as REQUIRED_POINTS
 from .face.pose import Pose
+from .face.table_building import face_animation_tables
+from .face.table_files import read_animation_tables, write_animation_tables, write_face_def_tables
 from .face.wishes import Drive
 from .mpeg4 import (
     ARCHETYPES,
@@ -39,19 +42,24 @@ from .mpeg4 import (
     Archetype,
     Beliefs,
     Cue,
+    Decoded,
     Drawn,
     ExpressionField,
     Fap,
     FapStream,
+    Filling,
     Liveliness,
     Profile,
     Ramp,
+    Rule,
     Timing,
     VisemeField,
     archetype,
     between,
+    decode_fba,
     drawn_within,
     emotion_weights,
+    encode_fba,
     envelope,
     expression,
     expression_frame,
@@ -60,11 +68,16 @@ from .mpeg4 import (
     load_emotions,
     load_timings,
     read_fap,
+    read_fap_json,
+    read_fba,
     recognise,
     recognise_features,
+    recognise_words,
     sequence,
     viseme_frame,
     write_fap,
+    write_fap_json,
+    write_fba,
 )
 
 __all__ = [
@@ -77,11 +90,14 @@ __all__ = [
     "REQUIRED_POINTS",
     "VISEMES",
     "WORDS",
+    "AnimationTable",
+    "AnimationTables",
     "Archetype",
     "Beliefs",
     "Clip",
     "Creases",
     "Cue",
+    "Decoded",
     "Drawn",
     "Drive",
     "ExpressionField",
@@ -89,6 +105,7 @@ __all__ = [
     "Fap",
     "FapStream",
     "Fapu",
+    "Filling",
     "FitProgress",
     "FoundPoints",
     "HeadMesh",
@@ -98,18 +115,23 @@ __all__ = [
     "Pose",
     "Profile",
     "Ramp",
+    "Rule",
+    "TableError",
     "Timing",
     "Topology",
     "VisemeField",
     "archetype",
     "between",
     "build_default_head",
+    "decode_fba",
     "default_face",
     "drawn_within",
     "emotion_weights",
+    "encode_fba",
     "envelope",
     "expression",
     "expression_frame",
+    "face_animation_tables",
     "fap",
     "find_points",
     "find_points_steps",
@@ -117,15 +139,23 @@ __all__ = [
     "load_emotions",
     "load_timings",
     "load_topologies",
+    "read_animation_tables",
     "read_fap",
+    "read_fap_json",
+    "read_fba",
     "read_topology",
     "recognise",
     "recognise_features",
     "recognise_topology",
+    "recognise_words",
     "save_topology",
     "sequence",
     "viseme_frame",
+    "write_animation_tables",
+    "write_face_def_tables",
     "write_fap",
+    "write_fap_json",
+    "write_fba",
 ]
 
 

@@ -16,6 +16,7 @@ from .emotions import add_emotion_verbs
 from .faces import add_face_verbs
 from .films import add_film_verbs
 from .result import Result, UsageError, plain
+from .streams import add_stream_verbs
 
 DESCRIPTION = "An emotion word and an activation become a moving face."
 
@@ -55,6 +56,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="risorius", description=DESCRIPTION)
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     add_emotion_verbs(verbs)
+    add_stream_verbs(verbs)
     add_film_verbs(verbs)
     add_face_verbs(verbs)
     return parser

@@ -75,10 +75,10 @@ def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:
         raise UsageError("--points needs --mesh")
     shared = {name: getattr(arguments, name) for name in ("mesh", "points", "fps", "creases")}
     words = {"words": tuple(arguments.words)} if arguments.words else {}
-    return {**shared, **words, "progress": _ShowProgress()}
+    return {**shared, **words, "progress": ShowProgress()}
 
 
-class _ShowProgress:
+class ShowProgress:
     """One line per whole percent, on standard error so that --json stays clean."""
 
     def __init__(self) -> None:
@@ -92,7 +92,7 @@ class _ShowProgress:
 
 
 @contextlib.contextmanager
-def _silent_blender() -> Iterator[None]:
+def silent_blender() -> Iterator[None]:
     """Keep what Blender prints for every frame it saves off standard output, at the level where it writes."""
     sys.stdout.flush()
     kept = os.dup(1)
@@ -109,6 +109,6 @@ def _silent_blender() -> Iterator[None]:
 def _made(job: str, arguments: argparse.Namespace, **options: object) -> Result:
     """Run a job, and name the files that it has written."""
     run = getattr(_jobs(), job)
-    with _silent_blender():
+    with silent_blender():
         made = dict(run(arguments.out, **_job_options(arguments), **options))
     return Result(made, [f"{key}: {value}" for key, value in made.items()])

@@ -43,7 +43,10 @@ OWN_LIMIT = 1.3
 SILENCE_MM = 3.0
 
 #: A belief of the recogniser that counts as half a certainty that the face shows that emotion.
-SIGHT_DOUBT = 0.05
+SIGHT_DOUBT = 0.15
+
+#: How much more the likelier of two emotions counts: the power that beliefs are taken to.
+SHARPNESS = 4
 L1_UNIT, L1_UNIT_MIDLINE, L1_SUM, L1_OTHER_SUM = 1.0, 2.0, 2.0, 6.0
 
 #: The sums that are emotions; the others are habits of any face.
@@ -167,12 +170,12 @@ class Known:
         emotion, so both are looked at.
         """
         seen, mirrored = recognise(request), recognise(mirror_frame(request))
-        evidence = {str(name): (float(belief) ** 2 + float(mirrored[name]) ** 2) / 2.0 for name, belief in seen.items()}
+        evidence = {str(name): (float(belief) ** SHARPNESS + float(mirrored[name]) ** SHARPNESS) / 2.0 for name, belief in seen.items()}
         total = sum(evidence.values())
         if total <= 0.0:
             return cls({}, 0.0)
         shares = {name: value / total for name, value in evidence.items() if value > 0.01 * total}
-        return cls(shares, total / (total + SIGHT_DOUBT**2))
+        return cls(shares, total / (total + SIGHT_DOUBT**SHARPNESS))
 
 
 class Natural:

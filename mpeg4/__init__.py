@@ -6,7 +6,8 @@ profile, wheel, intermediate         ranges of FAPs; activation and angle; mixin
 expressions                          a word, or a point of the wheel, becomes a profile
 timing, variation                    profiles become frames, and look alive
 features, recognition                frames become beliefs
-fap_stream, fap_file                 frames on disk
+fap_stream, filling, fap_file, fap_json   frames on disk, and what they do not state
+fba                                  the binary stream
 """
 
 from .action_units import ACTION_UNITS, AuTerm
@@ -24,8 +25,11 @@ from .archetypes import (
 from .emotion_presets import WORDS, load_emotions
 from .expressions import default_variant, expression, find_word, neighbours
 from .fap_file import read_fap, write_fap
+from .fap_json import read_fap_json, write_fap_json
 from .fap_stream import FapStream
+from .fba import Decoded, decode_fba, encode_fba, read_fba, write_fba
 from .features import FEATURES, Feature, faps_from_features
+from .filling import Filling, fill
 from .high_level import (
     EXPRESSIONS,
     VISEME_SHAPES,
@@ -40,7 +44,7 @@ from .high_level import (
 )
 from .intermediate import between
 from .profile import ARCHETYPES, Archetype, Profile, Signs
-from .recognition import Beliefs, recognise, recognise_features
+from .recognition import Beliefs, Rule, recognise, recognise_features, recognise_words
 from .standard import (
     FAP_COUNT,
     FAPS,
@@ -91,6 +95,7 @@ __all__ = [
     "AuTerm",
     "Beliefs",
     "Cue",
+    "Decoded",
     "Drawn",
     "Expression",
     "ExpressionField",
@@ -99,11 +104,13 @@ __all__ = [
     "FapuDefinition",
     "Feature",
     "FeaturePoint",
+    "Filling",
     "Liveliness",
     "Motion",
     "Overlay",
     "Profile",
     "Ramp",
+    "Rule",
     "Side",
     "Signs",
     "Timing",
@@ -113,25 +120,33 @@ __all__ = [
     "Word",
     "archetype",
     "between",
+    "decode_fba",
     "default_variant",
     "drawn_within",
     "emotion_weights",
+    "encode_fba",
     "envelope",
     "expand",
     "expression",
     "expression_frame",
     "fap",
     "faps_from_features",
+    "fill",
     "find_word",
     "initial_profile",
     "load_emotions",
     "load_timings",
     "neighbours",
     "read_fap",
+    "read_fap_json",
+    "read_fba",
     "recognise",
     "recognise_features",
+    "recognise_words",
     "sequence",
     "strengths",
     "viseme_frame",
     "write_fap",
+    "write_fap_json",
+    "write_fba",
 ]

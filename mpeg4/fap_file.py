@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,7 +22,10 @@ from .standard import FAP_COUNT
 
 VERSIONS = ("2.0", "2.1", "2.2")
 VISEME_FIELDS, EXPRESSION_FIELDS = 4, 6
-LONGEST = 1_000_000  # frames: eleven hours at 25 a second; more is a damaged frame number, not a film
+LONGEST = 1_000_000  # frames: eleven hours at 25 a second
+LONGEST_GAP = 10_000  # frames in a row that state nothing; beyond it a frame number is damaged
+LARGEST = 1e7  # FAP units: sixteen turns of the head, and far beyond any length of a face
+LARGEST_NUMBER = 2**31 - 1  # of a frame
 
 
 @dataclass
@@ -40,7 +43,7 @@ def read_fap(path: str | Path) -> FapStream:
 
     Survives what real files do: 69 mask flags, blanks in the name, tabs, CRLF, comments, empty lines, frame numbers
     from 0 or 1 and with gaps (a missing frame states nothing), a wrong frame count in the header, "inf" (not stated),
-    and FAP 1 packed in one number. Values outside the coding limits or below 0 are kept as they are.
+    FAP 1 packed in one number, and decimals. Values outside the coding limits or below 0 are kept as they are.
 
     Parameters
     ----------
@@ -63,7 +66,7 @@ def read_fap(path: str | Path) -> FapStream:
         raise FormatError(file, "is empty: a .fap file begins with 'version name fps frames'") from None
     version, name, fps = _header(file, line, header)
     frames: dict[int, _Frame] = {}
-    last = -1
+    first, last = 0, -1
     for line, text in lines:
         mask = _mask(file, line, text)
         try:
@@ -71,12 +74,12 @@ def read_fap(path: str | Path) -> FapStream:
         except StopIteration:
             raise FormatError(file, "the mask has no values after it: the file is cut off", line=line) from None
         frame = _frame(file, line, text, mask)
-        if frame.number <= last:
-            raise FormatError(file, f"frame {frame.number} comes after frame {last}: numbers must rise", line=line)
+        if last >= 0:
+            _check_order(file, line, frame.number, first=first, last=last)
+        else:
+            first = frame.number
         last = frame.number
         frames[last] = frame
-        if last - min(frames) >= LONGEST:
-            raise FormatError(file, f"frame number {last} is more than {LONGEST} frames on: mend it", line=line)
     if not frames:
         raise FormatError(file, "holds no frame after its header", line=line)
     return _stream(frames, fps=fps, name=name, version=version)
@@ -96,10 +99,14 @@ def write_fap(path: str | Path, stream: FapStream, *, decimals: int = 0) -> None
     FormatError
         When the file cannot be written.
     ParameterError
-        When the decimals are negative.
+        When the decimals are negative, the stream has no frame, or a value is too large for the reader.
     """
     if decimals < 0:
         raise ParameterError("decimals", "must be 0 or more", decimals)
+    if not len(stream.frames):
+        raise ParameterError("stream", "must hold at least one frame", 0)
+    if (np.abs(stream.frames) > LARGEST).any():
+        raise ParameterError("frames", f"must lie within {LARGEST:.0f} FAP units", float(np.nanmax(abs(stream.frames))))
     file = Path(path)
     text = "".join(_text(stream, decimals))
     # Not with_suffix: a name without an extension, or with two, must not collide with a neighbour.
@@ -145,6 +152,17 @@ def _header(file: Path, line: int, text: str) -> tuple[str, str, float]:
     return tokens[0], "".join(c for c in " ".join(tokens[1:-2]) if c.isprintable()), fps
 
 
+def _check_order(file: Path, line: int, number: int, *, first: int, last: int) -> None:
+    """Refuse a frame number that does not follow the last one."""
+    if number <= last:
+        raise FormatError(file, f"frame {number} comes after frame {last}: numbers must rise", line=line)
+    if number - last > LONGEST_GAP:
+        problem = f"frame number {number} is more than {LONGEST_GAP} frames after {last}: mend it"
+        raise FormatError(file, problem, line=line)
+    if number - first >= LONGEST:
+        raise FormatError(file, f"frame number {number} makes more than {LONGEST} frames: cut the file", line=line)
+
+
 def _mask(file: Path, line: int, text: str) -> Bools:
     """(68,) flags; a 69th that is 0 is let pass."""
     flags = text.split()
@@ -165,29 +183,49 @@ def _frame(file: Path, line: int, text: str, mask: Bools) -> _Frame:
         if number is None or math.isnan(number):
             raise FormatError(file, f"value {place} must be a number, but it is {token!r}", line=line)
     values = [number for number in numbers if number is not None]
-    if not values[0].is_integer() or values[0] < 0:
-        raise FormatError(file, f"the frame number must be 0, 1, 2, ..., but it is {tokens[0]!r}", line=line)
+    if not values[0].is_integer() or not 0 <= values[0] <= LARGEST_NUMBER:
+        rule = f"the frame number must be 0, 1, 2, ... up to {LARGEST_NUMBER}"
+        raise FormatError(file, f"{rule}, but it is {tokens[0]!r}", line=line)
+    viseme, expression = _high_level_counts(mask, tokens)
     stated = int(mask[2:].sum())
-    others = 1 + (EXPRESSION_FIELDS if mask[1] else 0) + stated
-    packed = bool(mask[0]) and len(values) == others + 1 and len(tokens[1]) > 2
-    viseme = (1 if packed else VISEME_FIELDS) if mask[0] else 0
-    wanted = others + viseme
+    wanted = 1 + viseme + expression + stated
     if len(values) != wanted:
         problem = f"the mask above asks for {wanted} numbers (the frame's and {wanted - 1} values), this line has"
         raise FormatError(file, f"{problem} {len(values)}", line=line)
     frame = _Frame(int(values[0]), np.full(FAP_COUNT, np.nan))
     try:
-        if mask[0]:
-            fields = _unpacked(int(values[1])) if packed else [int(value) for value in values[1:5]]
-            frame.viseme = VisemeField(*fields)
-        if mask[1]:
-            start = 1 + viseme
-            frame.expression = ExpressionField(*(int(value) for value in values[start : start + EXPRESSION_FIELDS]))
-    except (ParameterError, OverflowError) as error:
+        if viseme:
+            fields = [_whole(value) for value in values[1 : 1 + viseme]]
+            frame.viseme = VisemeField(*(fields if viseme == VISEME_FIELDS else _unpacked(fields[0])))
+        if expression:
+            frame.expression = ExpressionField(*map(_whole, values[1 + viseme : 1 + viseme + expression]))
+    except ParameterError as error:
         raise FormatError(file, str(error), line=line) from error
     low_level = np.array(values[wanted - stated :], dtype=np.float64)
-    frame.values[2:][mask[2:]] = np.where(np.isinf(low_level), np.nan, low_level)
+    endless = np.isinf(low_level)
+    huge = ~endless & (np.abs(low_level) > LARGEST)
+    if huge.any():
+        place = wanted - stated + int(huge.argmax())
+        problem = f"value {place + 1} is beyond {LARGEST:.0f} FAP units: mend it, but it is {tokens[place]!r}"
+        raise FormatError(file, problem, line=line)
+    frame.values[2:][mask[2:]] = np.where(endless, np.nan, low_level)
     return frame
+
+
+def _high_level_counts(mask: Bools, tokens: Sequence[str]) -> tuple[int, int]:
+    """How many numbers FAP 1 and FAP 2 have on a value line; FAP 1 may be packed in one."""
+    expression = EXPRESSION_FIELDS if mask[1] else 0
+    if not mask[0]:
+        return 0, expression
+    packed = len(tokens) == 2 + expression + int(mask[2:].sum()) and len(tokens[1]) > 2
+    return 1 if packed else VISEME_FIELDS, expression
+
+
+def _whole(value: float) -> int:
+    """A sub-field's value; ParameterError where it is not whole."""
+    if not value.is_integer():
+        raise ParameterError("a sub-field of FAP 1 or 2", "must be a whole number", value)
+    return int(value)
 
 
 def _unpacked(number: int) -> list[int]:
@@ -197,11 +235,13 @@ def _unpacked(number: int) -> list[int]:
 
 
 def _number(token: str) -> float | None:
-    """A decimal number, or None; float() alone would take '1_000'."""
+    """A decimal number, or None; float() alone would take '1_000' and make 1e400 infinite."""
     try:
-        return None if "_" in token else float(token)
+        number = float(token)
     except ValueError:
         return None
+    overflowed = math.isinf(number) and token.lstrip("+-")[:3].lower() != "inf"
+    return None if "_" in token or overflowed else number
 
 
 def _stream(frames: Mapping[int, _Frame], *, fps: float, name: str, version: str) -> FapStream:
@@ -223,7 +263,7 @@ def _stream(frames: Mapping[int, _Frame], *, fps: float, name: str, version: str
 
 def _text(stream: FapStream, decimals: int) -> Iterator[str]:
     """The lines of the file."""
-    yield f"{stream.version} {stream.name} {stream.fps:.10g} {len(stream.frames)}\n"
+    yield f"{stream.version} {stream.name} {_rate(stream.fps)} {len(stream.frames)}\n"
     for index, (values, mask) in enumerate(zip(stream.frames, stream.mask, strict=True)):
         yield " ".join("1" if flag else "0" for flag in mask) + "\n"
         fields: list[str] = [str(index + stream.first_frame)]
@@ -233,6 +273,11 @@ def _text(stream: FapStream, decimals: int) -> Iterator[str]:
             fields += map(str, stream.expressions[index].values)
         fields += (_rounded(value, decimals) for value in values[2:][mask[2:]])
         yield " ".join(fields) + "\n"
+
+
+def _rate(fps: float) -> str:
+    """The shortest number that is read back as the same rate; most readers want whole ones whole."""
+    return str(int(fps)) if float(fps).is_integer() else repr(float(fps))
 
 
 def _rounded(value: float, decimals: int) -> str:

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 import numpy as np
 
 from ..arrays import Bools, Floats
 from ..errors import ParameterError
+from .filling import Filling, checked_filling, fill
 from .high_level import VISEME_SHAPES, ExpressionField, VisemeField, expand, expression_frame, viseme_frame
 from .standard import FAP_COUNT
+
+T = TypeVar("T")
 
 
 def _undecided() -> Bools:
@@ -99,3 +103,31 @@ class FapStream:
                 parts.append(viseme_frame(self.visemes[index], viseme_shapes))
             frames[index] = expand(frames[index], *parts)
         return frames
+
+    def filled(self, rule: str | Filling = Filling.STANDARD) -> FapStream:
+        """The stream with FAPs that are not stated filled by a rule of the standard (`Filling`).
+
+        Visemes and expressions have no other side: they are held, or left alone where the rule only copies.
+
+        Raises
+        ------
+        ParameterError
+            When there is no such rule.
+        """
+        frames = fill(self.frames, rule)
+        if checked_filling(rule) is Filling.COPY:
+            return replace(self, frames=frames, mask=_undecided())
+        count = len(frames)
+        visemes, expressions = _held(self.visemes, count), _held(self.expressions, count)
+        return replace(self, frames=frames, mask=_undecided(), visemes=visemes, expressions=expressions)
+
+
+def _held(fields: Mapping[int, T], count: int) -> dict[int, T]:
+    """Every frame's field, the last one before it where it has none."""
+    held: dict[int, T] = {}
+    for index in range(count):
+        if index in fields:
+            held[index] = fields[index]
+        elif index - 1 in held:
+            held[index] = held[index - 1]
+    return held

@@ -143,7 +143,7 @@ def _engine(name: str) -> Engine:
         raise ParameterError("engine", f"must be one of {', '.join(Engine)}", name) from None
 
 
-def _empty_file(fps: float) -> None:
+def empty_file(fps: float) -> None:
     """An empty file with this frame rate."""
     if not bpy.app.background:
         remedy = "run it from the command line (blender --command risorius)"
@@ -177,7 +177,7 @@ def _bake_file(
     """See `bake_file`."""
     film.refuse_unwritable_output(out)
     cues = cues_of(words)
-    _empty_file(fps)
+    empty_file(fps)
     yield Progress(0.0, "Loading the face")
     obj = subject(mesh, points, creases=bool(creases))
     if dynamic:
@@ -201,7 +201,7 @@ def _render_film(
     """See `render_film`."""
     film.refuse_unwritable_output(out)
     cues_of(words)
-    _empty_file(fps)
+    empty_file(fps)
     yield Progress(0.0, "Loading the face")
     obj = subject(mesh, points, creases=bool(creases))
     _, moved = yield from part_of(_move(obj, words, fps, creases), 0.02, 0.4)
@@ -219,7 +219,7 @@ def _demo(
     for path in (blend, movie, sheet):
         film.refuse_unwritable_output(path)
     cues_of(words)
-    _empty_file(fps)
+    empty_file(fps)
     yield Progress(0.0, "Loading the face")
     obj = subject(mesh, points, creases=bool(creases))
     cues, moved = yield from part_of(_move(obj, words, fps, creases), 0.02, 0.35)

@@ -146,10 +146,16 @@ HEADER = "2.1 x 25 1\n"
         (f"{HEADER}{_mask(3)}\n-1 1\n", 3, "frame number"),
         (f"{HEADER}{_mask(3)}\ninf 1\n", 3, "frame number"),
         (f"{HEADER}{_mask(3)}\n1 1\n{_mask(3)}\n1 2\n", 5, "frame 1 comes after frame 1"),
-        (f"{HEADER}{_mask(3)}\n0 1\n{_mask(3)}\n99999999 2\n", 5, "more than 1000000 frames"),
+        (f"{HEADER}{_mask(3)}\n0 1\n{_mask(3)}\n99999999 2\n", 5, "more than 10000 frames after 0"),
+        (f"{HEADER}{_mask(3)}\n99999999999 1\n", 3, "frame number must be"),
+        (f"{HEADER}{_mask(3, 4)}\n0 1 2e7\n", 3, "value 3 is beyond 10000000 FAP units"),
+        (f"{HEADER}{_mask(3)}\n0 1e999\n", 3, "value 2 must be a number"),
+        (f"2.1 x 1e999 1\n{_mask(3)}\n0 1\n", 1, "frame rate"),
+        (f"{HEADER}{_mask(1)}\n0 4.5 0 0 0\n", 3, "sub-field of FAP 1 or 2 must be a whole number"),
+        (f"{HEADER}{_mask(1)}\n0 145050.5\n", 3, "must be a whole number"),
         (f"{HEADER}{_mask(1)}\n0 15 0 0 0\n", 3, r"viseme_select1 must be a whole number in 0\.\.14"),
         (f"{HEADER}{_mask(2)}\n0 1 64 0 0 0 0\n", 3, "expression_intensity1"),
-        (f"{HEADER}{_mask(1)}\n0 inf 0 0 0\n", 3, "infinity"),
+        (f"{HEADER}{_mask(1)}\n0 inf 0 0 0\n", 3, "must be a whole number"),
     ],
 )
 def test_a_damaged_file_names_line_and_remedy(tmp_path: Path, text: str, line: int | None, says: str) -> None:
@@ -183,7 +189,7 @@ def test_values_are_rounded_to_whole_numbers_unless_asked(tmp_path: Path) -> Non
     path = tmp_path / "x.fap"
     write_fap(path, FapStream(frames, fps=24000 / 1001, name="two words"))
     lines = path.read_bytes().decode().splitlines()
-    assert lines[0] == "2.1 two words 23.97602398 1"
+    assert lines[0] == "2.1 two words 23.976023976023978 1"
     assert lines[2] == "0 0 12 100"
     assert b"\r" not in path.read_bytes()
     write_fap(path, FapStream(frames), decimals=2)
@@ -192,6 +198,22 @@ def test_values_are_rounded_to_whole_numbers_unless_asked(tmp_path: Path) -> Non
     )
     with pytest.raises(ParameterError, match="decimals"):
         write_fap(path, FapStream(frames), decimals=-1)
+
+
+def test_a_stream_that_could_not_be_read_again_is_not_written(tmp_path: Path) -> None:
+    path = tmp_path / "x.fap"
+    with pytest.raises(ParameterError, match="at least one frame"):
+        write_fap(path, FapStream(np.empty((0, 68))))
+    with pytest.raises(ParameterError, match="10000000 FAP units"):
+        write_fap(path, FapStream(np.full((1, 68), 1e8)))
+    assert not path.exists()
+
+
+def test_frames_in_all_too_many_are_refused(tmp_path: Path) -> None:
+    """Each gap is allowed, their sum is not: no memory is spent on it."""
+    text = "2.1 x 25 1\n" + "".join(f"{_mask(3)}\n{number} 1\n" for number in range(0, 1_000_001, 10_000))
+    with pytest.raises(FormatError, match="more than 1000000 frames"):
+        read_fap(_write(tmp_path, text))
 
 
 cells = st.integers(-99999, 99999).map(float) | st.just(float("nan"))
@@ -236,3 +258,54 @@ def test_a_stream_checks_its_parts() -> None:
         FapStream(np.full((1, 68), np.inf))
     assert FapStream(frames).mask[:, 2:].all()
     assert not FapStream(frames).mask[:, :2].any()
+
+
+tokens = st.sampled_from(
+    ["0", "1", "2", "-5", "63", "1e5", "inf", "nan", "1e999", "99999999", "x", "145050", "0.5", "_"]
+)
+lines = st.one_of(
+    st.lists(tokens, max_size=8).map(" ".join),
+    st.lists(st.sampled_from(["0", "0", "0", "1"]), min_size=66, max_size=70).map(" ".join),
+    st.sampled_from(["2.1 x 25 1", "3.1 x 25 1", "# note", "", _mask(1, 2, 3), "0 1 2 3 4 1 2 3 4 1 1 9"]),
+)
+texts = st.lists(lines, max_size=8).map(lambda rows: "\n".join(["2.1 x 25 1", *rows]).encode())
+
+
+def read_or_refused(path: Path) -> FapStream | FormatError:
+    """What the reader makes of a file; any other exception is a failure."""
+    try:
+        return read_fap(path)
+    except FormatError as error:
+        return error
+
+
+@given(st.binary(max_size=300) | texts)
+def test_any_bytes_are_a_stream_or_a_format_error(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
+    folder = tmp_path_factory.mktemp("fuzz")
+    read = read_or_refused(_write(folder, data))
+    if isinstance(read, FapStream):
+        write_fap(folder / "again.fap", read, decimals=9)
+        _assert_same(read_fap(folder / "again.fap"), read)
+    else:
+        assert read.path == folder / "some.fap"
+
+
+@given(st.integers(0, 4500), st.binary(min_size=1, max_size=3))
+def test_a_damaged_sample_is_a_stream_or_names_the_line(
+    shared: Path, tmp_path_factory: pytest.TempPathFactory, place: int, junk: bytes
+) -> None:
+    good = (shared / "samples" / "fap" / "vreng_anger.fap").read_bytes()
+    read = read_or_refused(_write(tmp_path_factory.mktemp("fuzz"), good[:place] + junk + good[place + len(junk) :]))
+    assert isinstance(read, FapStream) or read.line is not None or read.offset is not None
+
+
+@given(st.integers(0, 4590))
+def test_a_sample_that_is_cut_off_is_shorter_or_names_the_line(
+    shared: Path, tmp_path_factory: pytest.TempPathFactory, length: int
+) -> None:
+    whole = shared / "samples" / "fap" / "vreng_anger.fap"
+    read = read_or_refused(_write(tmp_path_factory.mktemp("cut"), whole.read_bytes()[:length]))
+    if isinstance(read, FapStream):
+        np.testing.assert_array_equal(read.frames[:-1], read_fap(whole).frames[: len(read.frames) - 1])
+    else:
+        assert read.line is not None or length == 0

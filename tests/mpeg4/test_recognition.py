@@ -14,12 +14,14 @@ from risorius.mpeg4 import (
     FEATURES,
     VARIANTS,
     Archetype,
+    Rule,
     Unit,
     archetype,
     expression,
     faps_from_features,
     recognise,
     recognise_features,
+    recognise_words,
 )
 from risorius.mpeg4.recognition import RELATIVE_WIDTH, membership
 
@@ -78,7 +80,7 @@ def test_membership_is_one_at_the_centre_and_falls_on_both_sides(centre: float, 
     assert at[0] < at[1] < 1.0
     assert at[4] < at[3] < 1.0
     np.testing.assert_allclose(at, at[::-1])
-    assert at[3] == pytest.approx(1.0 / (1.0 + way**2))
+    assert at[3] == pytest.approx(2.0 ** -(way**2))
 
 
 def test_equation_8_is_the_product() -> None:
@@ -89,6 +91,48 @@ def test_equation_8_is_the_product() -> None:
     assert recognise(frame)[Archetype.SADNESS] == pytest.approx(0.25)
     frame[18] = np.nan  # and one unseen: half again
     assert recognise(frame)["sadness"] == pytest.approx(0.125)  # type: ignore[index]
+
+
+@pytest.mark.parametrize(("name", "variant"), ALL)
+def test_the_robust_rule_recognises_them_too_and_no_single_fap_kills(name: Archetype, variant: int) -> None:
+    frame = archetype(name, variant).frame()
+    assert recognise(frame, rule="robust").best is name
+    asked = np.flatnonzero(~np.isnan(frame))
+    frame[asked[0]] = -3.0 * frame[asked[0]] - 200.0
+    assert recognise(frame, rule="robust")[name] > recognise(frame)[name]
+    assert recognise(frame, rule="robust")[name] > 0.1
+
+
+def test_the_robust_rule_is_the_geometric_mean_and_skips_what_is_not_seen() -> None:
+    sadness = archetype("sadness", 0)
+    frame = sadness.frame()
+    frame[30] += RELATIVE_WIDTH * sum(sadness.ranges[31]) / 2.0
+    count = int((~np.isnan(frame)).sum())
+    assert recognise(frame, rule=Rule.ROBUST)[Archetype.SADNESS] == pytest.approx(0.5 ** (1.0 / count))
+    frame[18] = np.nan
+    assert recognise(frame, rule=Rule.ROBUST)[Archetype.SADNESS] == pytest.approx(0.5 ** (1.0 / (count - 1)))
+
+
+def test_decisive_faps_tell_the_best_from_the_runner_up() -> None:
+    beliefs = recognise(np.nan_to_num(archetype("surprise", 0).frame()))
+    assert beliefs.best is Archetype.SURPRISE
+    weights = list(beliefs.decisive.values())
+    assert weights == sorted(weights, key=abs, reverse=True)
+    first, second = sorted(beliefs.values(), reverse=True)[:2]
+    assert sum(weights) == pytest.approx(np.log(first / second), rel=1e-6)
+
+
+def test_words_are_recognised_among_words() -> None:
+    words = ("guilty", "worried", "content", "terrified", "neutral")
+    for word in words[:-1]:
+        beliefs = recognise_words(np.nan_to_num(expression(word).frame()), words)
+        assert next(iter(beliefs)) == word
+        assert "neutral" not in beliefs
+
+
+def test_an_unknown_rule_is_refused() -> None:
+    with pytest.raises(ParameterError, match="paper, robust"):
+        recognise(np.zeros(68), rule="loud")
 
 
 @pytest.mark.parametrize("wrong", [np.zeros(67), np.zeros((2, 68)), np.full(68, np.inf)])
