@@ -170,7 +170,10 @@ class Known:
         emotion, so both are looked at.
         """
         seen, mirrored = recognise(request), recognise(mirror_frame(request))
-        evidence = {str(name): (float(belief) ** SHARPNESS + float(mirrored[name]) ** SHARPNESS) / 2.0 for name, belief in seen.items()}
+        evidence = {
+            str(name): (float(belief) ** SHARPNESS + float(mirrored[name]) ** SHARPNESS) / 2.0
+            for name, belief in seen.items()
+        }
         total = sum(evidence.values())
         if total <= 0.0:
             return cls({}, 0.0)
