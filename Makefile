@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps docs-pictures fit-report fit-sheets clean
+.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps docs-pictures fit-report fit-sheets track-evidence clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -36,6 +36,9 @@ fit-report: ## docs/fit.md: how well feature points are found on any head; ARGS=
 
 fit-sheets: ## points found on every shared head and the six emotions they make, in out/fit/; ARGS="--help" for parts of it
 	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/fit_sheets.py $(ARGS)
+
+track-evidence: ## docs/tracking.md: how well FAPs come back from films of known streams
+	@$(SETUP) bpy-4.5 track && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/track_evidence.py films && OMP_NUM_THREADS=1 .venv-track/bin/python tools/track_evidence.py read
 
 docs-pictures: ## the manual's pictures, taken in a real Blender window; ARGS="--only wheel" for some of them
 	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/docs_pictures.py $(ARGS)

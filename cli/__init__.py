@@ -17,6 +17,7 @@ from .faces import add_face_verbs
 from .films import add_film_verbs
 from .result import Result, UsageError, plain
 from .streams import add_stream_verbs
+from .track import add_track_verb
 
 DESCRIPTION = "An emotion word and an activation become a moving face."
 
@@ -57,6 +58,7 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     add_emotion_verbs(verbs)
     add_stream_verbs(verbs)
+    add_track_verb(verbs)
     add_film_verbs(verbs)
     add_face_verbs(verbs)
     return parser
