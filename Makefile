@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps docs-pictures fit-report fit-sheets track-evidence clean
+.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -30,6 +30,9 @@ trajectories: ## paths of the skin from rest to the six emotions, a picture in o
 
 docs-faps: ## docs/faps.md: what moves each FAP, measured on the faces
 	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/fap_table.py $(ARGS)
+
+evidence: ## docs/evidence.md: how well emotions are recognised; ARGS="--part page" writes it anew from out/evidence/
+	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/evidence.py $(ARGS)
 
 fit-report: ## docs/fit.md: how well feature points are found on any head; ARGS="--help" for parts of it
 	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/fit_report.py $(ARGS)
