@@ -15,6 +15,7 @@ from ..errors import RisoriusError
 from .emotions import add_emotion_verbs
 from .faces import add_face_verbs
 from .films import add_film_verbs
+from .recognition import add_recognition_verb
 from .result import Result, UsageError, plain
 from .streams import add_stream_verbs
 from .track import add_track_verb
@@ -61,4 +62,5 @@ def _parser() -> argparse.ArgumentParser:
     add_track_verb(verbs)
     add_film_verbs(verbs)
     add_face_verbs(verbs)
+    add_recognition_verb(verbs)
     return parser
