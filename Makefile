@@ -41,7 +41,7 @@ fit-sheets: ## points found on every shared head and the six emotions they make,
 	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/fit_sheets.py $(ARGS)
 
 track-evidence: ## docs/tracking.md: how well FAPs come back from films of known streams
-	@$(SETUP) bpy-4.5 track && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/track_evidence.py films && OMP_NUM_THREADS=1 .venv-track/bin/python tools/track_evidence.py read
+	@$(SETUP) bpy-4.5 track && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/track_evidence.py films && OMP_NUM_THREADS=1 .venv-track/bin/python tools/track_evidence.py read && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/track_evidence.py sheet
 
 docs-pictures: ## the manual's pictures, taken in a real Blender window; ARGS="--only wheel" for some of them
 	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/docs_pictures.py $(ARGS)

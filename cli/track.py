@@ -104,6 +104,7 @@ def _described(found: Track, out: Path) -> Result:
         "frames": len(stream.frames),
         "lost": found.lost,
         "neutral": "generic" if found.generic else found.neutral,
+        "doubts": found.doubts,
         "delay": found.delay,
         "ranges": {number: [min(values), max(values)] for number, values in used.items()},
         "confidence": sure,
@@ -120,6 +121,11 @@ def _described(found: Track, out: Path) -> Result:
         lines.append(
             f"neutral face from {len(found.neutral)} pictures at {found.neutral.min():.2f} .. "
             f"{found.neutral.max():.2f} s"
+        )
+    if found.doubts:
+        lines.append(
+            f"its mouth is unusual for a neutral face ({', '.join(found.doubts)}): if it smiles or speaks there, name "
+            "seconds of rest with --neutral FROM:TO, or use --neutral generic"
         )
     if found.delay:
         lines.append(f"slow motions come {1000.0 * found.delay:.0f} ms late")

@@ -2,9 +2,10 @@
 
     python tools/track_evidence.py films     in an environment with Blender's `bpy` and the shared heads
     python tools/track_evidence.py read      in one with `pip install -e .[track]` and scikit-image (for its photograph)
+    python tools/track_evidence.py sheet     in the first again
 
 The first step leaves pictures in out/track; the second reads them, writes the generic face and the trust in each FAP
-(presets/capture/generic_face.csv, camera_faps.csv) and the tables of docs/tracking.md.
+(presets/capture/generic_face.csv, camera_faps.csv) and the tables of docs/tracking.md; the third its picture.
 """
 
 from __future__ import annotations
@@ -48,13 +49,23 @@ def read_films(out: Path) -> None:
     write_tables(films, trust, emotions, read_photograph(out))
 
 
+def picture_what_was_read(out: Path) -> None:
+    """Show the emotions of one head played on another."""
+    from tracking.sheet import write_sheet
+
+    print(write_sheet(out / "emotions" / "ict-0", ROOT / "docs" / "pictures" / "tracking.jpg"))
+
+
+STEPS = {"films": make_films, "read": read_films, "sheet": picture_what_was_read}
+
+
 def main(argv: list[str] | None = None) -> int:
     """Run one step."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("step", choices=("films", "read"))
+    parser.add_argument("step", choices=STEPS)
     parser.add_argument("--out", type=Path, default=OUT, help="where the pictures are (default: out/track)")
     arguments = parser.parse_args(argv)
-    {"films": make_films, "read": read_films}[arguments.step](arguments.out)
+    STEPS[arguments.step](arguments.out)
     return 0
 
 

@@ -54,6 +54,7 @@ def _face_mesh(*, still: bool) -> Iterator[Any]:
     with _quiet():
         module = needed("mediapipe.python.solutions.face_mesh")
         mesh = module.FaceMesh(static_image_mode=still, max_num_faces=1, refine_landmarks=True)
+        mesh.process(np.zeros((64, 64, 3), dtype=np.uint8))  # its threads have said what they say by now
     with mesh:
         yield mesh
 

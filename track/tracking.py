@@ -12,7 +12,7 @@ from ..face.captured import read_landmarks
 from ..face.landmarks import LandmarkReading, Pose3
 from ..mpeg4 import FapStream
 from ..mpeg4.capture import Landmarks, Samples
-from .generic_face import generic_landmarks
+from .generic_face import generic_landmarks, unusual_mouth
 from .smoothing import Smoothing, smooth
 from .trust import GENERIC_WORTH, confidence
 
@@ -34,6 +34,7 @@ class Track:
     lost : frames of the stream without a face.
     neutral : seconds of the pictures that the neutral face was taken from; empty where it is the generic one.
     generic : whether the neutral face is nobody's: FAPs then hold how this person differs from the usual face.
+    doubts : points of the mouth that a neutral face seldom has where this one does: it may be smiling or speaking.
     delay : seconds by which slow motions come late.
     reading : the same before smoothing, at the pictures' own times, with the head's pose and the neutral face.
     """
@@ -43,6 +44,7 @@ class Track:
     lost: Ints
     neutral: Floats
     generic: bool
+    doubts: tuple[str, ...]
     delay: float
     reading: LandmarkReading
 
@@ -88,7 +90,8 @@ def track_landmarks(
     lost = np.flatnonzero(np.isnan(even).all(axis=1))
     stream = FapStream(kept, fps=rate, name=name)
     chosen = np.zeros(0) if generic else times[reading.chosen]
-    return Track(stream, sure, lost, chosen, generic, Smoothing(smoothing).delay, reading)
+    doubts = () if generic else unusual_mouth(reading.neutral)
+    return Track(stream, sure, lost, chosen, generic, doubts, Smoothing(smoothing).delay, reading)
 
 
 def _enough(sure: Floats, least: float, generic: bool) -> Bools:

@@ -94,6 +94,13 @@ def test_without_being_told_the_resting_face_is_neutral(smile: np.ndarray) -> No
     np.testing.assert_allclose(found.stream.frames[0, [2, 5, 11]], 0.0, atol=3.0)
 
 
+def test_a_smile_that_is_taken_for_neutral_is_doubted(smile: np.ndarray) -> None:
+    at_rest, smiling = (track_landmarks(recording(smile), neutral=when) for when in ((0.0, 0.6), (1.25, 1.55)))
+    assert at_rest.doubts == ()
+    assert set(smiling.doubts) == {"8.3", "8.4", "2.3"}
+    assert track_landmarks(recording(smile[35:36])).doubts == ()  # the generic face is not doubted against itself
+
+
 def test_one_picture_is_read_against_the_generic_face(smile: np.ndarray) -> None:
     own = track_landmarks(recording(smile), neutral=(0.0, 0.6), smoothing="none")
     found = track_landmarks(recording(smile[35:36]))

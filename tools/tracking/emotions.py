@@ -10,7 +10,7 @@ import numpy as np
 import risorius.api as api
 from risorius.track import find_landmarks, open_pictures, track_landmarks
 
-from .known import BEFORE, EMOTIONS, TRUTH
+from .known import BEFORE, EMOTIONS, READ, TRUTH
 
 RULES = ("paper", "robust")
 
@@ -25,11 +25,12 @@ class Recognised:
 
 
 def read_emotions(folder: Path) -> Recognised:
-    """Recognise each emotion of a film at its apex; the camera knows the person's neutral face."""
+    """Recognise each emotion of a film at its apex, told that it begins neutral; the stream is left beside the film."""
     told = np.load(folder / TRUTH)
     fps, shown = float(told["fps"]), told["shown"].tolist()
     landmarks = find_landmarks(open_pictures([folder], fps=fps))
     track = track_landmarks(landmarks, neutral=(0.0, (BEFORE - 0.5) / fps))
+    api.write_fap(folder / READ, track.stream)
     found = [
         {
             rule: {word: str(api.recognise(frames[shown.index(word) + 1], rule=rule).best) for word in EMOTIONS}

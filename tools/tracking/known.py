@@ -13,6 +13,9 @@ FPS = 12.5
 #: Beside a film's pictures: FAPs (T, 68) measured on the mesh, expressions (T,), pictures per second.
 TRUTH = "truth.npz"
 
+#: Beside a film of emotions: what was read off it.
+READ = "read.fap"
+
 #: Neutral frames before the first expression, and how strong each expression is from frame to frame.
 BEFORE = 4
 COURSE = (0.5, 1.0, 0.6, 0.0)
