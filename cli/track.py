@@ -28,8 +28,8 @@ def add_track_verb(verbs: Any) -> None:
     track.add_argument("source", nargs="+", metavar="SOURCE", help=SOURCES)
     track.add_argument("--out", type=Path, required=True, help=f"the stream to write: {', '.join(WRITABLE)}")
     track.add_argument("--neutral", help=NEUTRAL)
-    ways = "savgol looks ahead (recordings), euro lags a little (live), none (default: savgol; euro for a camera)"
-    track.add_argument("--smooth", choices=("savgol", "euro", "none"), help=ways)
+    ways = "savgol looks ahead and does not lag (default); euro knows the past only, as live use would; none"
+    track.add_argument("--smooth", choices=("savgol", "euro", "none"), default="savgol", help=ways)
     track.add_argument("--fps", type=float, help="frames per second (default: the film's; 25 for pictures)")
     track.add_argument("--seconds", type=float, help="how long (default: to the end; a camera: until Ctrl-C)")
     track.add_argument("--least", type=float, help="mask values less sure than this, 0..1 (default: 0.3)")
@@ -54,7 +54,7 @@ def _track(arguments: argparse.Namespace) -> Result:
         landmarks,
         fps=arguments.fps if pictures.live or len(landmarks.times) > 1 else pictures.fps,
         neutral=neutral,
-        smoothing=arguments.smooth or ("euro" if pictures.live else "savgol"),
+        smoothing=arguments.smooth,
         name=pictures.name,
         **options,
     )

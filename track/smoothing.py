@@ -21,8 +21,8 @@ REST_CUTOFF, RISE, SPEED_CUTOFF = 1.5, 0.01, 1.0
 class Smoothing(StrEnum):
     """How trembling is taken out.
 
-    SAVGOL looks ahead as far as back, so that nothing lags: for recordings (live it would come half a window late).
-    EURO knows the past only and lags, the less the faster the face moves: for live use. NONE leaves values alone.
+    SAVGOL looks ahead as far as back, so that nothing lags (live it would come half a window late). EURO knows the past
+    only and lags, the less the faster the face moves: what live use could have. NONE leaves values alone.
     """
 
     SAVGOL = "savgol"

@@ -6,14 +6,16 @@ import csv
 import importlib.util
 import json
 import sys
+import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import risorius.api as api
 from risorius.cli import main
 from risorius.errors import FormatError, ParameterError, RisoriusError
-from risorius.track import open_pictures
+from risorius.track import find_landmarks, open_pictures
 
 #: The default head: neutral twice, jaw open, smile, brows up, lids shut, head turned down and to its left.
 PICTURES = Path(__file__).parent / "pictures"
@@ -106,6 +108,74 @@ def test_a_film_is_read_picture_by_picture(tmp_path: Path) -> None:
         assert picture.shape == (48, 64, 3)
         np.testing.assert_allclose(picture[24, 32], (red, 0, 0), atol=8)
     assert len(list(open_pictures([path], seconds=0.1).frames)) == 2
+
+
+class FakeCamera:
+    """What OpenCV calls a camera: four pictures of one grey each, then nothing."""
+
+    def __init__(self, number: int) -> None:
+        self.number, self.shown, self.released = number, 0, False
+
+    def isOpened(self) -> bool:
+        return self.number < 2
+
+    def get(self, _property: int) -> float:
+        return 0.0  # many cameras do not say
+
+    def read(self) -> tuple[bool, np.ndarray | None]:
+        time.sleep(0.002)
+        self.shown += 1
+        return (True, np.full((8, 8, 3), self.shown, dtype=np.uint8)) if self.shown <= 4 else (False, None)
+
+    def release(self) -> None:
+        self.released = True
+
+
+@pytest.fixture
+def camera(monkeypatch: pytest.MonkeyPatch) -> list[FakeCamera]:
+    """The cameras that were opened."""
+    opened: list[FakeCamera] = []
+
+    def open_camera(number: int) -> FakeCamera:
+        opened.append(FakeCamera(number))
+        return opened[-1]
+
+    monkeypatch.setitem(sys.modules, "cv2", SimpleNamespace(VideoCapture=open_camera, CAP_PROP_FPS=5))
+    return opened
+
+
+def test_a_camera_gives_pictures_with_the_time_they_came_at(camera: list[FakeCamera]) -> None:
+    pictures = open_pictures(["camera:1"])
+    assert (pictures.live, pictures.count, pictures.fps) == (True, None, 25.0)
+    shots = list(pictures.frames)
+    assert [int(picture[0, 0, 0]) for _, picture in shots] == [1, 2, 3, 4]
+    assert (np.diff([when for when, _ in shots]) > 0.0).all()
+    assert (camera[0].number, camera[0].released) == (1, True)
+    with pytest.raises(RisoriusError, match="camera 2 cannot be opened"):
+        open_pictures(["camera:2"])
+
+
+@pytest.mark.usefixtures("camera")
+def test_an_interrupt_ends_a_camera_and_keeps_what_was_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    class FakeMesh:
+        """A face mesh that sees the same face in every picture, until somebody presses Ctrl-C."""
+
+        def __init__(self, **_options: object) -> None: ...
+        def __enter__(self) -> FakeMesh:
+            return self
+
+        def __exit__(self, *_error: object) -> None: ...
+        def process(self, picture: np.ndarray) -> SimpleNamespace:
+            if picture[0, 0, 0] == 3:
+                raise KeyboardInterrupt
+            face = SimpleNamespace(landmark=[SimpleNamespace(x=0.5, y=0.25, z=0.1)] * 478)
+            return SimpleNamespace(multi_face_landmarks=[face] if picture[0, 0, 0] else None)
+
+    module = "mediapipe.python.solutions.face_mesh"
+    monkeypatch.setitem(sys.modules, module, SimpleNamespace(FaceMesh=FakeMesh))
+    seen = find_landmarks(open_pictures(["camera"]))
+    assert seen.positions.shape == (2, 478, 3)
+    np.testing.assert_allclose(seen.positions[0, 0], (0.5, -0.25, -0.1))
 
 
 @pytest.fixture

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 from risorius.arrays import Bools, Floats
+from risorius.face.landmarks import LandmarkReading
 from risorius.mpeg4 import FAP_COUNT, FAPS
+from risorius.mpeg4.capture import Landmarks
 from risorius.track import Smoothing, find_landmarks, open_pictures, track_landmarks
 
 from .known import BEFORE, TRUTH
@@ -42,24 +44,26 @@ def read_film(folder: Path) -> FilmFigures:
     told = np.load(folder / TRUTH)
     shown, fps = told["frames"], float(told["fps"])
     landmarks = find_landmarks(open_pictures([folder], fps=fps))
-    options = {"smoothing": Smoothing.NONE, "least": 0.0}
-    track = track_landmarks(landmarks, neutral=(0.0, (BEFORE - 0.5) / fps), **options)
-    read = track.reading.frames
-    moved = _moved(shown)
-    figures = np.full((5, FAP_COUNT), np.nan)
+    reading = _unsmoothed(landmarks, (0.0, (BEFORE - 0.5) / fps))
+    read, moved = reading.frames, _moved(shown)
+    figures = {name: np.full(FAP_COUNT, np.nan) for name in ("correlation", "slope", "error", "span", "trembling")}
     for column in np.flatnonzero(moved & np.isfinite(read).any(axis=0)):
-        both = np.isfinite(read[:, column]) & np.isfinite(shown[:, column])
+        both = np.isfinite(read[:, column])
         seen, true = read[both, column], shown[both, column]
-        figures[:, column] = (
-            np.corrcoef(seen, true)[0, 1],
-            np.polyfit(true, seen, 1)[0],
-            np.sqrt(((seen - true) ** 2).mean()),
-            np.ptp(true),
-            read[:BEFORE, column].std(),
-        )
-    chosen = track_landmarks(landmarks, **options).reading.chosen
+        figures["correlation"][column] = np.corrcoef(seen, true)[0, 1]
+        figures["slope"][column] = np.polyfit(true, seen, 1)[0]
+        figures["error"][column] = np.sqrt(((seen - true) ** 2).mean())
+        figures["span"][column] = np.ptp(true)
+        figures["trembling"][column] = read[:BEFORE, column].std()
+    lost = int(np.isnan(reading.pose.scales).sum())
+    chosen = _unsmoothed(landmarks, None).chosen
     resting = (np.abs(shown[chosen][:, moved]) < 0.1 * np.abs(shown[:, moved]).max(axis=0)).all(axis=1)
-    return FilmFigures(folder.name, len(read), len(track.lost), *figures, own_neutral=float(resting.mean()))
+    return FilmFigures(folder.name, len(read), lost, own_neutral=float(resting.mean()), **figures)
+
+
+def _unsmoothed(landmarks: Landmarks, neutral: tuple[float, float] | None) -> LandmarkReading:
+    """Every value that is read, however unsure."""
+    return track_landmarks(landmarks, neutral=neutral, smoothing=Smoothing.NONE, least=0.0).reading
 
 
 def _moved(shown: Floats) -> Bools:

@@ -48,7 +48,7 @@ EMOTIONS = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
 
 def known_expressions() -> dict[str, Floats]:
     """Expression -> (68,) FAPs at full strength, NaN where it says nothing."""
-    apexes = {name: np.full(68, np.nan) for name in EXPRESSIONS}
+    apexes: dict[str, Floats] = {name: np.full(68, np.nan) for name in EXPRESSIONS}
     for name, values in EXPRESSIONS.items():
         for number, value in values.items():
             apexes[name][number - 1] = value
@@ -66,7 +66,8 @@ STREAMS = {"faps": known_expressions, "emotions": known_emotions}
 
 def stream_of(apexes: Mapping[str, Floats]) -> tuple[Floats, list[str]]:
     """(T, 68) frames, NaN where they say nothing, and the expression that each frame shows."""
-    rows, shown = [np.full(68, np.nan)] * BEFORE, ["neutral"] * BEFORE
+    rows: list[Floats] = [np.full(68, np.nan)] * BEFORE
+    shown = ["neutral"] * BEFORE
     for name, apex in apexes.items():
         rows += [strength * apex if strength > 0.0 else np.full(68, np.nan) for strength in COURSE]
         shown += [name] * len(COURSE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 
 from risorius.track import Track, find_landmarks, open_pictures, track_landmarks
@@ -9,8 +10,7 @@ from risorius.track import Track, find_landmarks, open_pictures, track_landmarks
 
 def read_photograph(out: Path) -> Track:
     """Track the photograph (public domain, NASA), which has no neutral face to go with it."""
-    from skimage import data, io
-
     path = out / "astronaut.png"
-    io.imsave(path, data.astronaut(), check_contrast=False)
+    picture = import_module("skimage.data").astronaut()
+    import_module("skimage.io").imsave(path, picture, check_contrast=False)
     return track_landmarks(find_landmarks(open_pictures([path])), name="astronaut")
