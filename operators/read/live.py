@@ -1,7 +1,7 @@
 """Keeps the reading of the active face up to date while a panel shows it.
 
 Panels compute nothing: a panel that is drawn says so, and a timer reads what has changed since, at most ten times a
-second. A closed panel is not drawn, so nothing is read for it.
+second, and less often where reading takes long. A closed panel is not drawn, so nothing is read for it.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from ...scene.live_face import uid_of
 from ...scene.reading import FaceReader, Reading
 from ..active import reading_reason
 
-#: Least seconds between two readings.
-PACE = 0.1
+#: Least seconds between two readings, and least multiple of the time that the last one took.
+PACE, SHARE = 0.1, 4.0
 
 
 class _Live:
@@ -31,7 +31,7 @@ class _Live:
         self.trouble = ""
         self.is_stale = True
         self.was_drawn = False
-        self.last = 0.0
+        self.last, self.cost = -float("inf"), 0.0
 
 
 _live = _Live()
@@ -87,7 +87,12 @@ def _ids(obj: Any) -> tuple[int, int]:
 def _soon() -> None:
     """Read as soon as the pace allows."""
     if not bpy.app.background and not bpy.app.timers.is_registered(_read):
-        bpy.app.timers.register(_read, first_interval=max(0.0, _live.last + PACE - time.monotonic()))
+        bpy.app.timers.register(_read, first_interval=_wait(time.monotonic()))
+
+
+def _wait(now: float) -> float:
+    """Seconds until the next reading."""
+    return max(0.0, _live.last + max(PACE, SHARE * _live.cost) - now)
 
 
 def _read() -> None:
@@ -95,8 +100,9 @@ def _read() -> None:
     obj = bpy.context.object
     if not _live.is_stale or obj is None or obj.type != "MESH" or bpy.app.is_job_running("RENDER"):
         return
-    refresh(obj)
     _live.last = time.monotonic()
+    refresh(obj)
+    _live.cost = time.monotonic() - _live.last
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             for region in area.regions if area.type == "VIEW_3D" else ():
@@ -112,6 +118,7 @@ def _after_frame(*_: Any) -> None:
 def _after_update(_scene: Any, depsgraph: Any = None) -> None:
     """Something was evaluated anew: the face, perhaps."""
     if not _live.was_drawn or _live.of is None:
+        _live.is_stale = True
         return
     graph = depsgraph if depsgraph is not None else bpy.context.evaluated_depsgraph_get()
     if any(update.id.original.session_uid in _live.of for update in graph.updates):

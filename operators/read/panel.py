@@ -121,7 +121,7 @@ class RISORIUS_PT_read_faps(Sidebar, bpy.types.Panel):
         _row(column, "", "shown", "asked")
         for number in sorted(seen if chosen.all_faps else {*ranges, *marked}):
             value = f"{reading.frame[number - 1]:.0f}" if number in seen else "unseen"
-            asked = "{:.0f}..{:.0f}".format(*ranges[number]) if number in ranges else ""
+            asked = _range(*ranges[number]) if number in ranges else ""
             _row(column, f"{marked.get(number, '')}{number} {api.fap(number).name}", value, asked)
         if profile is not None:
             layout.label(text=f"+ speaks for {reading.beliefs.best}, - against it")
@@ -153,11 +153,16 @@ class RISORIUS_PT_read_features(Sidebar, bpy.types.Panel):
             _row(column, f"f{feature.number}  {points}", f"{value:.0f}", str(feature.unit))
 
 
+def _range(low: float, high: float) -> str:
+    """A range as its middle and half of its length: ends of four figures and a sign do not fit into a sidebar."""
+    return f"{(low + high) / 2.0:.0f}±{(high - low) / 2.0:.0f}"
+
+
 def _row(column: Any, name: str, value: str, beside: str) -> None:
     """A name, a value, and what stands beside it."""
     split = column.split(factor=0.57, align=True)
     split.label(text=name)
-    right = split.split(factor=0.38, align=True)
+    right = split.split(factor=0.42, align=True)
     for text in (value, beside):
         row = right.row()
         row.alignment = "RIGHT"

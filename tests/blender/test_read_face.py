@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.errors import SceneError
-from risorius.operators.read import live, panel
+from risorius.operators.read import live, ops, panel
 from risorius.scene import belief_curves
 from risorius.scene.faces import face_of, read_face
 from risorius.scene.mesh import rest_vertices
@@ -187,7 +187,7 @@ def test_the_panel_shows_beliefs_faps_and_features(smiling: Any, monkeypatch: py
     assert beliefs.best_profile is not None
     for number, (low, high) in beliefs.best_profile.ranges.items():
         assert f"{number} {api.fap(number).name}" in [text.lstrip("+- ") for text in faps]
-        assert f"{low:.0f}..{high:.0f}" in faps
+        assert f"{(low + high) / 2:.0f}±{(high - low) / 2:.0f}" in faps
     first, speaks = next(iter(beliefs.decisive.items()))
     assert f"{'+' if speaks > 0.0 else '-'} {first} {api.fap(first).name}" in faps
     assert "58 raise_b_lip_rm_o" not in faps
@@ -217,6 +217,23 @@ def test_nothing_is_read_for_a_panel_that_nobody_sees(smiling: Any, monkeypatch:
     smiling.data.shape_keys.key_blocks["Mine"].mute = True
     bpy.context.view_layer.update()
     assert asked
+    live.refresh(smiling)
+    asked.clear()
+    smiling.data.shape_keys.key_blocks["Mine"].mute = False
+    bpy.context.view_layer.update()
+    assert asked == []
+    live.shown(smiling)
+    assert asked, "a panel that is opened again shows what has changed meanwhile"
+
+
+def test_a_face_that_takes_long_to_read_is_read_less_often(monkeypatch: pytest.MonkeyPatch) -> None:
+    state = live._Live()
+    monkeypatch.setattr(live, "_live", state)
+    assert live._wait(now=100.0) == 0.0
+    state.last, state.cost = 100.0, 0.01
+    assert live._wait(now=100.0) == pytest.approx(live.PACE)
+    state.cost = 0.5
+    assert live._wait(now=100.5) == pytest.approx(0.5 * live.SHARE - 0.5)
 
 
 def test_the_animation_becomes_curves_a_plot_and_files(smiling: Any, tmp_path: Path) -> None:
@@ -279,7 +296,10 @@ def test_cancelled_reading_leaves_all_as_it_was(smiling: Any) -> None:
     assert not belief_curves.has_curves(smiling)
 
 
-def test_a_file_that_cannot_be_written_is_refused_before_anything_is_read(smiling: Any, tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_is_refused_before_anything_is_read(
+    smiling: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ops, "read_animation", lambda *_, **__: pytest.fail("it was read"))
     (tmp_path / "folder.csv").mkdir()
     bpy.context.scene.risorius.read.table = str(tmp_path / "folder.csv")
     with pytest.raises(RuntimeError, match=r"folder\.csv"):
