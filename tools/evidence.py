@@ -32,7 +32,7 @@ def main() -> None:
     arguments = _arguments()
     shared = shared_folder()
     heads, samples = shared / "heads", shared / "samples" / "fap"
-    draws = DRAWS if arguments.draws is None else {**DRAWS, Series.NATURAL: arguments.draws}
+    draws = DRAWS if arguments.draws is None else dict.fromkeys(Series, arguments.draws)
     build = faces(heads)
     for part in arguments.part:
         begun = time.perf_counter()
@@ -64,9 +64,7 @@ def _arguments() -> argparse.Namespace:
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--part", nargs="+", choices=PARTS, default=PARTS, help="what to run; by default everything")
-    parser.add_argument(
-        "--draws", type=int, help=f"draws of the natural drive per face (default {DRAWS[Series.NATURAL]})"
-    )
+    parser.add_argument("--draws", type=int, help="draws inside the ranges on each face, in every series")
     return parser.parse_args()
 
 

@@ -45,9 +45,14 @@ POSED = """
 ## Posed faces
 
 Each of the 25 profiles of Table 5 at {shares} of its archetype's own activation (held to 1..7), drawn inside
-its ranges anew on each of {faces} faces: the default head, ICT, MakeHuman and six identities.
-{counts}
+its ranges anew on each of {faces} faces: the default head, ICT, MakeHuman and six identities
+({counts}).
 *Natural* and *exact* are the drives, told the word; *untold* is the natural drive given the FAPs without the word.
+"""
+
+FEATURES = """
+Features see distances alone. Fear on a face that obeys anatomy parts the mouth's corners and opens the eyes wide, which
+is all that joy's variant 2 shows there: nothing in it speaks against the open jaw and the raised brows of fear.
 """
 
 SHAPES = """
@@ -170,9 +175,8 @@ def _head(*names: object) -> Table:
 
 def _posed(posed: Mapping[Series, Measured], said: Mapping[Series, Mapping[Way, np.ndarray]]) -> Table:
     """Everything about posed archetypes."""
-    counts = " ".join(
-        f"{str(each).capitalize()}: {len(measured.faps)} poses, {_draws(measured)} draws per profile and activation."
-        for each, measured in posed.items()
+    counts = "; ".join(
+        f"{each}: {len(measured.faps)} poses, {_draws(measured)} draws each" for each, measured in posed.items()
     )
     natural = posed[Series.NATURAL]
     lines = [
@@ -182,7 +186,7 @@ def _posed(posed: Mapping[Series, Measured], said: Mapping[Series, Mapping[Way, 
     for series, measured in posed.items():
         pairs = [correct(measured.asked, said[series][way]) for way in Way]
         lines.append(_row([series, *(f"{percent(right)} / {percent(least)}" for right, least in pairs)]))
-    lines += ["", "![Confusions](pictures/evidence-confusion.png)", ""]
+    lines += [FEATURES, "![Confusions](pictures/evidence-confusion.png)", ""]
     for way in (Way.FAPS_PAPER, Way.FAPS_ROBUST):
         lines += ["", f"Natural drive, {way} rule: rows are posed, columns recognised, per cent.", ""]
         lines += _head("", *EMOTIONS, NOTHING)

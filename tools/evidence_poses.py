@@ -37,8 +37,8 @@ class Series(StrEnum):
     WORDS = "words"
 
 
-#: Draws inside the ranges on each face, per profile and activation: one where all faces show the same, as asked.
-DRAWS = {Series.NATURAL: 3, Series.EXACT: 1, Series.UNTOLD: 1, Series.WORDS: 1}
+#: Draws inside the ranges on each face, per profile and activation.
+DRAWS = {Series.NATURAL: 3, Series.EXACT: 3, Series.UNTOLD: 1, Series.WORDS: 1}
 
 
 @dataclass(frozen=True)
