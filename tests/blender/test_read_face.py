@@ -226,6 +226,20 @@ def test_nothing_is_read_for_a_panel_that_nobody_sees(smiling: Any, monkeypatch:
     assert asked, "a panel that is opened again shows what has changed meanwhile"
 
 
+def test_a_bone_that_is_posed_is_heard_of(smiling: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+    bone = with_bone(smiling)
+    bpy.context.view_layer.update()
+    monkeypatch.setattr(live, "_live", live._Live())
+    live.refresh(smiling)
+    monkeypatch.setattr(live, "_soon", lambda: asked.append(1))
+    live.shown(smiling)
+    assert asked == []
+    bone.rotation_euler = (0.3, 0.0, 0.0)
+    bpy.context.view_layer.update()
+    assert asked
+
+
 def test_a_face_that_takes_long_to_read_is_read_less_often(monkeypatch: pytest.MonkeyPatch) -> None:
     state = live._Live()
     monkeypatch.setattr(live, "_live", state)
