@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps docs-pictures fit-report fit-sheets clean
+.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -31,11 +31,17 @@ trajectories: ## paths of the skin from rest to the six emotions, a picture in o
 docs-faps: ## docs/faps.md: what moves each FAP, measured on the faces
 	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/fap_table.py $(ARGS)
 
+evidence: ## docs/evidence.md: how well emotions are recognised; ARGS="--part page" writes it anew from out/evidence/
+	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/evidence.py $(ARGS)
+
 fit-report: ## docs/fit.md: how well feature points are found on any head; ARGS="--help" for parts of it
 	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/fit_report.py $(ARGS)
 
 fit-sheets: ## points found on every shared head and the six emotions they make, in out/fit/; ARGS="--help" for parts of it
 	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/fit_sheets.py $(ARGS)
+
+track-evidence: ## docs/tracking.md: how well FAPs come back from films of known streams
+	@$(SETUP) bpy-4.5 track && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/track_evidence.py films && OMP_NUM_THREADS=1 .venv-track/bin/python tools/track_evidence.py read && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/track_evidence.py sheet
 
 docs-pictures: ## the manual's pictures, taken in a real Blender window; ARGS="--only wheel" for some of them
 	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/docs_pictures.py $(ARGS)

@@ -16,8 +16,10 @@ from .capture import add_capture_verbs
 from .emotions import add_emotion_verbs
 from .faces import add_face_verbs
 from .films import add_film_verbs
+from .recognition import add_recognition_verb
 from .result import Result, UsageError, plain
 from .streams import add_stream_verbs
+from .track import add_track_verb
 
 DESCRIPTION = "An emotion word and an activation become a moving face."
 
@@ -58,7 +60,9 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     add_emotion_verbs(verbs)
     add_stream_verbs(verbs)
+    add_track_verb(verbs)
     add_film_verbs(verbs)
     add_face_verbs(verbs)
     add_capture_verbs(verbs)
+    add_recognition_verb(verbs)
     return parser

@@ -1,32 +1,29 @@
-"""Verbs that look at a mesh: measure, recognise, points."""
+"""Verbs that look at a mesh: measure, points."""
 
 from __future__ import annotations
 
 import argparse
 import json
 import math
+import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..errors import ParameterError
+from ..errors import ModelError
 from ..face.fit.doubt import DOUBTFUL
 from .options import add_face, face_of, verb, vertices_of
 from .result import Result, UsageError
 
 
 def add_face_verbs(verbs: Any) -> None:
-    """Add measure, recognise and points to the verbs."""
+    """Add measure and points to the verbs."""
     measure = verb(verbs, "measure", _measure)
     measure.add_argument("deformed", type=Path, nargs="+", help="meshes with the neutral face's vertices, moved")
     add_face(measure)
     measure.add_argument("--out", type=Path, help="a .fap file to write, a frame per mesh")
-
-    recognise = verb(verbs, "recognise", _recognise)
-    recognise.add_argument("file", type=Path, help="a .fap file, or a deformed mesh")
-    recognise.add_argument("--frame", type=int, help="which frame of a .fap file (default: the strongest)")
-    add_face(recognise)
 
     points = verb(verbs, "points", _points)
     about = 'a JSON file {"8.4": vertex index or [x, y, z], ...} to check; without it, the points are found'
@@ -36,35 +33,41 @@ def add_face_verbs(verbs: Any) -> None:
 
 
 def _measure(arguments: argparse.Namespace) -> Result:
-    """FAPs of deformed meshes against a neutral one."""
+    """FAPs and features of deformed meshes against a neutral one."""
     from .. import api
 
     face = face_of(arguments)
-    frames = {str(path): face.measure(vertices_of(path, face)) for path in arguments.deformed}
+    frames, features = {}, {}
+    for path in arguments.deformed:
+        vertices = vertices_of(path, face)
+        frames[str(path)], features[str(path)] = face.measure(vertices), _features(face, vertices)
     if arguments.out:
         stream = api.FapStream(frames=np.stack(list(frames.values())), fps=arguments.fps, name=arguments.out.stem)
         api.write_fap(arguments.out, stream)
-    lines = [line for path, frame in frames.items() for line in (path, *_frame_lines(frame))]
-    return Result({path: _named(frame) for path, frame in frames.items()}, lines)
+    lines = []
+    for path, frame in frames.items():
+        lines += [path, *_frame_lines(frame), *_feature_lines(features[path])]
+    return Result({path: {**_named(frame), **features[path]} for path, frame in frames.items()}, lines)
 
 
-def _recognise(arguments: argparse.Namespace) -> Result:
-    """Beliefs in the archetypes, from a .fap file or a deformed mesh."""
+def _features(face: Any, vertices: Any) -> dict[str, float]:
+    """Features f1 to f15 of a deformed mesh; none where the face lacks points for them."""
+    try:
+        return {f"f{index + 1}": float(value) for index, value in enumerate(face.features(vertices))}
+    except ModelError as lack:
+        print(f"risorius measure: {lack}", file=sys.stderr)
+        return {}
+
+
+def _feature_lines(features: Mapping[str, float]) -> list[str]:
+    """The features, a line each."""
     from .. import api
 
-    if arguments.file.suffix.lower() == ".fap":
-        frames = api.read_fap(arguments.file).expanded()
-        strongest = int(np.nansum(np.abs(frames), axis=1).argmax())
-        index = strongest if arguments.frame is None else arguments.frame
-        if not 0 <= index < len(frames):
-            raise ParameterError("frame", f"must lie in 0..{len(frames) - 1}", index)
-        frame = frames[index]
-    else:
-        face = face_of(arguments)
-        frame = face.measure(vertices_of(arguments.file, face))
-    beliefs = {str(name): belief for name, belief in api.recognise(frame).items()}
-    beliefs = dict(sorted(beliefs.items(), key=lambda item: -item[1]))
-    return Result(beliefs, [f"{name:<12} {belief:.3f}" for name, belief in beliefs.items()])
+    known = {f"f{feature.number}": feature for feature in api.FEATURES}
+    return [
+        f"{name:<4} {f'{known[name].point_a} to {known[name].point_b}':<24} {value:8.1f}  {known[name].unit}"
+        for name, value in features.items()
+    ]
 
 
 def _points(arguments: argparse.Namespace) -> Result:

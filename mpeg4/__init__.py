@@ -5,7 +5,7 @@ archetypes, words, emotion_presets   Tables 2, 4, 5 and 6, and the user's own wo
 profile, wheel, intermediate         ranges of FAPs; activation and angle; mixing two emotions
 expressions                          a word, or a point of the wheel, becomes a profile
 timing, variation                    profiles become frames, and look alive
-features, recognition                frames become beliefs
+features, recognition, belief_track  frames become beliefs
 fap_stream, filling, fap_file, fap_json   frames on disk, and what they do not state
 fba                                  the binary stream
 """
@@ -22,6 +22,7 @@ from .archetypes import (
     archetype,
     initial_profile,
 )
+from .belief_track import BeliefTrack, recognise_over_time, write_belief_csv
 from .emotion_presets import WORDS, load_emotions
 from .expressions import default_variant, expression, find_word, neighbours
 from .fap_file import read_fap, write_fap
@@ -44,7 +45,7 @@ from .high_level import (
 )
 from .intermediate import between
 from .profile import ARCHETYPES, Archetype, Profile, Signs
-from .recognition import Beliefs, Rule, recognise, recognise_features, recognise_words
+from .recognition import Beliefs, Rule, recognise, recognise_features, recognise_words, shown_strength
 from .standard import (
     FAP_COUNT,
     FAPS,
@@ -93,6 +94,7 @@ __all__ = [
     "WORDS",
     "Archetype",
     "AuTerm",
+    "BeliefTrack",
     "Beliefs",
     "Cue",
     "Decoded",
@@ -142,10 +144,13 @@ __all__ = [
     "read_fba",
     "recognise",
     "recognise_features",
+    "recognise_over_time",
     "recognise_words",
     "sequence",
+    "shown_strength",
     "strengths",
     "viseme_frame",
+    "write_belief_csv",
     "write_fap",
     "write_fap_json",
     "write_fba",

@@ -2,7 +2,7 @@
 
 A profile is a fuzzy class per FAP; the belief in it is the product of the observed FAPs' memberships (8); the belief in
 an emotion is that in its best profile (9). The shape of the membership function (figure 6) is lost: `membership` is the
-one that recognised most posed faces (docs/evidence.md).
+one that served the emotion best that fared worst on posed faces (docs/evidence.md).
 
 A product has two weaknesses: one FAP that a face does not show kills a profile, and profiles of few FAPs are believed
 more readily than those of many. The robust rule is its cure, and stands beside it.
@@ -93,6 +93,14 @@ class Beliefs(dict[Archetype, float]):
         name = max(self, key=self.__getitem__)
         return name if self[name] > 0.0 else None
 
+    @property
+    def best_profile(self) -> Profile | None:
+        """The profile of Table 5 that decided for the best emotion, in MPEG-4 signs; None where nothing is believed."""
+        if self.best is None:
+            return None
+        variants = self.profiles[self.best]
+        return archetype(self.best, max(variants, key=variants.__getitem__))
+
 
 def membership(values: Floats, centres: Floats, widths: Floats) -> Floats:
     """Membership in fuzzy classes: 1 at the centre, 1/2 one width away, a normal curve.
@@ -156,6 +164,28 @@ def recognise_words(frame: ArrayLike, words: Iterable[str], *, rule: str | Rule 
         if profile.ranges
     }
     return dict(sorted(beliefs.items(), key=lambda item: -item[1]))
+
+
+def shown_strength(frame: ArrayLike, profile: Profile) -> float:
+    """How strongly a frame shows a profile: 0 not at all, 1 as the profile asks in the middle of its ranges.
+
+    Beliefs tell what an expression is most like, and that is something on a resting face, too; this tells whether there
+    is an expression. It is the share of the profile that comes closest to the frame (least squares), never below 0.
+
+    Parameters
+    ----------
+    frame : as for `recognise`. FAPs that were not observed, or that the profile leaves alone, do not count.
+
+    Raises
+    ------
+    ParameterError
+        When the frame has another shape or infinite values.
+    """
+    values, centres = _checked(frame), profile.frame()
+    counted = ~np.isnan(values) & ~np.isnan(centres)
+    wanted = centres[counted]
+    size = float(wanted @ wanted)
+    return max(0.0, float(values[counted] @ wanted) / size) if size > 0.0 else 0.0
 
 
 def recognise_features(features: ArrayLike, *, rule: str | Rule = Rule.PAPER) -> Beliefs:

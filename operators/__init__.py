@@ -14,6 +14,7 @@ _PROPERTIES = (
     "timeline.props",
     "bake.props",
     "film.props",
+    "read.props",
     "points.props",
     "parts.props",
     "wheel.props",
@@ -43,6 +44,7 @@ _OPERATORS = (
     "face.six",
     "library.ops",
     "film.ops",
+    "read.ops",
 )
 #: In the order of work, which is that of the sidebar.
 _PANELS = (
@@ -58,6 +60,7 @@ _PANELS = (
     "timeline.panel",
     "library.panel",
     "bake.panel",
+    "read.panel",
     "film.panel",
 )
 #: Modules that draw or listen from registration on: attached in this order, detached in the opposite one.
@@ -74,6 +77,7 @@ _ATTACHED = (
     "timeline.drag",
     "preview.live",
     "show.overlay",
+    "read.live",
 )
 
 _command: Any = None

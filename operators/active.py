@@ -35,7 +35,16 @@ def face_reason(obj: Any | None) -> str | None:
 
 def ready_reason(obj: Any | None) -> str | None:
     """Why the active object cannot be shown or moved at once, or None: it needs its feature points, too."""
-    reason = face_reason(obj)
-    if reason is None and obj is not None and not has_points(obj):
-        return f"{obj.name}: has no feature points yet: find the face, click them, or import them"
-    return reason
+    return face_reason(obj) or _pointless(obj)
+
+
+def reading_reason(obj: Any | None) -> str | None:
+    """Why the active object cannot be read as a face, or None. What is linked or shared may be read, too."""
+    return refusals.reason(obj, writing=False) or _pointless(obj)
+
+
+def _pointless(obj: Any | None) -> str | None:
+    """That a face has no feature points yet, or None."""
+    if obj is None or has_points(obj):
+        return None
+    return f"{obj.name}: has no feature points yet: find the face, click them, or import them"

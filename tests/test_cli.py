@@ -98,6 +98,7 @@ def test_measure_reads_faps_off_a_deformed_mesh(run_json: Run, tmp_path: Path) -
     said = run_json("measure", path, "--out", tmp_path / "moved.fap")[str(path)]
     measured = face.measure(moved)
     expected = {api.fap(i + 1).name: value for i, value in enumerate(measured) if not np.isnan(value)}
+    expected |= {f"f{i + 1}": value for i, value in enumerate(face.features(moved))}
     assert said == pytest.approx(expected, abs=0.05)
     assert said["raise_l_cornerlip"] > 50.0
     stored = api.read_fap(tmp_path / "moved.fap").frames[0]
@@ -107,6 +108,54 @@ def test_measure_reads_faps_off_a_deformed_mesh(run_json: Run, tmp_path: Path) -
 def test_recognise_reads_a_deformed_mesh(run_json: Run, default_obj: Path) -> None:
     beliefs = run_json("recognise", default_obj)
     assert set(beliefs) == {str(name) for name in api.ARCHETYPES}
+
+
+@pytest.fixture
+def rising(tmp_path: Path) -> Path:
+    """A stream of surprise, from none to all of it."""
+    frames = np.linspace(0.0, 1.0, 4)[:, None] * api.archetype("surprise", 0).frame()
+    api.write_fap(tmp_path / "rising.fap", api.FapStream(frames, fps=10.0, first_frame=1))
+    return tmp_path / "rising.fap"
+
+
+def test_recognise_by_either_rule(run_json: Run, rising: Path) -> None:
+    frame = api.read_fap(rising).frames[2]
+    for rule in ("paper", "robust"):
+        said = run_json("recognise", rising, "--rule", rule, "--frame", 2)
+        assert said == pytest.approx({str(name): b for name, b in api.recognise(frame, rule=rule).items()})
+
+
+def test_recognise_says_more_where_words_are_asked_for(run_json: Run, rising: Path) -> None:
+    said = run_json("recognise", rising, "--words", "astonished", "guilty", "--rule", "robust")
+    frame = api.read_fap(rising).frames[-1]
+    assert said["best"] == "surprise"
+    assert said["frame"] == 3
+    assert said["words"] == pytest.approx(api.recognise_words(frame, ["astonished", "guilty"]))
+    assert list(said["words"]) == list(api.recognise_words(frame, ["astonished", "guilty"]))
+    assert said["strength"] == pytest.approx(1.0, abs=0.01)
+    assert next(iter(said["decisive"])) == api.fap(next(iter(api.recognise(frame, rule="robust").decisive))).name
+    assert len(run_json("recognise", rising, "--words")["words"]) == 10
+
+
+def test_recognise_over_time_prints_and_writes_every_frame(run_json: Run, rising: Path, tmp_path: Path) -> None:
+    said = run_json("recognise", rising, "--over-time", "--out", tmp_path / "t.csv")
+    track = api.recognise_over_time(api.read_fap(rising).frames, fps=10.0, first_frame=1)
+    assert said["frames"] == [1, 2, 3, 4]
+    assert said["beliefs"]["surprise"] == pytest.approx(track.beliefs[:, 5])
+    assert said["best"][-1] == "surprise"
+    api.write_belief_csv(tmp_path / "expected.csv", track)
+    assert (tmp_path / "t.csv").read_text() == (tmp_path / "expected.csv").read_text()
+
+
+def test_recognise_over_time_of_meshes(capsys: pytest.CaptureFixture[str], default_obj: Path) -> None:
+    assert main(["recognise", str(default_obj), str(default_obj), "--over-time"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 3
+
+
+def test_long_streams_tell_their_progress(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    api.write_fap(tmp_path / "long.fap", api.FapStream(np.zeros((501, 68))))
+    assert main(["recognise", str(tmp_path / "long.fap"), "--over-time", "--json"]) == 0
+    assert "100 %  501 of 501 frames" in capsys.readouterr().err
 
 
 def test_points_fit_their_mesh(run_json: Run, shared: Path) -> None:
@@ -127,6 +176,10 @@ def test_points_fit_their_mesh(run_json: Run, shared: Path) -> None:
         ["profile", "joy", "--activation", "much"],
         ["measure"],
         ["measure", "a.obj", "--mesh", "b.obj"],
+        ["recognise", "a.fap", "--over-time", "--words"],
+        ["recognise", "a.fap", "--out", "a.csv"],
+        ["recognise", "a.fap", "b.fap"],
+        ["recognise", "a.fap", "--rule", "mine"],
         ["bake", "joy"],
         ["render", "joy", "--out", "a.mp4", "--engine", "pencil"],
     ],
@@ -147,6 +200,7 @@ def test_wrong_usage_exits_with_2(arguments: list[str], capsys: pytest.CaptureFi
         (["fap", "gone.fap"], "gone.fap"),
         (["measure", "gone.obj"], "gone.obj"),
         (["recognise", "face.fbx"], ".obj"),
+        (["recognise", "gone.fap", "--over-time"], "gone.fap"),
         (["points", "gone.json", "--mesh", "gone.obj"], "gone"),
     ],
 )

@@ -166,6 +166,33 @@ def own_head(session: Session) -> None:
     session.run("bpy.context.window_manager.risorius.parts.show = False")
 
 
+def reading(session: Session) -> None:
+    """The Read panel, alone and open, on joy at its apex; and the plot of its animation."""
+    session.window.ask(
+        "kinds = {name: getattr(bpy.types, name) for name in dir(bpy.types) if name.startswith('RISORIUS_PT_')}\n"
+        "below = [c for c in kinds.values() if getattr(c, 'bl_parent_id', '')]\n"
+        "for cls in below: bpy.utils.unregister_class(cls)\n"
+        "for name in ('read', 'read_faps', 'read_features'):\n"
+        "    cls = kinds[f'RISORIUS_PT_{name}']\n"
+        "    cls.bl_options = set()\n"
+        "    bpy.utils.register_class(cls)"
+    )
+    session.head()
+    session.run(
+        "scene = bpy.context.scene\nscene.frame_end = 75\nscene.risorius.read.rule = 'robust'\n"
+        "bpy.ops.risorius.bake_expression()\nscene.frame_set(20)"
+    )
+    session.take("reading", MIDDLE)
+    session.window.ask(
+        "with in_viewport():\n    bpy.ops.risorius.read_animation()\n"
+        "    picture = bpy.data.images[f'{bpy.context.object.name} Beliefs']\n"
+        f"path = {str(session.folder / 'reading-plot.jpg')!r}\n"
+        "picture.filepath_raw, picture.file_format = path, 'JPEG'\n"
+        f"picture.save(quality={QUALITY})"
+    )
+    (PICTURES / "reading-plot.jpg").write_bytes((session.folder / "reading-plot.jpg").read_bytes())
+
+
 PICTURED: Mapping[str, Callable[[Session], None]] = {
     "first": first,
     "wheel": wheel,
@@ -173,6 +200,7 @@ PICTURED: Mapping[str, Callable[[Session], None]] = {
     "muscles": muscles,
     "baked": baked,
     "own_head": own_head,
+    "reading": reading,  # the last: it takes the other panels away
 }
 
 

@@ -2,7 +2,7 @@
 
     python3.11 tools/environments.py NAME [NAME ...]
 
-makes what is missing of dev, bpy-4.2, bpy-4.5 and bpy-5.0 (`all`: each of them) and leaves what is up to date.
+makes what is missing of dev, track, bpy-4.2, bpy-4.5 and bpy-5.0 (`all`: each of them) and leaves what is up to date.
 Needs only Python 3.11's own library.
 """
 
@@ -51,6 +51,7 @@ class Environment:
 # NumPy is what the official Blender of that version brings; SciPy is the newest that runs on it.
 ENVIRONMENTS = {
     "dev": Environment(".venv", ("-e", ".[dev]"), blender=False),
+    "track": Environment(".venv-track", ("-e", ".[test,track]", "scikit-image"), blender=False),
     "bpy-4.2": Environment(
         ".venv-bpy-4.2", ("-e", ".[test]", "bpy~=4.2.0", "numpy==1.24.3", "scipy<1.16"), blender=True
     ),

@@ -44,6 +44,11 @@ class Spy:
         assert index in active.bl_rna.properties
         self.seen.append(("list", name))
 
+    def progress(self, *, factor: float, text: str, type: str) -> None:
+        assert type == "BAR"
+        assert 0.0 <= factor <= 1.0
+        self.seen.append(("progress", text))
+
     def menu(self, name: str, **options: Any) -> None:
         assert hasattr(bpy.types, name)
         self.seen.append(("menu", name))
@@ -91,8 +96,9 @@ def test_a_mesh_without_points_is_told_what_it_needs(cube: Any) -> None:
 
 def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     shown = drawn()
-    order = "main face parts points topologies emotion muscles tissue timeline variation bake film"
-    assert list(shown) == [f"RISORIUS_PT_{name}" for name in order.split()]
+    first = "main face parts points topologies emotion muscles tissue timeline variation bake"
+    last = "read read_faps read_features film"
+    assert list(shown) == [f"RISORIUS_PT_{name}" for name in f"{first} {last}".split()]
     assert ("label", head.name) in shown["RISORIUS_PT_main"]
     asked = [name for kind, name in shown["RISORIUS_PT_emotion"] if kind in {"prop", "popover"}]
     assert asked[:6] == ["show", "show", "RISORIUS_PT_wheel", "by", "word", "activation"]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import bpy
 import numpy as np
@@ -60,7 +60,7 @@ class Sitter:
         self._framing = framing or _close(framing_of(self._object))
 
     @classmethod
-    def of_head(cls, name: str, face: Face, *, width: int = 360, height: int = 432, fine: bool = False) -> Sitter:
+    def of_head(cls, name: str, face: Face, *, width: int = 360, height: int = 432, fine: bool = False) -> Self:
         """A head of `HEADS` in an otherwise empty Blender file."""
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         if name == "default":

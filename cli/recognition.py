@@ -1,0 +1,139 @@
+"""The verb that tells emotions: recognise."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import FormatError, ParameterError
+from .options import add_face, face_of, verb, vertices_of
+from .result import Result, UsageError
+
+if TYPE_CHECKING:
+    from ..api import BeliefTrack
+    from ..arrays import Floats
+
+STREAMS = (".fap", ".fba", ".json")
+#: Words that are printed where none are named, FAPs that are said to have decided, frames between lines of progress.
+CLOSEST, DECISIVE, REPORT = 10, 5, 500
+
+
+def add_recognition_verb(verbs: Any) -> None:
+    """Add recognise to the verbs."""
+    recognise = verb(verbs, "recognise", _recognise)
+    about = f"a FAP stream ({', '.join(STREAMS)}), or deformed meshes; several meshes are frames one after another"
+    recognise.add_argument("files", type=Path, nargs="+", metavar="FILE", help=about)
+    recognise.add_argument("--rule", choices=("paper", "robust"), default="paper", help="default: paper")
+    recognise.add_argument("--frame", type=int, help="which frame (default: the strongest)")
+    about = "say more: closeness to these words (without any: the closest of all), strength, decisive FAPs"
+    recognise.add_argument("--words", nargs="*", metavar="WORD", help=about)
+    recognise.add_argument("--over-time", action="store_true", help="every frame instead of one")
+    recognise.add_argument("--out", type=Path, help="with --over-time: a .csv table to write, a row per frame")
+    add_face(recognise)
+
+
+def _recognise(arguments: argparse.Namespace) -> Result:
+    """Which of the six emotions a FAP stream or a deformed mesh shows."""
+    if arguments.over_time and (arguments.words is not None or arguments.frame is not None):
+        raise UsageError("--over-time goes with neither --words nor --frame")
+    if arguments.out is not None and not arguments.over_time:
+        raise UsageError("--out needs --over-time")
+    frames, fps, first = _frames(arguments)
+    if arguments.over_time:
+        return _over_time(arguments, frames, fps, first)
+    index = int(np.nansum(np.abs(frames), axis=1).argmax()) if arguments.frame is None else arguments.frame
+    if not 0 <= index < len(frames):
+        raise ParameterError("frame", f"must lie in 0..{len(frames) - 1}", index)
+    return _one(arguments, frames[index], index)
+
+
+def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int]:
+    """(T, 68) FAPs, frames per second, number of the first frame."""
+    from .. import api
+
+    path, *others = arguments.files
+    suffix = path.suffix.lower()
+    if suffix not in STREAMS:
+        face = face_of(arguments)
+        return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0
+    if others:
+        raise UsageError("one stream at a time")
+    read = {".fap": api.read_fap, ".fba": api.read_fba, ".json": api.read_fap_json}[suffix]
+    stream = read(path)
+    if not len(stream.frames):
+        raise FormatError(path, "has no frames: nothing to recognise")
+    return stream.expanded(), stream.fps, stream.first_frame
+
+
+def _one(arguments: argparse.Namespace, frame: Floats, index: int) -> Result:
+    """Beliefs of one frame; more of it where words are asked for."""
+    from .. import api
+
+    found = api.recognise(frame, rule=arguments.rule)
+    beliefs = {str(name): belief for name, belief in sorted(found.items(), key=lambda item: -item[1])}
+    lines = [f"{name:<12} {belief:.3f}" for name, belief in beliefs.items()]
+    if arguments.words is None:
+        return Result(beliefs, lines)
+    words = api.recognise_words(frame, arguments.words or api.WORDS, rule=arguments.rule)
+    if not arguments.words:
+        words = dict(list(words.items())[:CLOSEST])
+    profile = found.best_profile
+    strength = 0.0 if profile is None else api.shown_strength(frame, profile)
+    decisive = dict(list(found.decisive.items())[:DECISIVE])
+    data = {
+        "frame": index,
+        "rule": arguments.rule,
+        "emotions": beliefs,
+        "best": found.best,
+        "strength": strength,
+        "words": words,
+        "decisive": {api.fap(number).name: speaks for number, speaks in decisive.items()},
+    }
+    lines += [f"strength     {strength:.3f}", "words"]
+    lines += [f"  {word:<14} {belief:.3f}" for word, belief in words.items()]
+    lines += [f"decisive for {found.best}"]
+    lines += [f"  F{number:<3} {api.fap(number).name:<24} {speaks:+.2f}" for number, speaks in decisive.items()]
+    return Result(data, lines)
+
+
+def _over_time(arguments: argparse.Namespace, frames: Floats, fps: float, first: int) -> Result:
+    """Beliefs of every frame."""
+    from .. import api
+
+    track = api.recognise_over_time(frames, rule=arguments.rule, fps=fps, first_frame=first, progress=_progress)
+    if arguments.out is not None:
+        api.write_belief_csv(arguments.out, track)
+    names = [str(name) for name in api.ARCHETYPES]
+    data = {
+        "rule": arguments.rule,
+        "fps": fps,
+        "frames": [int(number) for number in track.numbers],
+        "beliefs": {name: track.beliefs[:, column] for column, name in enumerate(names)},
+        "best": list(track.best),
+        "strength": track.strengths,
+        "out": arguments.out,
+    }
+    wrote = [f"wrote {arguments.out}"] if arguments.out is not None else _table(track, names)
+    return Result(data, wrote)
+
+
+def _table(track: BeliefTrack, names: list[str]) -> list[str]:
+    """A line per frame for people."""
+    head = f"{'frame':>6} " + " ".join(f"{name:>8}" for name in names) + "  strength  best"
+    rows = [
+        f"{number:6.0f} " + " ".join(f"{belief:8.3f}" for belief in beliefs) + f"  {strength:8.2f}  {best or '-'}"
+        for number, beliefs, strength, best in zip(
+            track.numbers, track.beliefs, track.strengths, track.best, strict=True
+        )
+    ]
+    return [head, *rows]
+
+
+def _progress(done: int, count: int) -> None:
+    """Progress of long streams on standard error."""
+    if count > REPORT and (done % REPORT == 0 or done == count):
+        print(f"{100 * done // count:3d} %  {done} of {count} frames", file=sys.stderr, flush=True)

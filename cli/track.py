@@ -1,0 +1,136 @@
+"""The verb track: a film, pictures or a camera to a FAP stream."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import math
+import re
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .options import verb
+from .result import Result, UsageError
+
+if TYPE_CHECKING:
+    from ..track import Track
+
+SOURCES = 'a film; pictures, a folder or a pattern of them ("shots/*.png"); "camera", or "camera:1" for the second'
+NEUTRAL = 'seconds FROM:TO in which the face is neutral, or "generic" for a face of nobody (default: its usual shape)'
+TIMES = re.compile(r"(\d+(?:\.\d+)?):(\d+(?:\.\d+)?)")
+WRITABLE = (".fap", ".json")
+
+
+def add_track_verb(verbs: Any) -> None:
+    """Add track to the verbs."""
+    track = verb(verbs, "track", _track)
+    track.add_argument("source", nargs="+", metavar="SOURCE", help=SOURCES)
+    track.add_argument("--out", type=Path, required=True, help=f"the stream to write: {', '.join(WRITABLE)}")
+    track.add_argument("--neutral", help=NEUTRAL)
+    ways = "savgol looks ahead and does not lag (default); euro knows the past only, as live use would; none"
+    track.add_argument("--smooth", choices=("savgol", "euro", "none"), default="savgol", help=ways)
+    track.add_argument("--fps", type=float, help="frames per second (default: the film's; 25 for pictures)")
+    track.add_argument("--seconds", type=float, help="how long (default: to the end; a camera: until Ctrl-C)")
+    track.add_argument("--least", type=float, help="mask values less sure than this, 0..1 (default: 0.3)")
+    track.add_argument("--confidence", type=Path, metavar="FILE.csv", help="write how sure each value is")
+
+
+def _track(arguments: argparse.Namespace) -> Result:
+    """Read FAPs off a film, pictures or a camera (needs `pip install risorius[track]`)."""
+    from .. import api, track
+
+    writers = {".fap": api.write_fap, ".json": api.write_fap_json}
+    write = writers.get(arguments.out.suffix.lower())
+    if write is None:
+        raise UsageError(f"--out must end in {' or '.join(WRITABLE)}")
+    neutral = _neutral(arguments.neutral)
+    pictures = track.open_pictures(arguments.source, fps=arguments.fps, seconds=arguments.seconds)
+    if pictures.live:
+        print("reading the camera; Ctrl-C ends it", file=sys.stderr, flush=True)
+    landmarks = track.find_landmarks(pictures, progress=_counted)
+    options = {} if arguments.least is None else {"least": arguments.least}
+    found = track.track_landmarks(
+        landmarks,
+        fps=arguments.fps if pictures.live or len(landmarks.times) > 1 else pictures.fps,
+        neutral=neutral,
+        smoothing=arguments.smooth,
+        name=pictures.name,
+        **options,
+    )
+    write(arguments.out, found.stream)
+    if arguments.confidence is not None:
+        _write_confidence(arguments.confidence, found)
+    return _described(found, arguments.out)
+
+
+def _neutral(text: str | None) -> tuple[float, float] | str | None:
+    """What --neutral says."""
+    if text is None or text == "generic":
+        return text
+    times = TIMES.fullmatch(text)
+    if times is None:
+        raise UsageError('--neutral is FROM:TO in seconds, as 0:0.5, or "generic"')
+    return float(times[1]), float(times[2])
+
+
+def _counted(done: int, count: int | None) -> None:
+    """Progress on standard error, every 25 pictures."""
+    if done % 25 == 0 or done == count:
+        share = f"{100 * done // count:3d} %  " if count else ""
+        print(f"{share}{done} pictures", file=sys.stderr, flush=True)
+
+
+def _write_confidence(path: Path, found: Track) -> None:
+    """A row per frame, a column per FAP."""
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(["frame", *(f"F{number}" for number in range(1, found.confidence.shape[1] + 1))])
+        writer.writerows([index, *(f"{value:.3f}" for value in row)] for index, row in enumerate(found.confidence))
+
+
+def _described(found: Track, out: Path) -> Result:
+    """What was read, for people and as JSON."""
+    from .. import api
+
+    stream = found.stream
+    columns = {number: stream.frames[:, number - 1] for number in api.FAPS}
+    stated = {number: [value for value in column if not math.isnan(value)] for number, column in columns.items()}
+    used = {number: values for number, values in stated.items() if values}
+    sure = {number: float(found.confidence[:, number - 1].mean()) for number in used}
+    data = {
+        "name": stream.name,
+        "fps": stream.fps,
+        "frames": len(stream.frames),
+        "lost": found.lost,
+        "neutral": "generic" if found.generic else found.neutral,
+        "doubts": found.doubts,
+        "delay": found.delay,
+        "ranges": {number: [min(values), max(values)] for number, values in used.items()},
+        "confidence": sure,
+        "out": out,
+    }
+    lines = [f"{stream.name}: {len(stream.frames)} frames at {stream.fps:g} per second, {len(used)} FAPs"]
+    if len(found.lost):
+        lines.append(f"{len(found.lost)} frames without a face are masked")
+    if found.generic:
+        lines.append(
+            "no neutral face of this person: a generic one stands in, and FAPs hold how this face differs from it"
+        )
+    else:
+        lines.append(
+            f"neutral face from {len(found.neutral)} pictures at {found.neutral.min():.2f} .. "
+            f"{found.neutral.max():.2f} s"
+        )
+    if found.doubts:
+        lines.append(
+            f"its mouth is unusual for a neutral face ({', '.join(found.doubts)}): if it smiles or speaks there, name "
+            "seconds of rest with --neutral FROM:TO, or use --neutral generic"
+        )
+    if found.delay:
+        lines.append(f"slow motions come {1000.0 * found.delay:.0f} ms late")
+    lines += [
+        f"F{number:<3} {api.fap(number).name:<24} {min(values):8.0f} .. {max(values):8.0f}   sure {sure[number]:.2f}"
+        for number, values in used.items()
+    ]
+    return Result(data, [*lines, f"wrote {out}"])

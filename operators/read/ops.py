@@ -1,0 +1,144 @@
+"""Operators that read the animation, show its plot, and take what was written away."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ...errors import SceneError
+from ...scene import belief_curves, belief_plot
+from ...scene.film import refuse_unwritable_output
+from ...scene.lettering import write_picture
+from ...scene.progress import Work
+from ...scene.reading import read_animation
+from ..active import reading_reason
+from ..base import RisoriusOperator, WorkOperator
+from ..film.ops import absolute
+from ..wheel.picture import COLOURS
+
+if TYPE_CHECKING:
+    from ...api import BeliefTrack
+
+
+def plot_name(obj: Any) -> str:
+    """What the image of a face's plot is called."""
+    return f"{obj.name} Beliefs"
+
+
+class RISORIUS_OT_read_animation(WorkOperator, bpy.types.Operator):
+    """Read every frame of the scene's range, however the face is animated: beliefs in the six emotions become
+    F-curves of the object's custom properties, and a plot"""
+
+    bl_idname = "risorius.read_animation"
+    bl_label = "Read the Animation"
+    bl_options = {"REGISTER", "UNDO"}
+    title = "Reading the animation"
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only on a face with points, whose properties can be animated."""
+        reason = reading_reason(context.object)
+        if reason is None:
+            try:
+                belief_curves.refuse_unwritable_curves(context.object)
+            except SceneError as refusal:
+                return str(refusal)
+        return reason
+
+    def work(self, context: Any) -> Work[BeliefTrack]:
+        """Refuse files that cannot be written, then read."""
+        scene = context.scene
+        for path in files_of(scene).values():
+            refuse_unwritable_output(path)
+        start, end = (scene.frame_start, scene.frame_end)
+        if scene.use_preview_range:
+            start, end = scene.frame_preview_start, scene.frame_preview_end
+        return read_animation(context.object, scene, start=start, end=end, rule=scene.risorius.read.rule)
+
+    def finish(self, context: Any, result: BeliefTrack) -> str:
+        """Files first, which may fail; then the plot and the F-curves."""
+        obj, files = context.object, files_of(context.scene)
+        rule = "the paper's rule" if context.scene.risorius.read.rule == "paper" else "the robust rule"
+        _write_files(files, result, obj.name)
+        colours = {str(name): colour for name, colour in COLOURS.items()}
+        picture = belief_plot.draw_plot(result, f"{obj.name}: beliefs by {rule}", colours)
+        if "plot" in files:
+            write_picture(picture, files["plot"])
+        belief_curves.write_curves(obj, result)
+        belief_plot.keep_plot(plot_name(obj), picture)
+        wrote = "".join(f", {path.name}" for path in files.values())
+        return f"Read {len(result.frames)} frames of {obj.name}: F-curves, the image {plot_name(obj)}{wrote}"
+
+
+def files_of(scene: Any) -> dict[str, Path]:
+    """Kind -> file, of those that are to be written."""
+    chosen = scene.risorius.read
+    kinds = (("stream", ".fap"), ("table", ".csv"), ("plot", ".png"))
+    named = [(kind, getattr(chosen, kind), ending) for kind, ending in kinds if getattr(chosen, kind)]
+    return {kind: absolute(name, ending, keep=(ending,)) for kind, name, ending in named}
+
+
+def _write_files(files: dict[str, Path], track: BeliefTrack, name: str) -> None:
+    """The FAPs as a stream, and the table."""
+    from ... import api
+
+    if "stream" in files:
+        stream = api.FapStream(track.frames, fps=track.fps, name=name, first_frame=max(0, track.first_frame))
+        api.write_fap(files["stream"], stream)
+    if "table" in files:
+        api.write_belief_csv(files["table"], track)
+
+
+class RISORIUS_OT_show_beliefs(RisoriusOperator, bpy.types.Operator):
+    """Open the plot of the animation's beliefs in a window of its own"""
+
+    bl_idname = "risorius.show_beliefs"
+    bl_label = "Show the Plot"
+    bl_options = {"REGISTER"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where there is one."""
+        if context.object is None or plot_name(context.object) not in bpy.data.images:
+            return "The animation has not been read yet"
+        return "Needs a window" if context.window is None else None
+
+    def run(self, context: Any) -> str:
+        """A new window with an image editor."""
+        image = bpy.data.images[plot_name(context.object)]
+        bpy.ops.wm.window_new()
+        area = context.window_manager.windows[-1].screen.areas[0]
+        area.ui_type = "IMAGE_EDITOR"
+        area.spaces.active.image = image
+        return f"Showing {image.name}"
+
+
+class RISORIUS_OT_clear_reading(RisoriusOperator, bpy.types.Operator):
+    """Remove the beliefs that were read: custom properties, their F-curves and the plot"""
+
+    bl_idname = "risorius.clear_reading"
+    bl_label = "Clear the Reading"
+    bl_options = {"REGISTER", "UNDO"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only where there is something to clear."""
+        if context.object is None or not belief_curves.has_curves(context.object):
+            return "The animation has not been read yet"
+        return None
+
+    def run(self, context: Any) -> str:
+        """Remove it."""
+        obj = context.object
+        belief_curves.remove_curves(obj)
+        image = bpy.data.images.get(plot_name(obj))
+        if image is not None:
+            bpy.data.images.remove(image)
+        return f"Cleared the beliefs read on {obj.name}"
+
+
+CLASSES = (RISORIUS_OT_read_animation, RISORIUS_OT_show_beliefs, RISORIUS_OT_clear_reading)

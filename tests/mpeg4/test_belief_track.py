@@ -1,0 +1,71 @@
+"""Beliefs over time: frame by frame what recognition says, how strong it is, and the table of it."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+import risorius.api as api
+from risorius.errors import FormatError, ParameterError
+
+
+@pytest.fixture
+def rising() -> np.ndarray:
+    """(5, 68) surprise from none to all of it."""
+    profile = api.archetype("surprise", 0)
+    return np.linspace(0.0, 1.0, 5)[:, None] * profile.frame()
+
+
+def test_strength_is_the_share_of_the_profile(rising: np.ndarray) -> None:
+    profile = api.archetype("surprise", 0)
+    strengths = [api.shown_strength(frame, profile) for frame in rising]
+    np.testing.assert_allclose(strengths, np.linspace(0.0, 1.0, 5), atol=1e-12)
+    assert api.shown_strength(-rising[-1], profile) == 0.0
+    unseen = np.where(np.arange(68) < 30, rising[2], np.nan)
+    assert api.shown_strength(unseen, profile) == pytest.approx(0.5)
+    assert api.shown_strength(np.full(68, np.nan), profile) == 0.0
+
+
+@pytest.mark.parametrize("rule", ["paper", "robust"])
+def test_each_frame_is_recognised_as_it_is_alone(rising: np.ndarray, rule: str) -> None:
+    told: list[tuple[int, int]] = []
+    track = api.recognise_over_time(
+        rising, rule=rule, fps=30.0, first_frame=7, progress=lambda done, count: told.append((done, count))
+    )
+    for frame, beliefs in zip(rising, track.beliefs, strict=True):
+        np.testing.assert_array_equal(beliefs, [api.recognise(frame, rule=rule)[name] for name in api.ARCHETYPES])
+    assert told[-1] == (5, 5)
+    assert track.best[-1] == "surprise"
+    np.testing.assert_array_equal(track.numbers, [7, 8, 9, 10, 11])
+    assert track.strengths[-1] > track.strengths[2] > 0.3
+
+
+def test_the_best_profile_is_the_one_whose_belief_is_the_emotions_own(rising: np.ndarray) -> None:
+    beliefs = api.recognise(rising[-1])
+    assert beliefs.best_profile is not None
+    assert beliefs.best_profile.ranges == api.archetype("surprise", 0).ranges
+    assert api.recognise(np.full(68, np.nan)).best_profile is None
+
+
+def test_the_table_has_what_was_measured_and_leaves_unknown_cells_empty(rising: np.ndarray, tmp_path: Path) -> None:
+    rising[1, 3 - 1] = np.nan
+    track = api.recognise_over_time(rising, fps=25.0, first_frame=1)
+    api.write_belief_csv(tmp_path / "t.csv", track)
+    with (tmp_path / "t.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["frame"] for row in rows] == ["1", "2", "3", "4", "5"]
+    assert float(rows[2]["seconds"]) == pytest.approx(0.08)
+    assert float(rows[4]["surprise"]) == pytest.approx(track.beliefs[4, 5], rel=1e-5)
+    assert rows[1]["F3_open_jaw"] == ""
+    assert float(rows[4]["F3_open_jaw"]) == pytest.approx(rising[4, 2], abs=0.01)
+    assert rows[4]["best"] == "surprise"
+    assert "F16_push_b_lip" not in rows[0]
+
+
+def test_frames_of_another_shape_and_unwritable_tables_are_refused(rising: np.ndarray, tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="frames"):
+        api.recognise_over_time(rising[0])
+    with pytest.raises(FormatError, match=r"t\.csv"):
+        api.write_belief_csv(tmp_path / "none" / "t.csv", api.recognise_over_time(rising))
