@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..api import BeliefTrack
     from ..arrays import Floats
 
-STREAMS = (".fap", ".fba", ".json")
+STREAMS = (".fap", ".fba", ".json", ".csv")
 #: Words that are printed where none are named, FAPs that are said to have decided, frames between lines of progress.
 CLOSEST, DECISIVE, REPORT = 10, 5, 500
 
@@ -62,8 +62,8 @@ def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int]:
         return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0
     if others:
         raise UsageError("one stream at a time")
-    read = {".fap": api.read_fap, ".fba": api.read_fba, ".json": api.read_fap_json}[suffix]
-    stream = read(path)
+    readers = {".fap": api.read_fap, ".fba": api.read_fba, ".json": api.read_fap_json}
+    stream = api.read_capture(path) if suffix == ".csv" else readers[suffix](path)
     if not len(stream.frames):
         raise FormatError(path, "has no frames: nothing to recognise")
     return stream.expanded(), stream.fps, stream.first_frame

@@ -253,3 +253,11 @@ def test_points_are_found_and_written(run_json: Run, shared: Path, tmp_path: Pat
     assert said["topology"].startswith("ICT")
     checked = run_json("points", tmp_path / "p.json", "--mesh", shared / "heads" / "ict_narrow.npz")
     assert checked["points"] == len(said["points"]) + 2  # the pupils are added
+
+
+def test_a_trackers_table_is_recognised(run_json: Run, tmp_path: Path) -> None:
+    frame = np.nan_to_num(api.archetype("surprise", 0).frame())
+    stream = api.FapStream(frames=np.stack([0.0 * frame, frame]), fps=25.0, name="take")
+    api.write_fap_csv(tmp_path / "take.csv", stream)
+    said = run_json("recognise", tmp_path / "take.csv")
+    assert max(said, key=said.get) == "surprise"
