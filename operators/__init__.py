@@ -14,6 +14,7 @@ _PROPERTIES = (
     "timeline.props",
     "bake.props",
     "film.props",
+    "shapes.props",
     "read.props",
     "points.props",
     "parts.props",
@@ -44,6 +45,7 @@ _OPERATORS = (
     "face.six",
     "library.ops",
     "film.ops",
+    "shapes.ops",
     "read.ops",
 )
 #: In the order of work, which is that of the sidebar.

@@ -11,6 +11,7 @@ from .parts.props import RISORIUS_PG_parts
 from .points.props import RISORIUS_PG_points
 from .preview.props import RISORIUS_PG_preview
 from .read.props import RISORIUS_PG_read
+from .shapes.props import RISORIUS_PG_shapes
 from .show.props import RISORIUS_PG_show
 from .timeline.props import RISORIUS_PG_timeline
 from .tissue.props import RISORIUS_PG_tissue
@@ -32,6 +33,7 @@ class RISORIUS_PG_scene(bpy.types.PropertyGroup):
     """All that is chosen for a scene."""
 
     film: bpy.props.PointerProperty(type=RISORIUS_PG_film)  # type: ignore[valid-type]
+    shapes: bpy.props.PointerProperty(type=RISORIUS_PG_shapes)  # type: ignore[valid-type]
     read: bpy.props.PointerProperty(type=RISORIUS_PG_read)  # type: ignore[valid-type]
 
 

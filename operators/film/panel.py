@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 
+from ..shapes.ops import RISORIUS_OT_make_shapes
 from ..sidebar import Sidebar
 from .ops import RISORIUS_OT_export_gltf, RISORIUS_OT_render_film
 
@@ -38,6 +39,11 @@ class RISORIUS_PT_film(Sidebar, bpy.types.Panel):
         column = layout.column(align=True)
         column.prop(chosen, "model")
         column.operator(RISORIUS_OT_export_gltf.bl_idname, icon="EXPORT")
+        shapes = context.scene.risorius.shapes
+        column = layout.column(align=True)
+        column.prop(shapes, "names")
+        column.prop(shapes, "replace")
+        column.operator(RISORIUS_OT_make_shapes.bl_idname, icon="SHAPEKEY_DATA")
 
 
 CLASSES = (RISORIUS_PT_film,)

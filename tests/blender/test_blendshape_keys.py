@@ -115,3 +115,16 @@ def test_gltf_keeps_names_and_shapes(few: Path, tmp_path: Path) -> None:
             if name in blocks
         ]
         assert max(moved) == pytest.approx(distance, rel=1e-3)
+
+
+def test_the_button_makes_the_keys_of_the_chosen_names(head: Any) -> None:
+    chosen = bpy.context.scene.risorius.shapes
+    chosen.names = "oculus_visemes"
+    assert bpy.ops.risorius.make_shapes() == {"FINISHED"}
+    made = [key.name for key in head.data.shape_keys.key_blocks][1:]
+    assert made == list(api.load_key_names("oculus_visemes"))
+    with pytest.raises(RuntimeError, match="ask to replace"):
+        bpy.ops.risorius.make_shapes()
+    chosen.replace = True
+    assert bpy.ops.risorius.make_shapes() == {"FINISHED"}
+    assert len(head.data.shape_keys.key_blocks) == len(made) + 1

@@ -1,0 +1,1 @@
+"""Shape keys with the names that engines and trackers know."""

@@ -1,0 +1,52 @@
+"""The operator that makes shape keys with the names that engines know."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ...scene.points_found import Finding
+from ...scene.progress import Work
+from ..active import face_reason, target_of
+from ..base import WorkOperator
+from ..points.first import with_points
+from ..points.show import show_finding
+
+if TYPE_CHECKING:
+    from ...scene.blendshape_keys import WrittenKeys
+
+
+class RISORIUS_OT_make_shapes(WorkOperator, bpy.types.Operator):
+    """Pose the muscles into each shape that engines and trackers know, as a shape key. No later bake touches these"""
+
+    bl_idname = "risorius.make_shapes"
+    bl_label = "Make Engine Shapes"
+    bl_options = {"REGISTER", "UNDO"}
+    title = "Making shape keys"
+
+    @classmethod
+    def refusal(cls, context: Any) -> str | None:
+        """Only on a face that can be written to."""
+        return face_reason(context.object)
+
+    def work(self, context: Any) -> Work[WrittenKeys | Finding]:
+        """Find the face if need be, then pose and write."""
+        from ...scene.blendshape_keys import write_blendshapes
+
+        obj, chosen = context.object, context.scene.risorius.shapes
+
+        def making() -> Work[WrittenKeys]:
+            return write_blendshapes(target_of(obj), chosen.names, replace=chosen.replace)
+
+        return with_points(obj, making, scene=context.scene)
+
+    def finish(self, context: Any, result: WrittenKeys | Finding) -> str:
+        """Say how many, and which were replaced."""
+        if isinstance(result, Finding):
+            return show_finding(self, context, result)
+        replaced = f", {len(result.replaced)} of them in place of older ones" if result.replaced else ""
+        return f"{context.object.name}: {len(result.keys)} shape keys made{replaced}"
+
+
+CLASSES = (RISORIUS_OT_make_shapes,)
