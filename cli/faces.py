@@ -14,6 +14,7 @@ import numpy as np
 
 from ..errors import ModelError
 from ..face.fit.doubt import DOUBTFUL
+from ..mpeg4.files import write_whole
 from .options import add_face, face_of, verb, vertices_of
 from .result import Result, UsageError
 
@@ -97,7 +98,7 @@ def _found_points(arguments: argparse.Namespace) -> Result:
     found = api.find_points(mesh.vertices, mesh.polygons)
     positions = {name: place.tolist() for name, place in found.positions.items()}
     if arguments.out is not None:
-        arguments.out.write_text(json.dumps(positions, indent=1) + "\n", encoding="utf-8")
+        write_whole(arguments.out, json.dumps(positions, indent=1) + "\n")
     how = f"by its topology ({found.topology})" if found.topology else f"score {found.score:.2f}"
     doubtful = sorted((name for name, sure in found.confidence.items() if sure < DOUBTFUL), key=_point_order)
     lines = [f"{len(positions)} feature points found on {arguments.mesh}, {how}"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import io
 import math
 import re
 import sys
@@ -14,7 +15,8 @@ from .options import verb
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
-    from ..track import Track
+    from ..mpeg4.files import write_whole
+from ..track import Track
 
 SOURCES = 'a film; pictures, a folder or a pattern of them ("shots/*.png"); "camera", or "camera:1" for the second'
 NEUTRAL = 'seconds FROM:TO in which the face is neutral, or "generic" for a face of nobody (default: its usual shape)'
@@ -83,10 +85,11 @@ def _counted(done: int, count: int | None) -> None:
 
 def _write_confidence(path: Path, found: Track) -> None:
     """A row per frame, a column per FAP."""
-    with path.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream)
-        writer.writerow(["frame", *(f"F{number}" for number in range(1, found.confidence.shape[1] + 1))])
-        writer.writerows([index, *(f"{value:.3f}" for value in row)] for index, row in enumerate(found.confidence))
+    out = io.StringIO()
+    writer = csv.writer(out)
+    writer.writerow(["frame", *(f"F{number}" for number in range(1, found.confidence.shape[1] + 1))])
+    writer.writerows([index, *(f"{value:.3f}" for value in row)] for index, row in enumerate(found.confidence))
+    write_whole(path, out.getvalue())
 
 
 def _described(found: Track, out: Path) -> Result:

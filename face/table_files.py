@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import FormatError, ParameterError
 from ..mpeg4 import FAPS
+from ..mpeg4.files import read_document, write_whole
 from .animation_tables import AnimationTable, AnimationTables, TableError
 
 FORMAT, VERSION = "risorius face animation tables", 1
@@ -32,7 +33,7 @@ def write_animation_tables(path: str | Path, tables: AnimationTables) -> None:
         "vertices": np.round(tables.vertices, DIGITS).tolist(),
         "tables": [_entry(table) for table in tables.tables.values()],
     }
-    _write(path, json.dumps(document))
+    write_whole(path, json.dumps(document))
 
 
 def read_animation_tables(path: str | Path) -> AnimationTables:
@@ -43,14 +44,7 @@ def read_animation_tables(path: str | Path) -> AnimationTables:
     FormatError : names the file, the key and the rule it breaks.
     """
     file = Path(path)
-    try:
-        document = json.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FormatError(file, f"cannot be read ({error.strerror})") from error
-    except (ValueError, RecursionError) as error:  # UnicodeDecodeError is a ValueError
-        raise FormatError(file, f"is not valid JSON: {error}") from error
-    if not isinstance(document, dict) or (document.get("format"), document.get("version")) != (FORMAT, VERSION):
-        raise FormatError(file, f'must be an object with "format": "{FORMAT}", "version": {VERSION}', key="format")
+    document = read_document(file, kind=FORMAT, version=VERSION)
     entries = document.get("tables")
     if not isinstance(entries, list):
         raise FormatError(file, "must be a list of tables", key="tables")
@@ -79,7 +73,7 @@ def write_face_def_tables(path: str | Path, tables: AnimationTables, *, node: st
     """
     if not node.isidentifier():
         raise ParameterError("node", "must be a name of letters, digits and _", node)
-    _write(path, "\n".join(_node_lines(tables, node)) + "\n")
+    write_whole(path, "\n".join(_node_lines(tables, node)) + "\n")
 
 
 def _entry(table: AnimationTable) -> dict[str, Any]:
@@ -143,14 +137,6 @@ def _array(file: Path, value: object, key: str, shape: tuple[int, ...]) -> Float
     if not np.isfinite(array).all():
         raise FormatError(file, "must be finite", key=key)
     return array
-
-
-def _write(path: str | Path, text: str) -> None:
-    """Write a file."""
-    try:
-        Path(path).write_text(text, encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise FormatError(path, f"cannot be written ({error.strerror}): choose a folder you may write to") from error
 
 
 def _node_lines(tables: AnimationTables, node: str) -> Iterator[str]:

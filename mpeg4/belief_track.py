@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Floats
-from ..errors import FormatError, ParameterError
+from ..errors import ParameterError
+from .files import write_whole
 from .profile import ARCHETYPES, Archetype
 from .recognition import Rule, recognise, shown_strength
 from .standard import FAP_COUNT, FAPS
@@ -102,10 +104,8 @@ def write_belief_csv(path: str | Path, track: BeliefTrack) -> None:
         time = [f"{number:.0f}", f"{index / track.fps:.4f}"]
         figures = [f"{belief:.6g}" for belief in track.beliefs[index]]
         rows.append([*time, *figures, best or "", f"{track.strengths[index]:.4f}", *values])
-    try:
-        with Path(path).open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow([*head, *(f"F{number}_{FAPS[number].name}" for number in seen)])
-            writer.writerows(rows)
-    except OSError as problem:
-        raise FormatError(path, f"cannot be written ({problem.strerror or problem})") from problem
+    out = io.StringIO()
+    writer = csv.writer(out)
+    writer.writerow([*head, *(f"F{number}_{FAPS[number].name}" for number in seen)])
+    writer.writerows(rows)
+    write_whole(path, out.getvalue())

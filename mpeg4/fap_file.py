@@ -7,7 +7,6 @@ out of step.
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +16,7 @@ import numpy as np
 from ..arrays import Bools, Floats
 from ..errors import FormatError, ParameterError
 from .fap_stream import FapStream
+from .files import write_whole
 from .high_level import ExpressionField, VisemeField
 from .standard import FAP_COUNT
 
@@ -107,16 +107,7 @@ def write_fap(path: str | Path, stream: FapStream, *, decimals: int = 0) -> None
         raise ParameterError("stream", "must hold at least one frame", 0)
     if (np.abs(stream.frames) > LARGEST).any():
         raise ParameterError("frames", f"must lie within {LARGEST:.0f} FAP units", float(np.nanmax(abs(stream.frames))))
-    file = Path(path)
-    text = "".join(_text(stream, decimals))
-    # Not with_suffix: a name without an extension, or with two, must not collide with a neighbour.
-    draft = file.with_name(f".{file.name}.{os.getpid()}.draft")
-    try:
-        draft.write_text(text, encoding="utf-8", newline="\n")
-        os.replace(draft, file)
-    except OSError as error:
-        draft.unlink(missing_ok=True)
-        raise FormatError(file, f"cannot be written ({error.strerror}): choose a folder you may write to") from error
+    write_whole(path, "".join(_text(stream, decimals)))
 
 
 def _lines(file: Path) -> Iterator[tuple[int, str]]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,7 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import FormatError, ParameterError
 from .fap_stream import FapStream
+from .files import read_document, write_whole
 from .high_level import ExpressionField, VisemeField
 from .standard import FAP_COUNT, FAPS
 
@@ -48,14 +48,7 @@ def write_fap_json(path: str | Path, stream: FapStream) -> None:
         "visemes": {str(index): field.values for index, field in stream.visemes.items()},
         "expressions": {str(index): field.values for index, field in stream.expressions.items()},
     }
-    file = Path(path)
-    draft = file.with_name(f".{file.name}.{os.getpid()}.draft")
-    try:
-        draft.write_text(json.dumps(document) + "\n", encoding="utf-8", newline="\n")
-        os.replace(draft, file)
-    except OSError as error:
-        draft.unlink(missing_ok=True)
-        raise FormatError(file, f"cannot be written ({error.strerror}): choose a folder you may write to") from error
+    write_whole(path, json.dumps(document) + "\n")
 
 
 def read_fap_json(path: str | Path) -> FapStream:
@@ -66,14 +59,7 @@ def read_fap_json(path: str | Path) -> FapStream:
     FormatError : names the file, the key and the rule it breaks.
     """
     file = Path(path)
-    try:
-        document = json.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FormatError(file, f"cannot be read ({error.strerror})") from error
-    except (ValueError, RecursionError) as error:  # UnicodeDecodeError is a ValueError
-        raise FormatError(file, f"is not valid JSON: {error}") from error
-    if not isinstance(document, dict) or (document.get("format"), document.get("version")) != (FORMAT, VERSION):
-        raise FormatError(file, f'must be an object with "format": "{FORMAT}", "version": {VERSION}', key="format")
+    document = read_document(file, kind=FORMAT, version=VERSION)
     frames = _frames(file, document)
     name, file_version = (_text(file, document, key) for key in ("name", "file_version"))
     fields = {key: _fields(file, document, key) for key in ("visemes", "expressions")}

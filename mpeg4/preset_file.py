@@ -16,6 +16,7 @@ from typing import Any, TypeVar
 
 from ..errors import FormatError, ParameterError
 from .expressions import expression, find_word
+from .files import write_whole
 from .profile import Profile
 from .timing import Ramp
 
@@ -139,10 +140,7 @@ def write_preset(path: str | Path, preset: Preset) -> None:
     if preset.contractions:
         lines += ["", "[contractions]"]
         lines += [f"{_text(name)} = {_number(value)}" for name, value in preset.contractions.items()]
-    try:
-        Path(path).write_text("\n".join(lines) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise FormatError(path, f"cannot be written ({error.strerror})") from error
+    write_whole(path, "\n".join(lines) + "\n")
 
 
 def _choice_lines(choice: Choice) -> list[str]:

@@ -71,38 +71,26 @@ class LiveFace:
         for fraction, text in self._face.prepare():
             yield Progress(fraction, text)
 
-    def sketch(
+    def moved(
         self,
         frame: Floats,
         *,
         drive: str,
         emotion: EmotionShares | None = None,
         contractions: Mapping[str, float] | None = None,
+        exact: bool = False,
     ) -> Floats:
-        """(V, 3) displacement for one frame of FAPs, metres, nearly in balance; see `Face.sketcher`."""
-        sketched = self._sketcher.sketch(frame, drive=drive, emotion=emotion, contractions=contractions)
-        self.contractions = sketched.contractions
-        moved: Floats = sketched.positions - self._source.vertices
-        return moved
-
-    def pose(
-        self,
-        frame: Floats,
-        *,
-        drive: str,
-        emotion: EmotionShares | None = None,
-        contractions: Mapping[str, float] | None = None,
-    ) -> Floats:
-        """(V, 3) displacement in balance, as a bake writes it."""
-        posed = self._face.pose(frame, drive=drive, emotion=emotion, contractions=contractions)
-        self.contractions = posed.contractions
-        moved: Floats = posed.positions - self._source.vertices
+        """(V, 3) displacement for one frame of FAPs, metres: a sketch (`Face.sketcher`), or in balance as a bake is."""
+        show = self._face.pose if exact else self._sketcher.sketch
+        shown = show(frame, drive=drive, emotion=emotion, contractions=contractions)
+        self.contractions = shown.contractions
+        moved: Floats = shown.positions - self._source.vertices
         return moved
 
     def trace(self, frame: Floats, **asked: Any) -> None:
-        """Find the skin's ways from rest to a frame of FAPs; keywords as for `sketch`."""
+        """Find the skin's ways from rest to a frame of FAPs; keywords as for `moved`."""
         rest, contractions = self._source.vertices[self._traced], self.contractions
-        stops = [self.sketch(share * frame, **asked)[self._traced] for share in np.linspace(0.0, 1.0, STOPS)[1:]]
+        stops = [self.moved(share * frame, **asked)[self._traced] for share in np.linspace(0.0, 1.0, STOPS)[1:]]
         self.contractions = contractions
         self.paths = self._local(np.stack([rest, *[rest + moved for moved in stops]], axis=1))
 

@@ -90,7 +90,7 @@ def save_preset(obj: Any, name: str) -> Path:
 
     Raises
     ------
-    SceneError : no name; no points that move with the mesh; the file cannot be written.
+    SceneError : no name; no points that move with the mesh. FormatError : the file cannot be written.
     """
     from ..face.fit.topologies import topology_of, write_topology
 
@@ -104,10 +104,7 @@ def save_preset(obj: Any, name: str) -> Path:
     polygons = meshes.polygon_sequence(*meshes.polygon_arrays(obj.data))
     topology = topology_of(name.strip(), "saved in Blender", len(obj.data.vertices), polygons, points)
     path = preset_folder(create=True) / f"{stem}.toml"
-    try:
-        write_topology(path, topology)
-    except OSError as problem:
-        raise SceneError(str(path), f"cannot be written ({problem}): make room or allow writing") from problem
+    write_topology(path, topology)
     return path
 
 

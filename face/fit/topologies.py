@@ -20,6 +20,7 @@ import numpy as np
 from ...arrays import Floats, Ints
 from ...errors import FormatError, ModelError
 from ...mpeg4 import FEATURE_POINTS
+from ...mpeg4.files import write_whole
 from ...physics.mesh import Polygons, unique_edges
 
 #: The tables that come with Risorius.
@@ -156,7 +157,12 @@ def topology_of(
 
 
 def write_topology(path: str | Path, topology: Topology) -> None:
-    """Write a table that `read_topology` reads."""
+    """Write a table that `read_topology` reads.
+
+    Raises
+    ------
+    FormatError : the file cannot be written.
+    """
     lines = [
         f"name = {_quoted(topology.name)}",
         f"source = {_quoted(topology.source)}",
@@ -171,7 +177,7 @@ def write_topology(path: str | Path, topology: Topology) -> None:
             lines.append(f'"{name}" = {point.vertices[0]}')
         else:
             lines.append(f'"{name}" = [{point.vertices.tolist()}, {[round(w, 12) for w in point.weights.tolist()]}]')
-    Path(path).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_whole(path, "\n".join(lines) + "\n")
 
 
 def _quoted(text: str) -> str:

@@ -7,13 +7,14 @@ F03_open_jaw to F68_pull_r_ear in FAP units (1e-5 rad for angles).
 from __future__ import annotations
 
 import csv
-import os
+import io
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import FormatError
 from ..fap_stream import FapStream
+from ..files import write_whole
 from ..standard import FAP_COUNT, FAPS
 from .samples import Samples
 from .table_file import TableFile
@@ -28,21 +29,14 @@ def write_fap_csv(path: str | Path, stream: FapStream) -> None:
     ------
     FormatError : the file cannot be written.
     """
-    file = Path(path)
-    draft = file.with_name(file.name + ".part")
-    try:
-        with draft.open("w", encoding="utf-8", newline="") as out:
-            writer = csv.writer(out, lineterminator="\n")
-            writer.writerow(["frame", "timestamp", "confidence", "success", *COLUMNS.values()])
-            for index, values in enumerate(stream.expanded()):
-                known = int(not np.isnan(values).all())
-                cells = ["" if np.isnan(values[n - 1]) else f"{values[n - 1]:.6g}" for n in COLUMNS]
-                writer.writerow([index + 1, f"{index / stream.fps:.6f}", known, known, *cells])
-        os.replace(draft, file)
-    except OSError as error:
-        draft.unlink(missing_ok=True)
-        problem = f"cannot be written ({error.strerror}): choose a folder you may write to"
-        raise FormatError(file, problem) from error
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["frame", "timestamp", "confidence", "success", *COLUMNS.values()])
+    for index, values in enumerate(stream.expanded()):
+        known = int(not np.isnan(values).all())
+        cells = ["" if np.isnan(values[n - 1]) else f"{values[n - 1]:.6g}" for n in COLUMNS]
+        writer.writerow([index + 1, f"{index / stream.fps:.6f}", known, known, *cells])
+    write_whole(path, out.getvalue())
 
 
 def holds_faps(table: TableFile) -> bool:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from ...errors import FormatError, ParameterError
+from ...errors import ParameterError
 from ..fap_stream import FapStream
+from ..files import write_whole
 from ..standard import GROUPS
 from .arithmetic import Model, SegmentWriter
 from .bits import BitWriter
@@ -77,11 +78,7 @@ def write_fba(
     progress: Report | None = None,
 ) -> None:
     """Write a stream as an FBA file; as `encode_fba`, and FormatError where it cannot be written."""
-    data = encode_fba(stream, quantiser=quantiser, refresh=refresh, progress=progress)
-    try:
-        Path(path).write_bytes(data)
-    except OSError as error:
-        raise FormatError(path, f"cannot be written ({error.strerror}): choose a folder you may write to") from error
+    write_whole(path, encode_fba(stream, quantiser=quantiser, refresh=refresh, progress=progress))
 
 
 def _write_run(bits: BitWriter, run: Run, rate: Rate, quantiser: int, last: int) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -14,6 +13,7 @@ from mathutils import Vector
 
 from ...errors import RisoriusError, SceneError
 from ...mpeg4 import FAPS, FEATURE_POINTS
+from ...mpeg4.files import write_whole
 from ...scene.faces import stored_points
 from ...scene.points_bound import followed
 from ...scene.points_found import Finding, find_points
@@ -221,10 +221,7 @@ class RISORIUS_OT_export_points(RisoriusOperator, bpy.types.Operator, ExportHelp
             "confidence": {name: kept[name].confidence for name in points},
             "origin": {name: kept[name].origin.value for name in points},
         }
-        try:
-            Path(self.filepath).write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
-        except OSError as problem:
-            raise SceneError(self.filepath, f"cannot be written ({problem}): choose another place") from problem
+        write_whole(self.filepath, json.dumps(table, indent=1) + "\n")
         return f"Wrote {len(points)} feature points to {self.filepath}"
 
 

@@ -1,0 +1,49 @@
+"""Files are written whole or not at all, and documents say what they are."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+from risorius.errors import FormatError
+from risorius.mpeg4.files import read_document, write_whole
+
+
+def test_text_and_bytes_stand_as_they_are_and_nothing_else_is_left(tmp_path: Path) -> None:
+    write_whole(tmp_path / "a", "one\ntwo é\n")
+    write_whole(tmp_path / "b", b"\x00\x01")
+    assert (tmp_path / "a").read_bytes() == "one\ntwo é\n".encode()
+    assert (tmp_path / "b").read_bytes() == b"\x00\x01"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a", "b"]
+
+
+def test_an_older_file_stays_where_the_new_one_cannot_be_put(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a").write_text("old")
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(FormatError, match="No space left"):
+        write_whole(tmp_path / "a", "new")
+    assert (tmp_path / "a").read_text() == "old"
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+
+
+def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match=r"nowhere.*cannot be written"):
+        write_whole(tmp_path / "nowhere" / "a", "new")
+
+
+@pytest.mark.parametrize("text", ["", "[1]", '{"format": "tea"}', '{"format": "soup", "version": 2}', "[" * 100_000])
+def test_other_documents_are_refused(text: str, tmp_path: Path) -> None:
+    (tmp_path / "a").write_text(text)
+    with pytest.raises(FormatError):
+        read_document(tmp_path / "a", kind="soup", version=1)
+
+
+def test_a_document_is_read(tmp_path: Path) -> None:
+    (tmp_path / "a").write_text(json.dumps({"format": "soup", "version": 1, "hot": True}))
+    assert read_document(tmp_path / "a", kind="soup", version=1)["hot"] is True
