@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import Any
 
 import bpy
 
+from ..preview import live
 from ..sidebar import Sidebar
 from ..timeline.linked import linked_clip
 from ..timeline.titles import clip_title
@@ -14,6 +16,9 @@ from ..wheel.panel import RISORIUS_PT_wheel
 from ..wheel.places import between
 from .ops import RISORIUS_OT_reset_activation
 from .props import own_activation
+
+#: Letters that fit on a line of the sidebar.
+LINE = 38
 
 
 class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
@@ -33,6 +38,11 @@ class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         emotion, preview = context.object.risorius.emotion, context.window_manager.risorius.preview
         layout.prop(preview, "show", icon="HIDE_OFF" if preview.show else "HIDE_ON", toggle=True)
+        why = live.why_not(context.object)
+        if why:
+            box = layout.box().column(align=True)
+            for line in textwrap.wrap(why, LINE):
+                box.label(text=line)
         wheel = context.window_manager.risorius.wheel
         row = layout.row(align=True)
         row.prop(wheel, "show", icon="HIDE_OFF" if wheel.show else "HIDE_ON", toggle=True)

@@ -17,6 +17,7 @@ from ...arrays import Floats
 from ...errors import RisoriusError
 from ...scene import preview, shape_keys
 from ...scene.live_face import LiveFace, uid_of
+from ...scene.points_kept import has_points
 from ...scene.progress import Progress, Work
 from ..active import ready_reason, target_of
 from ..changes import listen, listen_to_time, unlisten
@@ -31,12 +32,17 @@ KEPT, KEPT_APEXES = 3, 24
 
 
 class _Live:
-    """What is known of the faces that are previewed."""
+    """What is known of the faces that are previewed, by their numbers.
+
+    `asked` are those to be sketched, `rough` those that are sketched and not yet in balance, `seen` those that showed
+    a preview before the file was saved or changed by undo.
+    """
 
     def __init__(self) -> None:
         self.faces: dict[int, LiveFace] = {}
-        self.asked: int | None = None
-        self.rough: int | None = None
+        self.asked: list[int] = []
+        self.rough: list[int] = []
+        self.seen: set[int] = set()
         self.since = 0.0
         self.work: Work[None] | None = None
         self.trouble = ""
@@ -53,16 +59,20 @@ def is_on() -> bool:
     return not bpy.app.background and manager is not None and bool(manager.risorius.preview.show)
 
 
-def trouble() -> str:
-    """Why the last look could not be shown, or nothing."""
-    return _live.trouble
+def why_not(obj: Any) -> str:
+    """Why a face does not show what is chosen for it, or nothing."""
+    if not is_on() or not has_points(obj):
+        return ""
+    return ready_reason(obj) or _live.trouble
 
 
 def ask(obj: Any) -> None:
     """Show `obj` as it is chosen now, soon."""
     if not is_on() or getattr(obj, "type", "") != "MESH" or ready_reason(obj) is not None:
         return
-    _live.asked, _live.since = uid_of(obj), time.monotonic()
+    _live.since = time.monotonic()
+    if uid_of(obj) not in _live.asked:
+        _live.asked.append(uid_of(obj))
     if not bpy.app.timers.is_registered(_answer):
         bpy.app.timers.register(_answer, first_interval=0.0)
 
@@ -85,38 +95,41 @@ def object_of(uid: int) -> Any | None:
 
 def _answer() -> float | None:
     """Timer: do what is due, and say when to come again."""
-    if not is_on() or (_live.asked is None and _live.rough is None and _live.work is None):
+    if not is_on() or not (_live.asked or _live.rough or _live.work):
         return None
     try:
         return _step()
     except RisoriusError as refusal:
         _live.trouble = str(refusal)
     _forget_work()
-    _live.asked = _live.rough = None
+    _forget_asked()
     return None
+
+
+def _forget_asked() -> None:
+    """Nothing is due any more."""
+    _live.asked.clear()
+    _live.rough.clear()
 
 
 def _step() -> float | None:
     """One share of work, one look, or the last one in balance."""
     if _live.work is not None:
         return _prepare()
-    uid = _live.asked if _live.asked is not None else _live.rough
-    obj = object_of(uid) if uid is not None else None
-    if obj is None or ready_reason(obj) is not None:
-        _live.asked = _live.rough = None
-        return None
-    face = _face_of(obj)
-    if _live.work is not None:
-        return PAUSE
-    if _live.asked is not None:
-        show(obj, face)
-        _live.asked, _live.rough = None, uid
+    exact = not _live.asked
+    if exact and time.monotonic() - _live.since < REST:
         return REST
-    if time.monotonic() - _live.since < REST:
-        return REST
-    show(obj, face, exact=True)
-    _live.rough = None
-    return None
+    due = _live.rough if exact else _live.asked
+    obj = object_of(due[0])
+    if obj is not None and ready_reason(obj) is None:
+        face = _face_of(obj)
+        if _live.work is not None:
+            return PAUSE
+        show(obj, face, exact=exact)
+        if not exact and due[0] not in _live.rough:
+            _live.rough.append(due[0])
+    del due[0]
+    return 0.0
 
 
 def _face_of(obj: Any) -> LiveFace:
@@ -173,15 +186,19 @@ def show(obj: Any, face: LiveFace | None = None, *, exact: bool = False) -> None
     ready.show(target_of(obj), _moved(ready, wanted, exact=exact))
     ready.paths = None
     if exact and bpy.context.window_manager.risorius.show.paths:
-        ready.trace(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights, contractions=wanted.contractions)
+        ready.trace(wanted.frame, **_asked_of(wanted))
     shown[uid_of(obj)] = ready.contractions
     _live.trouble = ""
 
 
 def _moved(face: LiveFace, wanted: Wanted, *, exact: bool) -> Floats:
     """(V, 3) displacement."""
-    pose = face.pose if exact else face.sketch
-    return pose(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights, contractions=wanted.contractions)
+    return face.moved(wanted.frame, **_asked_of(wanted), exact=exact)
+
+
+def _asked_of(wanted: Wanted) -> dict[str, Any]:
+    """What goes along with the FAPs."""
+    return {"drive": wanted.drive, "emotion": wanted.profile.weights, "contractions": wanted.contractions}
 
 
 def play(obj: Any, face: LiveFace, scene: Any) -> None:
@@ -228,7 +245,7 @@ def _after_frame(scene: Any, *_: Any) -> None:
     """Another frame: what is baked plays by itself, what is not is shown as it is laid out."""
     if not is_on() or bpy.app.is_job_running("RENDER"):
         return
-    _live.asked = _live.rough = None
+    _forget_asked()
     for uid, face in tuple(_live.faces.items()):
         obj = object_of(uid)
         if obj is None or _live.work is not None:
@@ -252,7 +269,7 @@ def replay(obj: Any) -> None:
     """Show the scene's frame again: something on the timeline of `obj` has moved."""
     face = _live.faces.get(uid_of(obj))
     if is_on() and face is not None and _live.work is None:
-        _live.asked = _live.rough = None
+        _forget_asked()
         _play_or_rest(obj, face, bpy.context.scene)
 
 
@@ -270,24 +287,34 @@ def _after_update(*_: Any) -> None:
         preview.remove_unused()
 
 
+def _before_undo(*_: Any) -> None:
+    """Remember who shows a preview."""
+    _live.seen = {uid_of(obj) for obj in bpy.data.objects if obj.type == "MESH" and preview.is_shown(obj)}
+
+
 def _before_save(*_: Any) -> None:
     """Nothing of a preview goes into a file."""
-    if not bpy.app.background:
-        preview.remove_all()
+    _before_undo()
+    preview.remove_all()
 
 
 def _after_save(*_: Any) -> None:
-    """Show it again."""
-    if is_on() and bpy.context.object is not None and uid_of(bpy.context.object) in _live.faces:
-        ask(bpy.context.object)
+    """Show again who did before."""
+    for obj in bpy.data.objects:
+        if uid_of(obj) in _live.seen:
+            ask(obj)
 
 
 def _after_undo(*_: Any) -> None:
-    """The file is another one now: what is shown follows it."""
+    """The file is another one now: those who showed a preview show what is chosen now, the others themselves."""
     if not is_on():
         preview.remove_all()
-    elif bpy.context.object is not None and uid_of(bpy.context.object) in _live.faces:
-        ask(bpy.context.object)
+        return
+    for obj in bpy.data.objects:
+        if uid_of(obj) in _live.seen:
+            ask(obj)
+        elif obj.type == "MESH" and preview.is_shown(obj):
+            preview.rest([obj])
 
 
 def _after_load(*_: Any) -> None:
@@ -303,6 +330,8 @@ def _handlers() -> tuple[tuple[Any, Any], ...]:
         (on.depsgraph_update_post, _after_update),
         (on.save_pre, _before_save),
         (on.save_post, _after_save),
+        (on.undo_pre, _before_undo),
+        (on.redo_pre, _before_undo),
         (on.undo_post, _after_undo),
         (on.redo_post, _after_undo),
         (on.load_post, _after_load),

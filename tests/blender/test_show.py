@@ -67,7 +67,7 @@ def test_the_preview_shows_on_the_object_and_goes_without_a_trace(head: Any) -> 
 
     before = state()
     face, wanted = LiveFace(target_of(head)), wanted_of(head)
-    moved = face.pose(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights)
+    moved = face.moved(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights, exact=True)
     face.show(target_of(head), moved)
     shown = meshes.evaluated_vertices(head)
     posed = api.default_face().pose(wanted.frame, emotion=wanted.profile.weights)

@@ -184,6 +184,36 @@ def test_the_film_is_rendered_beside_the_file(window: Window, work: Path) -> Non
     assert (work / "face.glb").read_bytes()[:4] == b"glTF"
 
 
+def test_two_faces_keep_their_previews_when_the_file_is_saved(window: Window, work: Path) -> None:
+    window.ask(
+        "for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)\n"
+        "bpy.context.window_manager.risorius.preview.show = True\n"
+        "with in_viewport():\n"
+        "    for word in ('joy', 'surprise'):\n"
+        "        bpy.ops.risorius.add_head()\n"
+        "        bpy.context.object.risorius.emotion.word = word"
+    )
+    window.wait(f"len({PREVIEWED}) == 2")
+    window.ask(f"bpy.ops.wm.save_as_mainfile(filepath={str(work / 'two.blend')!r})")
+    window.wait(f"len({PREVIEWED}) == 2")
+    window.shot(PICTURES / "5-two.png")
+
+
+def test_a_muscle_slider_moves_the_face(window: Window) -> None:
+    window.ask(
+        "import_module('bl_ext.user_default.risorius.operators.muscles.props').list_muscles()\n"
+        "sliders = bpy.context.window_manager.risorius.muscles.names\n"
+        "places = bpy.context.object.data.attributes['risorius_preview'].data\n"
+        "was = [tuple(place.vector) for place in places]\n"
+        "sliders['jaw_open'].contraction = 0.0"
+    )
+    window.wait(
+        "max(abs(place.vector[2] - before[2]) for place, before in"
+        " zip(bpy.context.object.data.attributes['risorius_preview'].data, was)) > 0.005"
+    )
+    assert window.ask("result = [entry.name for entry in bpy.context.object.risorius.muscles.by_hand]") == ["jaw_open"]
+
+
 def test_a_deleted_face_leaves_nothing_of_its_preview(window: Window) -> None:
     window.ask(
         "bpy.context.window_manager.risorius.preview.show = True\n"

@@ -40,7 +40,7 @@ def drag(face: LiveFace, target: Target, steps: int) -> list[float]:
     times = []
     for profile in profiles:
         begin = time.process_time()
-        moved = face.sketch(profile.frame(), drive="natural", emotion=profile.weights)
+        moved = face.moved(profile.frame(), drive="natural", emotion=profile.weights)
         face.show(target, moved)
         bpy.context.view_layer.update()
         times.append(time.process_time() - begin)
