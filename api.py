@@ -9,11 +9,8 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-from .face.animation_tables import AnimationTable, AnimationTables, TableError
-from .face.blendshapes import arkit_shapes
-from .face.captured import CaptureFormat, read_capture
-from .face.creases import Creases
 from .face.default_head import HeadMesh, build_default_head
+from .face.drive.wishes import Drive
 from .face.face import Clip, Face
 from .face.fit.find import FoundPoints, find_points, find_points_steps
 from .face.fit.progress import FitProgress
@@ -26,15 +23,18 @@ from .face.fit.topologies import (
     topology_of,
     write_topology,
 )
-from .face.frame import Fapu
-from .face.landmarks import LandmarkReading, read_points
-from .face.mechanisms import ADDITIONS, MUSCLE_GROUPS, Mechanism
-from .face.parts import Part
-from .face.points import REQUIRED as REQUIRED_POINTS
+from .face.mechanism import ADDITIONS, MUSCLE_GROUPS, Mechanism
+from .face.mesh.head_frame import Fapu
+from .face.mesh.parts import Part
+from .face.mesh.points import REQUIRED as REQUIRED_POINTS
 from .face.pose import Pose
-from .face.table_building import face_animation_tables
-from .face.table_files import read_animation_tables, write_animation_tables, write_face_def_tables
-from .face.wishes import Drive
+from .face.products.animation_table_building import face_animation_tables
+from .face.products.animation_table_files import read_animation_tables, write_animation_tables, write_face_def_tables
+from .face.products.animation_tables import AnimationTable, AnimationTables, TableError
+from .face.products.blendshapes import arkit_shapes
+from .face.products.creases import Creases
+from .face.tracked.captured import CaptureFormat, read_capture
+from .face.tracked.landmarks import LandmarkReading, read_points
 from .mpeg4 import (
     ARCHETYPES,
     FAPS,
@@ -86,7 +86,7 @@ from .mpeg4 import (
     write_fap_json,
     write_fba,
 )
-from .mpeg4.capture import CaptureShape, KeyShape, load_key_names, load_shapes, write_fap_csv
+from .mpeg4.streams.capture import CaptureShape, KeyShape, load_key_names, load_shapes, write_fap_csv
 
 __all__ = [
     "ADDITIONS",

@@ -92,7 +92,7 @@ def _point_order(name: str) -> tuple[int, ...]:
 def _found_points(arguments: argparse.Namespace) -> Result:
     """Feature points found on a mesh; written as the JSON that every verb reads."""
     from .. import api
-    from ..face.mesh_file import read_mesh
+    from ..face.mesh.files import read_mesh
 
     mesh = read_mesh(arguments.mesh)
     found = api.find_points(mesh.vertices, mesh.polygons)

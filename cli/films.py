@@ -61,7 +61,7 @@ def _demo(arguments: argparse.Namespace) -> Result:
 def _jobs() -> Any:
     """The jobs that need Blender; imported only here."""
     try:
-        from ..scene import jobs
+        from ..scene.jobs import jobs
     except ModuleNotFoundError as missing:
         if missing.name in ("bpy", "mathutils"):
             raise RisoriusError(NEEDS_BLENDER) from None

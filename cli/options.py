@@ -65,8 +65,8 @@ def expression_of(arguments: argparse.Namespace) -> Any:
 def face_of(arguments: argparse.Namespace) -> Any:
     """The face of --mesh and --points; the default one without them."""
     from .. import api
-    from ..face.mesh_file import read_mesh
-    from ..scene.points_file import read_points
+    from ..face.mesh.files import read_mesh
+    from ..scene.points.file import read_points
 
     if (arguments.mesh is None) != (arguments.points is None):
         raise UsageError("--mesh and --points go together")
@@ -78,7 +78,7 @@ def face_of(arguments: argparse.Namespace) -> Any:
 
 def vertices_of(path: Path, face: Any) -> Any:
     """The vertices of a deformed mesh, as many as the face has."""
-    from ..face.mesh_file import read_mesh
+    from ..face.mesh.files import read_mesh
 
     vertices = read_mesh(path).vertices
     if len(vertices) != len(face.vertices):

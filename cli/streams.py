@@ -104,7 +104,7 @@ def _play(arguments: argparse.Namespace) -> Result:
     if arguments.mesh is None and arguments.points is not None:
         raise UsageError("--points needs --mesh")
     try:
-        from ..scene import playing
+        from ..scene.jobs import playing
     except ModuleNotFoundError as missing:
         if missing.name in ("bpy", "mathutils"):
             raise RisoriusError(NEEDS_BLENDER) from None

@@ -1,13 +1,25 @@
 """One particular face: parts, feature points, muscles placed on it, FAPs to contractions and back.
 
-checks, frame, points, parts, segmentation       what is given, where the face is, what its vertices are
-openings, outer_skin, regions, tissue, followers the skin as an elastic sheet, and what follows it
-template, tables, muscle_table, placement        the muscles, written on the template, placed on the face,
-muscle_fields, pulls                             as fields of force and of what they move
-mechanisms                                       what moves a face, one file each, and the switch
-organs, actuators, anatomy                       what else moves, and all of it together
-rows, inverse, nonnegative                       from FAPs to contractions
-natural, synergies, wishes                       what a face does when asked for a few FAPs
-measure, pose, simulate, face                    the public `Face`
-default_head, mesh_file                          the head that comes with Risorius; heads in files
+The spine, from the public `Face` down; each knows only what stands below it:
+
+face            the public `Face`
+simulate, pose  a face in motion; a face in balance
+measure         FAPs and features read off a deformed face
+requests        the frames, drives and emotions that a caller gives, checked
+anatomy         one face prepared for motion; builds all that the rooms hold
+
+The rooms, in the same order (`products` alone stands above `face`):
+
+products        what is made with a whole `Face`: tables for players, shapes for engines, creases, lines to look at
+drive           what is asked, what a face can do of it, and the muscles behind it
+response        what muscles do to the skin, and what follows the skin
+bodies          eyeballs, teeth, tongue, the head on its spine, and where skin meets them or itself
+mechanisms      what moves a face, one mechanism per file
+skin            the visible skin as a sheet: geometry only
+muscles         the table of muscles, and its rows placed on one face
+mesh            what is given: vertices, points, parts, openings, the head's frame, the template
+mechanism       the names of all mechanisms
+
+Beside them: `fit` finds feature points on any head, `tracked` turns what trackers saw into FAPs, `default_head` is the
+head that comes with Risorius, `tables` reads tables of anatomy.
 """

@@ -2,58 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from scipy import sparse
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Bools, Ints
 from ..errors import ModelError
 from ..physics import mesh
 from ..physics.elastic import laplacian
-from .actuators import Actuators
-from .fine_skin import SOLVED, fine_skin
-from .followers import InnerSkin, LooseParts
-from .frame import Fapu, HeadFrame
-from .inverse import Inverse, Kernel, kernel_of
-from .living_skin import Relaxation
-from .mechanisms import EVERY, Mechanism
+from .bodies.contact import Contact, build_contact
+from .bodies.eyeball import PUPIL_SHARE, Eyeball
+from .bodies.head_turn import HeadTurn, build_head_turn
+from .bodies.tongue import Tongue, build_tongue
+from .drive.inverse import Inverse, Kernel, kernel_of
+from .mechanism import EVERY, Mechanism
 from .mechanisms.jaw import Jaw, build_jaw
 from .mechanisms.lids import Eye, build_eye
-from .muscle_table import muscles_of
-from .openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, edge_graph, find_opening, outer_faces
-from .organs import PUPIL_SHARE, Eyeball, HeadTurn, Tongue, build_head_turn, build_tongue
-from .outer_skin import OuterSkin
-from .parts import Part
-from .placement import PlacedMuscle, place_muscles
-from .points import FeaturePoints
-from .pulls import Pulls, pulls_of
-from .rows import FapRows, displacement_rows
-from .template import TEMPLATE_POINTS, TemplateWarp
-from .tissue import Tissue
-
-
-@dataclass(frozen=True)
-class Mesh:
-    """The neutral mesh of a face in head space.
-
-    Attributes
-    ----------
-    positions : (V, 3) metres. polygons : vertex index arrays. parts : (V,) numbers of `Part`.
-    points : bound feature points (their positions in the face's own coordinates).
-    landmarks : feature point -> (3,) in head space.
-    frame, units : where the head is, and its FAP units.
-    """
-
-    positions: Floats
-    polygons: Sequence[Ints]
-    parts: Ints
-    points: FeaturePoints
-    landmarks: Mapping[str, Floats]
-    frame: HeadFrame
-    units: Fapu
+from .mesh.face_mesh import FaceMesh
+from .mesh.fap_rows import FapRows, displacement_rows
+from .mesh.openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, edge_graph, find_opening, outer_faces
+from .mesh.parts import Part
+from .mesh.points import FeaturePoints
+from .mesh.template import TEMPLATE_POINTS, TemplateWarp
+from .muscles.placement import PlacedMuscle, place_muscles
+from .muscles.table import muscles_of
+from .response.actuators import Actuators
+from .response.followers import InnerSkin, LooseParts
+from .response.living_skin import Relaxation
+from .response.pulls import Pulls, pulls_of
+from .response.sheet import Tissue
+from .skin.fine import SOLVED, fine_skin
+from .skin.outer import OuterSkin
 
 
 def _vertex_of(points: FeaturePoints) -> dict[str, int]:
@@ -72,7 +52,7 @@ class Anatomy:
     """The moving parts of one face; each is built when first asked for."""
 
     def __init__(
-        self, face_mesh: Mesh, mechanisms: frozenset[Mechanism] = EVERY, *, whole: Anatomy | None = None
+        self, face_mesh: FaceMesh, mechanisms: frozenset[Mechanism] = EVERY, *, whole: Anatomy | None = None
     ) -> None:
         """Prepare a face with some mechanisms, all of them unless told otherwise.
 
@@ -151,6 +131,11 @@ class Anatomy:
             ball = self.mesh.positions[self._part(part)]
             found[side] = build_eye(self.skin, side, ball if len(ball) else None)
         return found
+
+    @cached_property
+    def contact(self) -> Contact:
+        """Lips and lids where they meet, eyeballs and teeth behind them."""
+        return build_contact(self.skin, self.mesh, self.eyes, self.eyeballs, self.jaw)
 
     @cached_property
     def muscles(self) -> list[PlacedMuscle]:

@@ -14,30 +14,21 @@ from ..mpeg4 import Cue, Liveliness
 from ..mpeg4.standard import FAP_COUNT
 from ..physics import mesh
 from ..physics.tissue import Tissue
-from .anatomy import Anatomy, Mesh
-from .checks import (
-    checked_axes,
-    checked_drive,
-    checked_emotion,
-    checked_emotions,
-    checked_frame,
-    checked_frames,
-    checked_parts,
-    checked_polygons,
-    checked_vertices,
-    with_pupils,
-)
-from .frame import Fapu, fapu, head_frame
-from .living_skin import Memory
+from .anatomy import Anatomy
+from .drive.natural import EmotionShares
+from .drive.wishes import Drive
 from .measure import features, measure
-from .mechanisms import Mechanism, named
-from .natural import EmotionShares
-from .parts import Part
-from .placement import PlacedMuscle
-from .points import FeaturePoints, PointSource, bind_points, check_sides
+from .mechanism import Mechanism, named
+from .mesh.checks import checked_axes, checked_parts, checked_polygons, checked_vertices, with_pupils
+from .mesh.face_mesh import FaceMesh
+from .mesh.head_frame import Fapu, fapu, head_frame
+from .mesh.parts import Part
+from .mesh.points import FeaturePoints, PointSource, bind_points, check_sides
+from .muscles.placement import PlacedMuscle
 from .pose import Pose, Poser, Sketch
+from .requests import checked_drive, checked_emotion, checked_emotions, checked_frame, checked_frames
+from .response.living_skin import Memory
 from .simulate import Simulation, cue_moments, stream_moments
-from .wishes import Drive
 
 
 @dataclass(frozen=True)
@@ -117,7 +108,7 @@ class Face:
         given = checked_parts(parts, head, faces, landmarks, bound)
         if parts is None:
             bound = bind_points(sources, array, triangles, given == Part.SKIN)
-        face_mesh = Mesh(head, faces, given, bound, landmarks, frame, units)
+        face_mesh = FaceMesh(head, faces, given, bound, landmarks, frame, units)
         return cls(array, Anatomy(face_mesh))
 
     def without(self, *mechanisms: str | Mechanism) -> Face:
@@ -216,7 +207,7 @@ class Face:
         yield 0.5, "Relating muscles to FAPs"
         _ = anatomy.inverse
         yield 0.7, "Finding where lips and lids meet"
-        _ = poser.contact
+        _ = poser.anatomy.contact
         yield 0.9, "Relaxing the skin"
         poser.sketch(np.full(FAP_COUNT, np.nan), Drive.NATURAL, None, None, Memory())
 

@@ -8,8 +8,8 @@ from ..arrays import Floats
 from ..errors import ModelError, ParameterError
 from ..mpeg4 import FAP_COUNT, FEATURES
 from .anatomy import Anatomy
-from .organs import ANGLE_UNIT
-from .rows import unit_length
+from .bodies.direct_faps import ANGLE_UNIT
+from .mesh.fap_rows import unit_length
 
 
 def _checked(anatomy: Anatomy, positions: Floats) -> Floats:

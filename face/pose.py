@@ -11,18 +11,28 @@ from scipy.spatial import cKDTree
 
 from ..arrays import Floats, Ints
 from ..errors import ParameterError
-from .actuators import LID_AMPLITUDES, LID_NAMES, Amounts
 from .anatomy import Anatomy
-from .contact import Contact, build_contact, lip_share
-from .folds import Folds
-from .inverse import EXACT_NOISE
-from .living_skin import Memory
+from .bodies.contact import lip_share
+from .bodies.surroundings import Surroundings
+from .drive.inverse import EXACT_NOISE
+from .drive.natural import EmotionShares, Natural, Plan
+from .drive.wishes import (
+    ASKED_DOUBT,
+    LIP_DOUBT,
+    LIP_FAPS,
+    SILENT_DOUBT,
+    Drive,
+    exact_wish,
+    fill,
+    lip_middles,
+    natural_wish,
+)
 from .measure import measure
-from .mechanisms import Mechanism
+from .mechanism import Mechanism
 from .mechanisms.jaw import JawMotion
-from .natural import EmotionShares, Natural, Plan
-from .surroundings import Surroundings
-from .wishes import ASKED_DOUBT, LIP_DOUBT, LIP_FAPS, SILENT_DOUBT, Drive, exact_wish, fill, lip_middles, natural_wish
+from .response.actuators import LID_AMPLITUDES, LID_NAMES, Amounts
+from .response.folds import Folds
+from .response.living_skin import Memory
 
 #: Rounds of elastic correction where FAPs are met exactly: what contact disturbs is corrected again.
 CORRECTION_ROUNDS = 3
@@ -76,11 +86,6 @@ class Poser:
         self.anatomy = anatomy
         self.natural = Natural()
         self.with_folds = folds and Mechanism.FOLDS in anatomy.mechanisms
-
-    @cached_property
-    def contact(self) -> Contact:
-        """Lips and lids of the face where they meet, eyeballs and teeth behind them."""
-        return build_contact(self.anatomy)
 
     @cached_property
     def folds(self) -> Folds:
@@ -183,9 +188,9 @@ class Poser:
         kinematic = actuators.kinematic(amounts)
         elastic = anatomy.relaxation.muscular(amounts, memory=memory)
         if drive is Drive.MUSCLES:
-            return SkinState(self.contact.settle(kinematic + elastic, at=at), elastic, amounts.jaw)
+            return SkinState(self.anatomy.contact.settle(kinematic + elastic, at=at), elastic, amounts.jaw)
         share = lip_share(frame if plan is None else plan.asked)
-        shown = self.contact.settle(kinematic + elastic, share, at)
+        shown = self.anatomy.contact.settle(kinematic + elastic, share, at)
         if Mechanism.CORRECTION not in anatomy.mechanisms:
             return SkinState(shown, elastic, amounts.jaw)
         target, doubts = self._targets(frame, plan)
@@ -196,10 +201,10 @@ class Poser:
             elastic = elastic + change
             shown = shown + change
             if plan is not None:
-                return SkinState(self.contact.settle(shown, share, at), elastic, amounts.jaw)
+                return SkinState(self.anatomy.contact.settle(shown, share, at), elastic, amounts.jaw)
             if number < CORRECTION_ROUNDS:
-                shown = self.contact.settle(shown, share, at)
-        return SkinState(self.contact.clear(shown, at, self._measured), elastic, amounts.jaw)
+                shown = self.anatomy.contact.settle(shown, share, at)
+        return SkinState(self.anatomy.contact.clear(shown, at, self._measured), elastic, amounts.jaw)
 
     def _low_strain_change(self, before: Amounts, after: Amounts) -> Floats:
         """(n, 3) how much further other amounts move the outer skin, metres."""

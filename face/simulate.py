@@ -22,14 +22,14 @@ from ..physics.implicit import ImplicitSolver
 from ..physics.rk2 import Rk2Solver
 from ..physics.skin import State
 from ..physics.tissue import Tissue
-from .actuators import Amounts
-from .contact import Slack, lip_share
-from .living_skin import living_skin, mandible
+from .bodies.contact import Slack, lip_share
+from .drive.natural import LID_FAPS, Plan, blend
+from .drive.wishes import Drive
 from .mechanisms.jaw import JawMotion
 from .mechanisms.lids import LidMove
-from .natural import LID_FAPS, Plan, blend
 from .pose import Poser, SkinState
-from .wishes import Drive
+from .response.actuators import Amounts
+from .response.living_skin import living_skin, mandible
 
 #: Muscle name -> contraction in [0, 1].
 Contractions: TypeAlias = Mapping[str, float]
@@ -157,7 +157,7 @@ class Simulation:
             jaw=np.array([amounts.jaw.angle, amounts.jaw.left, amounts.jaw.forward]),
             elastic=state.elastic,
             push=state.displacement - kinematic - state.elastic,
-            slack=poser.contact.slack(state.displacement, poser.surroundings(amounts.jaw, moment.frame)),
+            slack=poser.anatomy.contact.slack(state.displacement, poser.surroundings(amounts.jaw, moment.frame)),
             lip_share=lip_share(moment.frame if moment.plan is None else moment.plan.asked),
         )
 
@@ -173,7 +173,7 @@ class Simulation:
 
     def _frame(self, motion: Motion, before: Aim, after: Aim, frame: Floats) -> Motion:
         """The motion one frame on, its aim changing evenly from one to the other; forces are taken midway in a step."""
-        poser, contact = self.poser, self.poser.contact
+        poser, contact = self.poser, self.poser.anatomy.contact
         for number in range(self.substeps):
             start, midway, end = (before.towards(after, (number + part) / self.substeps) for part in (0.0, 0.5, 1.0))
             jaw = self._swung(motion.jaw, start.jaw, end.jaw)

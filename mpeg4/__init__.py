@@ -10,8 +10,8 @@ fap_stream, filling, fap_file, fap_json   frames on disk, and what they do not s
 fba                                  the binary stream
 """
 
-from .action_units import ACTION_UNITS, AuTerm
-from .archetypes import (
+from .emotions.action_units import ACTION_UNITS, AuTerm
+from .emotions.archetypes import (
     BASE_WORDS,
     FEATURE_SIGNED,
     PRINTED_PROFILES,
@@ -22,15 +22,15 @@ from .archetypes import (
     archetype,
     initial_profile,
 )
-from .belief_track import BeliefTrack, recognise_over_time, write_belief_csv
-from .emotion_presets import WORDS, load_emotions
-from .expressions import default_variant, expression, find_word, neighbours
-from .fap_file import read_fap, write_fap
-from .fap_json import read_fap_json, write_fap_json
-from .fap_stream import FapStream
-from .fba import Decoded, decode_fba, encode_fba, read_fba, write_fba
-from .features import FEATURES, Feature, faps_from_features
-from .filling import Filling, fill
+from .emotions.belief_track import BeliefTrack, recognise_over_time, write_belief_csv
+from .emotions.emotion_presets import WORDS, load_emotions
+from .emotions.expressions import default_variant, expression, find_word, neighbours
+from .emotions.features import FEATURES, Feature, faps_from_features
+from .emotions.intermediate import between
+from .emotions.profile import ARCHETYPES, Archetype, Profile, Signs
+from .emotions.recognition import Beliefs, Rule, recognise, recognise_features, recognise_words, shown_strength
+from .emotions.wheel import ACTIVATION_MAX, ACTIVATION_MIN
+from .emotions.words import TABLE_WORDS, Word
 from .high_level import (
     EXPRESSIONS,
     VISEME_SHAPES,
@@ -43,9 +43,6 @@ from .high_level import (
     expression_frame,
     viseme_frame,
 )
-from .intermediate import between
-from .profile import ARCHETYPES, Archetype, Profile, Signs
-from .recognition import Beliefs, Rule, recognise, recognise_features, recognise_words, shown_strength
 from .standard import (
     FAP_COUNT,
     FAPS,
@@ -62,10 +59,13 @@ from .standard import (
     Unit,
     fap,
 )
+from .streams.fap_file import read_fap, write_fap
+from .streams.fap_json import read_fap_json, write_fap_json
+from .streams.fap_stream import FapStream
+from .streams.fba import Decoded, decode_fba, encode_fba, read_fba, write_fba
+from .streams.filling import Filling, fill
 from .timing import Cue, Ramp, Timing, emotion_weights, envelope, load_timings, sequence, strengths
 from .variation import Drawn, Liveliness, Overlay, drawn_within
-from .wheel import ACTIVATION_MAX, ACTIVATION_MIN
-from .words import TABLE_WORDS, Word
 
 __all__ = [
     "ACTION_UNITS",

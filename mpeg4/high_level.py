@@ -17,9 +17,9 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError
-from .archetypes import archetype
-from .expressions import default_variant
-from .profile import ARCHETYPES, Archetype
+from .emotions.archetypes import archetype
+from .emotions.expressions import default_variant
+from .emotions.profile import ARCHETYPES, Archetype
 from .standard import FAP_COUNT
 from .tables import read_table
 

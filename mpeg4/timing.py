@@ -17,9 +17,10 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import FormatError, ParameterError
-from .profile import ARCHETYPES, Profile
+from ..resources import PRESETS
+from .emotions.profile import ARCHETYPES, Profile
 
-TIMINGS = Path(__file__).resolve().parent.parent / "presets" / "timing.toml"
+TIMINGS = PRESETS / "timing.toml"
 """The timing presets that come with Risorius."""
 
 # A film's rate where the caller names none: the rate of most .fap files met.

@@ -18,11 +18,12 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import FormatError, ParameterError
-from .profile import Profile
+from ..resources import PRESETS
+from .emotions.profile import Profile
 from .standard import FAP_COUNT, FAPU, Unit
 from .timing import Ramp
 
-HABITS = Path(__file__).resolve().parent.parent / "presets" / "variation.toml"
+HABITS = PRESETS / "variation.toml"
 """The figures that come with Risorius."""
 
 #: FAPs of the lids (upper left and right, lower left and right), the head (pitch, yaw, roll), the eyes (yaw, pitch).

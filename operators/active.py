@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..face.parts import Part
+from ..face.mesh.parts import Part
 from ..scene import refusals
-from ..scene.bake import Target
-from ..scene.points_kept import has_points
+from ..scene.baked.bake import Target
+from ..scene.points.kept import has_points
 
 
 def companions_of(obj: Any) -> dict[Part, Any]:

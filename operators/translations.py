@@ -14,8 +14,9 @@ from pathlib import Path
 import bpy
 
 from ..errors import FormatError
+from ..resources import PRESETS
 
-FOLDER = Path(__file__).resolve().parent.parent / "presets" / "translations"
+FOLDER = PRESETS / "translations"
 COLUMNS = ["context", "text", "translation"]
 #: What Blender knows our translations by.
 OWNER = __name__

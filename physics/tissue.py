@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import FormatError, ParameterError
+from ..resources import PRESETS
 
-PRESET = Path(__file__).resolve().parent.parent / "presets" / "tissue.toml"
+PRESET = PRESETS / "tissue.toml"
 """The tissues that come with Risorius."""
 
 _MAY_BE_ZERO = ("bending_length", "damping_ratio", "loose_damping_ratio", "jaw_damping_ratio")

@@ -3,4 +3,17 @@
 Every function here is plain Python over bpy and can be called from scripts. Long work is a generator that yields
 `Progress` and returns its result; `run` drives one to its end. Reading and computing come first and writing last,
 so that an error or a cancelled bake leaves the scene as it was.
+
+mesh, head, faces     meshes to arrays and back; the default head; from objects to a face
+parts_found           parts of a face's mesh, told and corrected
+refusals              what Risorius refuses to touch, and the remedy
+progress              long work as generators
+node_graph            node groups built in a few words
+gltf                  a face with its clips as glTF
+points                feature points on objects: found, kept, bound, shown
+baked                 shape keys, actions and strips
+live                  previews and readings while the user works
+creases               wrinkles as attributes and node groups
+pictures              films, contact sheets, studio, letters
+jobs                  whole jobs for the command line
 """

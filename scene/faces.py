@@ -17,13 +17,13 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import SceneError
-from ..face.parts import Part
+from ..face.mesh.parts import Part
 from . import mesh as meshes
-from .points_bound import bind, followed, table_of
-from .points_file import PointTable
-from .points_kept import Origin, read_kept, write_kept
-from .points_kept import forget_points as forget_points
-from .points_kept import has_points as has_points
+from .points.bound import bind, followed, table_of
+from .points.file import PointTable
+from .points.kept import Origin, read_kept, write_kept
+from .points.kept import forget_points as forget_points
+from .points.kept import has_points as has_points
 from .refusals import refuse_broken_vertices, refuse_unreadable
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def stored_points(obj: Any) -> dict[str, int | tuple[float, float, float]]:
     ------
     SceneError : none there, unreadable, or the mesh was edited so that points that every face needs are lost.
     """
-    from ..face.points import REQUIRED
+    from ..face.mesh.points import REQUIRED
 
     now = followed(read_kept(obj), obj.data)
     needed = sorted(set(now.lost) & set(REQUIRED))

@@ -14,9 +14,9 @@ from typing import Any
 import bpy
 
 from ..errors import SceneError
-from . import action as actions
-from . import shape_keys
-from .film import refuse_unwritable_output
+from .baked import action as actions
+from .baked import shape_keys
+from .pictures.film import refuse_unwritable_output
 
 
 @dataclass(frozen=True)

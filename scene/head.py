@@ -11,9 +11,9 @@ from mathutils import Vector
 from ..arrays import Floats
 from ..face.default_head import HeadMesh, Material
 from . import mesh as meshes
-from .creases import draw_in
+from .creases.marks import draw_in
 from .faces import store_points
-from .points_kept import Origin
+from .points.kept import Origin
 
 NAME = "Risorius Head"
 

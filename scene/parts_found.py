@@ -8,10 +8,10 @@ import numpy as np
 
 from ..arrays import Bools, Ints
 from ..errors import SceneError
-from ..face.parts import Part
+from ..face.mesh.parts import Part
 from . import mesh as meshes
 from .faces import face_of, read_face
-from .points_kept import refuse_foreign_mesh
+from .points.kept import refuse_foreign_mesh
 
 
 def find_parts(obj: Any) -> Ints:

@@ -8,10 +8,10 @@ import bpy
 import numpy as np
 
 from ..errors import SceneError
+from .baked.shape_keys import own_names_of
 from .mesh import rest_vertices
-from .points_bound import followed
-from .points_kept import has_points, read_kept
-from .shape_keys import own_names_of
+from .points.bound import followed
+from .points.kept import has_points, read_kept
 
 #: Modes in which Blender holds a copy of the mesh that would overwrite ours.
 BUSY_MODES = {"EDIT": "Edit Mode", "SCULPT": "Sculpt Mode"}

@@ -25,12 +25,12 @@ from faithful.heads import ICT_SKIN, IDENTITIES, load_face
 from faithful.scans import Shape, scanned_shapes
 from risorius.api import Face
 from risorius.arrays import Floats
-from risorius.face.muscle_fields import force_density
-from risorius.face.muscle_table import Kind, MuscleRow
-from risorius.face.placement import place_muscles
+from risorius.face.drive.wishes import Drive
+from risorius.face.mesh.template import MM
+from risorius.face.muscles.placement import place_muscles
+from risorius.face.muscles.table import Kind, MuscleRow
 from risorius.face.pose import Poser
-from risorius.face.template import MM
-from risorius.face.wishes import Drive
+from risorius.face.response.fields import force_density
 
 #: Figure -> one step of a fit, its least and largest value; places may go `FARTHEST` from where anatomy has them.
 STEPS = {

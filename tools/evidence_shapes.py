@@ -17,7 +17,7 @@ from evidence_poses import Measured
 from evidence_verdicts import correct, verdicts
 from risorius.arrays import Bools, Floats
 from risorius.mpeg4 import ARCHETYPES, VARIANTS, Rule
-from risorius.mpeg4.recognition import (
+from risorius.mpeg4.emotions.recognition import (
     LEAST_MEMBERSHIP,
     LEAST_SEEN,
     LEAST_WIDTH,

@@ -17,10 +17,10 @@ from pathlib import Path
 import numpy as np
 import risorius.api as api
 from risorius.arrays import Floats
-from risorius.face.actuators import LID_NAMES
+from risorius.face.drive.synergies import load_synergies
+from risorius.face.mesh.fap_rows import unit_length
 from risorius.face.pose import Poser
-from risorius.face.rows import unit_length
-from risorius.face.synergies import load_synergies
+from risorius.face.response.actuators import LID_NAMES
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "faps.md"

@@ -17,7 +17,7 @@ from faithful.scans import Shape, head_displacement, scanned_shapes
 from risorius.api import Drive, Face, Part
 from risorius.arrays import Floats, Ints
 from risorius.errors import ModelError
-from risorius.face.points import closest_on_triangles, lies_on_skin
+from risorius.face.mesh.points import closest_on_triangles, lies_on_skin
 from risorius.physics.mesh import vertex_normals
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra

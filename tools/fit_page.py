@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from risorius.face.fit.score import RELIEF_LIMIT, SCORE_LIMIT
+from risorius.face.fit.locating.score import RELIEF_LIMIT, SCORE_LIMIT
 
 GROUPS: Mapping[str, tuple[str, ...]] = {
     "eyes and lids": tuple(f"3.{k}" for k in (1, 2, 3, 4, 7, 8, 9, 10, 11, 12, 13, 14)),
@@ -247,8 +247,8 @@ with ears sought by their relief from the side and lids and lips by the rims of 
 Every head is given in a random direction, place and size (a thousandth to a thousandfold); errors are in millimetres
 of the head as it was. *Tuned on* are the heads that method and figures were chosen on, the *second set* came later and
 was used for that, too. The *reserved* heads were measured by this report alone: nothing was ever chosen by them. (Their
-sheets were looked at once, and showed a lower lip's point bound to the upper lip; that was cured in `face/own_lip.py`,
-and does not change where points are found.) Both
+sheets were looked at once, and showed a lower lip's point bound to the upper lip; that was cured in
+`face/mesh/own_lip.py` and does not change where points are found.) Both
 sets are mixtures of the shared people that exaggerate their differences, and the default head bent by smooth random
 fields. They share the others' meshes, and the bent heads are kin to the template: a stranger's mesh may fare worse.
 

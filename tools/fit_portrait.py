@@ -20,8 +20,8 @@ from risorius.errors import RisoriusError
 from risorius.face.fit.doubt import DOUBTFUL
 from risorius.scene import mesh as meshes
 from risorius.scene.faces import face_of, read_face, store_points
-from risorius.scene.framing import Framing, framing_of
-from risorius.scene.subjects import paint_parts
+from risorius.scene.jobs.subjects import paint_parts
+from risorius.scene.pictures.framing import Framing, framing_of
 
 #: Radius of a drawn point as a share of the distance between the eyes' outer corners, and the same for true places.
 DOT, TRUE_DOT = 0.024, 0.016

@@ -29,11 +29,11 @@ from fit_page import page
 from fit_sides import wrong_sides
 from risorius.arrays import Floats
 from risorius.errors import ModelError
-from risorius.face.checks import with_pupils
 from risorius.face.fit.clicks import ASKED
 from risorius.face.fit.doubt import DOUBTFUL_SCORE
 from risorius.face.fit.find import locate_points
-from risorius.face.frame import fapu, head_frame
+from risorius.face.mesh.checks import with_pupils
+from risorius.face.mesh.head_frame import fapu, head_frame
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE, FIGURES = ROOT / "docs" / "fit.md", ROOT / "out" / "fit"

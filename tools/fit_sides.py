@@ -8,7 +8,7 @@ import numpy as np
 import risorius.api as api
 from fit_heads import TrueHead
 from risorius.arrays import Floats
-from risorius.face.openings import edge_graph
+from risorius.face.mesh.openings import edge_graph
 from risorius.physics.mesh import unique_edges
 from scipy.sparse.csgraph import dijkstra
 

@@ -24,13 +24,13 @@ import risorius.api as api
 from faithful.sheet import Cell, write_grid
 from risorius.api import Face
 from risorius.arrays import Floats, Ints
-from risorius.face.trajectories import sampled_vertices
+from risorius.face.products.trajectories import sampled_vertices
 from risorius.physics.mesh import vertex_normals
 from risorius.scene import mesh as meshes
-from risorius.scene.framing import framing_of
 from risorius.scene.head import head_object
-from risorius.scene.lettering import read_picture
-from risorius.scene.studio import Look, render_frame, studio
+from risorius.scene.pictures.framing import framing_of
+from risorius.scene.pictures.lettering import read_picture
+from risorius.scene.pictures.studio import Look, render_frame, studio
 
 ROOT = Path(__file__).resolve().parent.parent
 EMOTIONS = ("joy", "surprise", "fear", "anger", "sadness", "disgust")

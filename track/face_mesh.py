@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ModelError
-from ..mpeg4.capture import Landmarks
+from ..mpeg4.streams.capture import Landmarks
 from .pictures import Picture, Pictures, needed
 
 #: Landmarks of the refined model: the face's 468 and five for each iris.

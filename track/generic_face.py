@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import FormatError
-from ..mpeg4.capture import CAPTURE_PRESETS
+from ..mpeg4.streams.capture import CAPTURE_PRESETS
 from .face_mesh import LANDMARKS
 
 TABLE = CAPTURE_PRESETS / "generic_face.csv"

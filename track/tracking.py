@@ -8,10 +8,10 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import ParameterError
-from ..face.captured import read_landmarks
-from ..face.landmarks import LandmarkReading, Pose3
+from ..face.tracked.captured import read_landmarks
+from ..face.tracked.landmarks import LandmarkReading, Pose3
 from ..mpeg4 import FapStream
-from ..mpeg4.capture import Landmarks, Samples
+from ..mpeg4.streams.capture import Landmarks, Samples
 from .generic_face import generic_landmarks, unusual_mouth
 from .smoothing import Smoothing, smooth
 from .trust import GENERIC_WORTH, confidence

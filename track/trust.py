@@ -12,9 +12,9 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import FormatError
-from ..face.landmarks import LandmarkReading
+from ..face.tracked.landmarks import LandmarkReading
 from ..mpeg4 import FAP_COUNT, FAPS
-from ..mpeg4.capture import CAPTURE_PRESETS
+from ..mpeg4.streams.capture import CAPTURE_PRESETS
 
 TABLE = CAPTURE_PRESETS / "camera_faps.csv"
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ...arrays import Floats, Ints
-from ..parts import Part
+from ..mesh.parts import Part
 from .brows import build_brow
 from .cage import Region
 from .eyes import PUPIL_VERTEX, build_eyeball

@@ -7,7 +7,7 @@ from scipy.interpolate import CubicSpline
 
 from ...arrays import Floats, Ints
 from ...errors import ModelError
-from ..parts import Part
+from ..mesh.parts import Part
 from .figures import BrowFigures
 from .piece import Piece
 from .skin import HeadSkin

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats
-from ..parts import Part
+from ..mesh.parts import Part
 from .figures import EyeballFigures
 from .piece import Piece, fan_quads, tube_quads
 

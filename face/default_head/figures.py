@@ -15,9 +15,10 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import FormatError
+from ...resources import PRESETS
 from .cage import EAR_RIM, EAR_RINGS, EYE_RIM, MOUTH_RIM, ROWS, grid_name, grid_nodes, on_midline, ring_name
 
-DEFAULT_FIGURES = Path(__file__).resolve().parents[2] / "presets" / "heads" / "default.toml"
+DEFAULT_FIGURES = PRESETS / "heads" / "default.toml"
 
 MEASURED_EYE_RINGS = ("E4", "E3", "E2")
 MEASURED_MOUTH_RINGS = ("M4", "M3", "M2", "M1")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Floats, Ints
-from ..parts import Part
+from ..mesh.parts import Part
 
 
 @dataclass(frozen=True)

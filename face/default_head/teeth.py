@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from ...arrays import Floats
-from ..parts import Part
+from ..mesh.parts import Part
 from .figures import TeethFigures
 from .piece import Piece, ladder_quads, tube_quads
 

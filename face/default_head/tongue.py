@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..parts import Part
+from ..mesh.parts import Part
 from .figures import TongueFigures
 from .piece import Piece, fan_quads, tube_quads
 

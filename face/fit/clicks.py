@@ -10,9 +10,9 @@ from scipy import sparse
 from ...arrays import Floats
 from ...errors import ModelError, ParameterError
 from ...mpeg4 import FEATURE_POINTS
-from .bend import Wishes
-from .head_pose import HeadPose
-from .template import FitTemplate
+from .bending.bend import Wishes
+from .locating.head_pose import HeadPose
+from .template.template import FitTemplate
 
 #: The fewest points that tell where a face lies, and the set that is asked for.
 FEWEST = 4

@@ -12,19 +12,19 @@ from numpy.typing import ArrayLike
 from ...arrays import Floats, Ints
 from ...errors import ModelError, ParameterError
 from ...physics.mesh import Polygons, corners
-from ..checks import checked_polygons, checked_vertices
-from .align import align
-from .carry import RIM_POINTS, carry
+from ..mesh.checks import checked_polygons, checked_vertices
+from .bending.carry import RIM_POINTS, carry
+from .bending.fitted import fit
+from .bending.target import head_target
 from .clicks import FEWEST, checked_clicks, click_misses, click_wishes, pose_from_clicks
-from .cloud import Surface
-from .crooked import Start, better_start, starting_bend
 from .doubt import DOUBTFUL_SCORE
-from .fitted import fit
-from .head_pose import HeadPose
-from .locate import HEAD, HEAD_BOX, Located, box_cloud, locate, looks_backwards, scored
+from .locating.align import align
+from .locating.crooked import Start, better_start, starting_bend
+from .locating.head_pose import HeadPose
+from .locating.locate import HEAD, HEAD_BOX, Located, box_cloud, locate, looks_backwards, scored
 from .progress import FitProgress, part_of
-from .target import head_target
-from .template import FitTemplate, fit_template
+from .surface.cloud import Surface
+from .template.template import FitTemplate, fit_template
 from .topologies import Topology, load_topologies, recognise_topology
 
 _T = TypeVar("_T")

@@ -22,9 +22,10 @@ from ...errors import FormatError, ModelError
 from ...mpeg4 import FEATURE_POINTS
 from ...mpeg4.files import write_whole
 from ...physics.mesh import Polygons, unique_edges
+from ...resources import PRESETS
 
 #: The tables that come with Risorius.
-FOLDER = Path(__file__).resolve().parents[2] / "presets" / "topologies"
+FOLDER = PRESETS / "topologies"
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
-"""What moves a face, one mechanism per file, and the switch that leaves any of them out.
+"""What moves a face, one mechanism per file; their names and the switch that leaves any of them out: `face.mechanism`.
 
-switch                                  the names of all mechanisms
 sliding, bulge                          what the skin does beyond the second paper's membrane
 separation                              upper and lower lip and lid, told apart along the skin
 jaw, lids                               what turns: the mandible, the lids about the eyeballs
@@ -11,7 +10,3 @@ platysma
 A mechanism says what it contributes; skin (`regions`, `tissue`), muscle fields and actuators add the contributions up.
 Its figures of muscles stand in presets/anatomy/muscles/<name>.toml.
 """
-
-from .switch import ADDITIONS, EVERY, MUSCLE_GROUPS, Mechanism, named
-
-__all__ = ["ADDITIONS", "EVERY", "MUSCLE_GROUPS", "Mechanism", "named"]

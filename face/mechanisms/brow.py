@@ -22,9 +22,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin, smoothstep
-from ..template import MM
-from .switch import Mechanism
+from ..mechanism import Mechanism
+from ..mesh.template import MM
+from ..skin.outer import OuterSkin, smoothstep
 
 #: Extra tie of the scalp to the skull, 1/m^2, and the height over the brow at which it is full.
 SCALP_FIRMNESS = 0.02 / MM**2

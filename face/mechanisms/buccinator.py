@@ -18,8 +18,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin
-from ..placement import PlacedMuscle
+from ..muscles.placement import PlacedMuscle
+from ..skin.outer import OuterSkin
 
 
 def arch(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:

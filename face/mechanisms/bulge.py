@@ -16,9 +16,9 @@ from scipy import sparse
 from ...arrays import Floats
 from ...physics.elastic import diagonal_matrix
 from ...physics.mesh import Sparse
-from ..outer_skin import OuterSkin
+from ..mechanism import Mechanism
+from ..skin.outer import OuterSkin
 from . import lids, lips, nose
-from .switch import Mechanism
 
 #: Height per unit of surface compression, metres.
 BULGE = 4.0e-3

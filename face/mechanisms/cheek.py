@@ -19,9 +19,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin, smoothstep
-from ..placement import PlacedMuscle
-from ..template import MM
+from ..mesh.template import MM
+from ..muscles.placement import PlacedMuscle
+from ..skin.outer import OuterSkin, smoothstep
 from .lips import off_lips
 from .separation import lower_lid_side
 from .sliding import sliding

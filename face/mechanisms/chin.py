@@ -20,8 +20,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin, gaussian
-from ..template import MM
+from ..mesh.template import MM
+from ..skin.outer import OuterSkin, gaussian
 
 #: Extra tie of the pad to the bone, 1/m^2; its extent to the side, up and forward, metres.
 PAD_FIRMNESS = 0.075 / MM**2

@@ -12,10 +12,10 @@ import numpy as np
 
 from ...arrays import Floats
 from ...physics.elastic import Factor, elastic_matrix
-from ..outer_skin import OuterSkin, smoothstep
-from ..template import MM, TEMPLATE_POINTS, TemplateWarp
+from ..mechanism import Mechanism
+from ..mesh.template import MM, TEMPLATE_POINTS, TemplateWarp
+from ..skin.outer import OuterSkin, smoothstep
 from .separation import upper_lip_side
-from .switch import Mechanism
 
 #: The axis lies this far from the ear's lower contact 10.7, head space, metres.
 HINGE_FROM_EAR = np.array([0.0, 10.0, -1.0]) * MM

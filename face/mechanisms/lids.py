@@ -13,9 +13,10 @@ from enum import StrEnum
 import numpy as np
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin, smoothstep
-from ..template import MM
-from .switch import Mechanism
+from ..mechanism import Mechanism
+from ..mesh.sphere import fit_sphere
+from ..mesh.template import MM
+from ..skin.outer import OuterSkin, smoothstep
 
 #: Centre of the eyeball behind the middle of the two eye corners, template head space: inwards, up, forward (metres).
 CENTRE_FROM_CORNERS = np.array([0.9, 1.5, -9.5]) * MM
@@ -167,16 +168,3 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
         point = top if _MOVES[move][0] == "upper" else bottom
         per_metre[move] = 1.0 / max(float(point[2] - centre[2]), 0.3 * radius)
     return Eye(side=side, centre=centre, radius=radius, weights=weights, slides=slides, angle_per_metre=per_metre)
-
-
-def fit_sphere(points: Floats) -> tuple[Floats, float]:
-    """Centre (3,) and radius of the sphere nearest to points (k, 3), refitted without the farthest fifth."""
-    chosen = points
-    for _ in range(3):
-        matrix = np.column_stack([2.0 * chosen, np.ones(len(chosen))])
-        solution, *_ = np.linalg.lstsq(matrix, (chosen**2).sum(axis=1), rcond=None)
-        centre = solution[:3]
-        radius = float(np.sqrt(max(solution[3] + centre @ centre, 1e-12)))
-        off = np.abs(np.linalg.norm(points - centre, axis=1) - radius)
-        chosen = points[off <= np.quantile(off, 0.8)]
-    return centre, radius

@@ -13,8 +13,8 @@ Source: FACS muscle list (docs/sources.md) for the lines of action; own calibrat
 from __future__ import annotations
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin, smoothstep
-from ..template import MM
+from ..mesh.template import MM
+from ..skin.outer import OuterSkin, smoothstep
 
 #: Distance from the lips' edge at which bone begins to be felt, and over which it comes to be felt fully, metres.
 BONE_FROM, BONE_OVER = 4 * MM, 20 * MM

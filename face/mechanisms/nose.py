@@ -20,8 +20,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin, gaussian, smoothstep
-from ..template import MM
+from ..mesh.template import MM
+from ..skin.outer import OuterSkin, gaussian, smoothstep
 from .separation import upper_lip_side
 
 #: Extra ties to bone and cartilage, 1/m^2, with their radii, metres; the bridge's place from feature point 9.12.

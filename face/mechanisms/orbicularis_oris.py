@@ -21,10 +21,10 @@ import numpy as np
 
 from ...arrays import Floats
 from ...physics.muscles import Muscle, SphincterMuscle
-from ..outer_skin import OuterSkin, smoothstep
-from ..placement import PlacedMuscle
-from ..template import MM
-from .switch import Mechanism
+from ..mechanism import Mechanism
+from ..mesh.template import MM
+from ..muscles.placement import PlacedMuscle
+from ..skin.outer import OuterSkin, smoothstep
 
 #: Width over which one half of a midline muscle hands over to the other, metres to each side.
 HALVES_BLEND = 14 * MM

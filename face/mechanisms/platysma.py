@@ -18,8 +18,8 @@ scan at hand shows it: anatomy alone.
 from __future__ import annotations
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin, smoothstep
-from ..template import MM
+from ..mesh.template import MM
+from ..skin.outer import OuterSkin, smoothstep
 
 #: Extra tie of the skin behind the jaw's angle and below the chin, 1/m^2.
 NECK_FIRMNESS = 0.003 / MM**2

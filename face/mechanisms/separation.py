@@ -14,8 +14,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin, smoothstep
-from ..template import MM
+from ..mesh.template import MM
+from ..skin.outer import OuterSkin, smoothstep
 
 #: Width of the change from one side to the other beside the corners, metres.
 LIP_BLEND, LID_BLEND = 5 * MM, 4 * MM

@@ -13,9 +13,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats
-from ..outer_skin import OuterSkin
+from ..mechanism import Mechanism
+from ..skin.outer import OuterSkin
 from . import chin, lips, nose
-from .switch import Mechanism
 
 #: Share of motion along the normal that the bone takes away.
 SLIDE = 0.56

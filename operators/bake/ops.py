@@ -6,12 +6,12 @@ from typing import Any
 
 import bpy
 
-from ...scene import bake, shape_keys
-from ...scene.notes import BakeKind, Note
-from ...scene.points_found import Finding
-from ...scene.points_kept import has_points, read_kept
+from ...scene.baked import bake, shape_keys
+from ...scene.baked.notes import BakeKind, Note
+from ...scene.baked.strips import ClipShape, bake_strips
+from ...scene.points.found import Finding
+from ...scene.points.kept import has_points, read_kept
 from ...scene.progress import Work
-from ...scene.strips import ClipShape, bake_strips
 from ..active import face_reason, target_of
 from ..base import RisoriusOperator, WorkOperator
 from ..emotion.performance import performance_of

@@ -6,8 +6,8 @@ from typing import Any
 
 import bpy
 
-from ...scene import shape_keys
-from ...scene.points_kept import has_points
+from ...scene.baked import shape_keys
+from ...scene.points.kept import has_points
 from ..active import face_reason
 from ..sidebar import Sidebar
 from .ops import (

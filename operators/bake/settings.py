@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ...scene import shape_keys
-from ...scene.action import Curve
-from ...scene.bake import ClipTiming, scene_fps
-from ...scene.motion import CueMotion
-from ...scene.notes import BakeKind, read_notes
+from ...scene.baked import shape_keys
+from ...scene.baked.action import Curve
+from ...scene.baked.bake import ClipTiming, scene_fps
+from ...scene.baked.motion import CueMotion
+from ...scene.baked.notes import BakeKind, read_notes
 from ..emotion.performance import Performance, performance_of
 from ..emotion.profile import Wanted, title_of, wanted_of
 from ..tissue.props import tissue_of

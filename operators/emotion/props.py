@@ -9,9 +9,9 @@ from typing import Any
 
 import bpy
 
-from ...mpeg4.archetypes import BASE_WORDS, VARIANTS
-from ...mpeg4.emotion_presets import WORDS
-from ...mpeg4.profile import ARCHETYPES
+from ...mpeg4.emotions.archetypes import BASE_WORDS, VARIANTS
+from ...mpeg4.emotions.emotion_presets import WORDS
+from ...mpeg4.emotions.profile import ARCHETYPES
 from ..changes import changed
 
 #: Blender wants a dynamic enum's strings to be held somewhere.

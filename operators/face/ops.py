@@ -6,8 +6,8 @@ import bpy
 from bpy_extras.io_utils import ImportHelper
 
 from ...scene import faces, refusals
-from ...scene.points_file import read_points
-from ...scene.points_kept import forget_points, has_points
+from ...scene.points.file import read_points
+from ...scene.points.kept import forget_points, has_points
 from ..base import RisoriusOperator
 from ..preview import live
 

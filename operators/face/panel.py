@@ -7,8 +7,8 @@ from typing import Any
 import bpy
 
 from ...scene import refusals
-from ...scene.points_joined import may_be_joined
-from ...scene.points_kept import has_points
+from ...scene.points.joined import may_be_joined
+from ...scene.points.kept import has_points
 from ..points.click import RISORIUS_OT_click_points
 from ..points.joined import RISORIUS_OT_take_over_points
 from ..points.ops import RISORIUS_OT_find_points

@@ -6,9 +6,9 @@ from typing import Any
 
 import bpy
 
-from ...scene import bake, performance, shape_keys
-from ...scene.points_found import Finding
-from ...scene.points_kept import read_kept
+from ...scene.baked import bake, performance, shape_keys
+from ...scene.points.found import Finding
+from ...scene.points.kept import read_kept
 from ...scene.progress import Work
 from ..active import face_reason, target_of
 from ..bake.settings import creases_wanted

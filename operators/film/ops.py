@@ -8,10 +8,12 @@ from typing import Any
 import bpy
 
 from ...errors import SceneError
-from ...scene import action, bake, film, gltf, refusals, shape_keys
-from ...scene.points_found import Finding
+from ...scene import gltf, refusals
+from ...scene.baked import action, bake, shape_keys
+from ...scene.pictures import film
+from ...scene.pictures.studio import Camera, Engine, Look
+from ...scene.points.found import Finding
 from ...scene.progress import Work, part_of
-from ...scene.studio import Camera, Engine, Look
 from ..active import face_reason, target_of
 from ..bake.ops import motion_work
 from ..base import RisoriusOperator, WorkOperator

@@ -11,13 +11,14 @@ import bpy
 from ...errors import ParameterError
 from ...mpeg4.preset_file import VARIATIONS, Choice, Clip, Preset, PresetKind
 from ...mpeg4.timing import Ramp
-from ...scene.bake import scene_fps
+from ...resources import PRESETS
+from ...scene.baked.bake import scene_fps
 from ..changes import changed, retimed
 from ..emotion.props import DEFAULT_VARIANT
 from ..muscles.props import by_hand_of
 
 #: Presets that come with Risorius.
-BUNDLED = Path(__file__).resolve().parents[2] / "presets" / "timelines"
+BUNDLED = PRESETS / "timelines"
 
 
 def own_folder(*, create: bool = False) -> Path | None:
@@ -127,7 +128,7 @@ def _lay_out(preset: Preset, timeline: Any, scene: Any) -> None:
 def _check_muscles(preset: Preset) -> None:
     """Every muscle must be known."""
     if preset.contractions:
-        from ...face.contractible import contractibles
+        from ...face.response.contractible import contractibles
 
         for name in preset.contractions:
             if name not in contractibles():

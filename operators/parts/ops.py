@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...face.parts import Part
+from ...face.mesh.parts import Part
 from ...scene.mesh import read_parts
 from ...scene.parts_found import find_parts, forget_parts, set_part
 from ..base import RisoriusOperator

@@ -11,9 +11,9 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
 from ...arrays import Ints
-from ...face.parts import Part
+from ...face.mesh.parts import Part
 from ...scene.mesh import read_parts
-from ...scene.points_seen import Visible
+from ...scene.points.seen import Visible
 from ..points.view import Viewport
 
 #: Colours of the parts; grey where nobody has told.

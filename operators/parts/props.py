@@ -2,7 +2,7 @@
 
 import bpy
 
-from ...face.parts import Part
+from ...face.mesh.parts import Part
 from ..points.props import redraw
 
 #: Part -> identifier, name and tooltip of the menu.

@@ -11,10 +11,10 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import RisoriusError, SceneError
 from ...mpeg4 import FEATURE_POINTS
-from ...scene.points_bound import Surface
-from ...scene.points_found import Finding, find_points
-from ...scene.points_mirrored import MirrorPlane, plane_of_mesh
-from ...scene.points_seen import Visible
+from ...scene.points.bound import Surface
+from ...scene.points.found import Finding, find_points
+from ...scene.points.mirrored import MirrorPlane, plane_of_mesh
+from ...scene.points.seen import Visible
 from ...scene.progress import Work
 from ..base import WorkOperator
 from ..requirements import need_scipy

@@ -27,7 +27,7 @@ STEPS = 6
 
 def draw_diagram(canvas: Canvas, corner: Pixel, scale: float, now: str | None, done: Iterable[str]) -> None:
     """Draw it with its lower left corner there, `now` marked, `done` ticked off. The subject's left is on the right."""
-    from ...face.template import TEMPLATE_POINTS
+    from ...face.mesh.template import TEMPLATE_POINTS
 
     used = {name for line in LINES for name in line}
     left = min(TEMPLATE_POINTS[name][0] for name in used)

@@ -9,10 +9,10 @@ import numpy as np
 
 from ...mpeg4 import FEATURE_POINTS
 from ...scene import mesh as meshes
-from ...scene.points_bound import Surface, fits, followed, moved, places
-from ...scene.points_kept import KeptPoints, Origin, read_kept, write_kept
-from ...scene.points_mirrored import plane_of_points
-from ...scene.points_seen import Visible
+from ...scene.points.bound import Surface, fits, followed, moved, places
+from ...scene.points.kept import KeptPoints, Origin, read_kept, write_kept
+from ...scene.points.mirrored import plane_of_points
+from ...scene.points.seen import Visible
 from ..base import RisoriusOperator
 from .ops import label_of
 from .overlay import point_at

@@ -7,8 +7,8 @@ from typing import Any, TypeVar
 
 import bpy
 
-from ...scene.points_found import Finding, find_points
-from ...scene.points_kept import forget_points, has_points
+from ...scene.points.found import Finding, find_points
+from ...scene.points.kept import forget_points, has_points
 from ...scene.progress import Work, part_of
 
 T = TypeVar("T")

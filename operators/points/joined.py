@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from ...scene.points_joined import may_be_joined, take_over_points
+from ...scene.points.joined import may_be_joined, take_over_points
 from ..base import RisoriusOperator
 from .reasons import points_reason
 from .show import show_points

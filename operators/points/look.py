@@ -10,9 +10,9 @@ from mathutils import Matrix, Vector
 
 from ...arrays import Floats
 from ...mpeg4 import FEATURE_POINTS
-from ...scene.points_bound import followed
-from ...scene.points_kept import KeptPoints, read_kept
-from ...scene.points_seen import Visible
+from ...scene.points.bound import followed
+from ...scene.points.kept import KeptPoints, read_kept
+from ...scene.points.seen import Visible
 from ..base import RisoriusOperator
 from .reasons import no_points_reason
 from .view import Viewport

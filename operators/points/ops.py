@@ -15,10 +15,10 @@ from ...errors import RisoriusError, SceneError
 from ...mpeg4 import FAPS, FEATURE_POINTS
 from ...mpeg4.files import write_whole
 from ...scene.faces import stored_points
-from ...scene.points_bound import followed
-from ...scene.points_found import Finding, find_points
-from ...scene.points_kept import KeptPoint, has_points, mesh_counts, read_kept, write_kept
-from ...scene.points_seen import Visible
+from ...scene.points.bound import followed
+from ...scene.points.found import Finding, find_points
+from ...scene.points.kept import KeptPoint, has_points, mesh_counts, read_kept, write_kept
+from ...scene.points.seen import Visible
 from ...scene.progress import Work
 from ..base import RisoriusOperator, WorkOperator
 from .props import mark

@@ -14,8 +14,8 @@ from ...arrays import Floats
 from ...errors import RisoriusError
 from ...face.fit.doubt import DOUBTFUL
 from ...mpeg4 import FEATURE_POINTS
-from ...scene.points_kept import KeptPoints, has_points, mesh_counts, read_kept
-from ...scene.points_seen import Visible
+from ...scene.points.kept import KeptPoints, has_points, mesh_counts, read_kept
+from ...scene.points.seen import Visible
 from .canvas import Canvas, Colour, text_width
 from .props import active_name
 from .view import Viewport

@@ -9,7 +9,7 @@ import bpy
 from ...errors import RisoriusError
 from ...face.fit.doubt import DOUBTFUL
 from ...mpeg4 import FEATURE_POINTS
-from ...scene.points_kept import KeptPoints, Origin, has_points, read_kept
+from ...scene.points.kept import KeptPoints, Origin, has_points, read_kept
 from ..face.ops import RISORIUS_OT_forget_points, RISORIUS_OT_import_points
 from ..sidebar import Sidebar
 from .click import RISORIUS_OT_click_points

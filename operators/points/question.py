@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 
 from ...face.fit.doubt import DOUBTFUL_SCORE
-from ...scene.points_kept import KeptPoints, read_kept, write_kept
+from ...scene.points.kept import KeptPoints, read_kept, write_kept
 from ..base import RisoriusOperator
 from ..face.ops import RISORIUS_OT_forget_points
 from .reasons import no_points_reason

@@ -6,7 +6,7 @@ from typing import Any
 
 from ...errors import SceneError
 from ...scene import refusals
-from ...scene.points_kept import has_points, refuse_foreign_mesh
+from ...scene.points.kept import has_points, refuse_foreign_mesh
 
 
 def points_reason(obj: Any | None) -> str | None:

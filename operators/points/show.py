@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from ...face.fit.doubt import DOUBTFUL_SCORE
-from ...scene.points_carried import carry_rest
-from ...scene.points_found import Finding
-from ...scene.points_seen import Visible
+from ...scene.points.carried import carry_rest
+from ...scene.points.found import Finding
+from ...scene.points.seen import Visible
 from .look import turn_to_face
 from .props import list_names
 from .question import ask_whether_right

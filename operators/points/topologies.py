@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from ...scene.points_presets import preset_paths, remove_preset, save_preset
+from ...scene.points.presets import preset_paths, remove_preset, save_preset
 from ..base import RisoriusOperator
 from .reasons import no_points_reason
 

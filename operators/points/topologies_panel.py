@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from ...scene.points_presets import preset_names, shipped_names
+from ...scene.points.presets import preset_names, shipped_names
 from ..requirements import has_scipy
 from ..sidebar import Sidebar
 from .topologies import RISORIUS_OT_remove_topology, RISORIUS_OT_save_topology

@@ -15,9 +15,10 @@ from bpy.app.handlers import persistent
 
 from ...arrays import Floats
 from ...errors import RisoriusError
-from ...scene import preview, shape_keys
-from ...scene.live_face import LiveFace, uid_of
-from ...scene.points_kept import has_points
+from ...scene.baked import shape_keys
+from ...scene.live import preview
+from ...scene.live.live_face import LiveFace, uid_of
+from ...scene.points.kept import has_points
 from ...scene.progress import Progress, Work
 from ..active import ready_reason, target_of
 from ..changes import listen, listen_to_time, unlisten

@@ -13,8 +13,8 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ...errors import RisoriusError
-from ...scene.live_face import uid_of
-from ...scene.reading import FaceReader, Reading
+from ...scene.live.live_face import uid_of
+from ...scene.live.reading import FaceReader, Reading
 from ..active import reading_reason
 
 #: Least seconds between two readings, and least multiple of the time that the last one took.

@@ -8,8 +8,8 @@ from typing import Any
 
 import bpy
 
-from ...scene.belief_curves import has_curves
-from ...scene.reading import Reading
+from ...scene.live.belief_curves import has_curves
+from ...scene.live.reading import Reading
 from ..sidebar import Sidebar
 from . import live
 from .ops import RISORIUS_OT_clear_reading, RISORIUS_OT_read_animation, RISORIUS_OT_show_beliefs

@@ -13,9 +13,9 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
 from ...arrays import Floats, Ints
-from ...scene.live_face import LiveFace
+from ...scene.live.live_face import LiveFace
 from ...scene.mesh import rest_vertices
-from ...scene.points_seen import Visible
+from ...scene.points.seen import Visible
 from ..muscles.props import by_hand_of
 from ..points.view import Viewport
 from ..preview import live

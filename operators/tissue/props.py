@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import tomllib
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ...resources import PRESETS
 from ..changes import changed
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 OWN = "OWN"
 FIRST = "default"
 #: The bundled tissues as they stand in their table: registration must not need SciPy, which `physics` does.
-_TABLE = Path(__file__).resolve().parents[2] / "presets" / "tissue.toml"
+_TABLE = PRESETS / "tissue.toml"
 _TISSUES: dict[str, dict[str, Any]] = tomllib.loads(_TABLE.read_text(encoding="utf-8"))["tissues"]
 _DEFAULT = _TISSUES[FIRST]
 _loading = False

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeAlias
 
-from ...mpeg4.wheel import ACTIVATION_MAX, ACTIVATION_MIN, check_angle
+from ...mpeg4.emotions.wheel import ACTIVATION_MAX, ACTIVATION_MIN, check_angle
 
 Pixel: TypeAlias = tuple[float, float]
 

@@ -6,9 +6,9 @@ from functools import lru_cache
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from ...mpeg4.archetypes import BASE_WORDS
-from ...mpeg4.profile import ARCHETYPES, Archetype
-from ...mpeg4.wheel import position, turn
+from ...mpeg4.emotions.archetypes import BASE_WORDS
+from ...mpeg4.emotions.profile import ARCHETYPES, Archetype
+from ...mpeg4.emotions.wheel import position, turn
 from ..points.canvas import Canvas, Colour, text_width
 from .choice import Choice
 from .geometry import Wheel

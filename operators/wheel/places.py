@@ -7,10 +7,10 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 
-from ...mpeg4.archetypes import BASE_WORDS
-from ...mpeg4.emotion_presets import WORDS
-from ...mpeg4.expressions import neighbours
-from ...mpeg4.profile import ARCHETYPES
+from ...mpeg4.emotions.archetypes import BASE_WORDS
+from ...mpeg4.emotions.emotion_presets import WORDS
+from ...mpeg4.emotions.expressions import neighbours
+from ...mpeg4.emotions.profile import ARCHETYPES
 from .geometry import Box, Pixel, Wheel
 
 #: The word at the wheel's centre: no activation, no direction.

@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from ...scene.points_kept import has_points
+from ...scene.points.kept import has_points
 from ..points.canvas import text_width
 from .geometry import Box, Corner, Pixel, Wheel, free_box, placed
 from .places import labels, places

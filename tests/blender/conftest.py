@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 if importlib.util.find_spec("bpy") is None:
-    collect_ignore_glob = ["test_*.py"]
+    collect_ignore_glob = ["test_*.py", "*/test_*.py"]
 else:
     import bpy
     import risorius

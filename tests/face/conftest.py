@@ -13,7 +13,7 @@ import pytest
 import risorius.api as api
 from risorius.api import Face, Part
 from risorius.face.default_head import HeadMesh
-from risorius.face.segmentation import pieces
+from risorius.face.mesh.segmentation import pieces
 
 #: Labels of the shared heads as parts; teeth (3) are told into rows by their place.
 SKIN_LABELS, TEETH = (0, 5, 7), 3

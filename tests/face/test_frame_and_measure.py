@@ -9,7 +9,7 @@ import pytest
 import risorius.api as api
 from risorius.api import Face
 from risorius.face.default_head import HeadMesh
-from risorius.face.frame import head_frame
+from risorius.face.mesh.head_frame import head_frame
 from scipy.spatial.transform import Rotation
 
 #: FAPs 1 and 2 are visemes and expressions: no feature point measures them.

@@ -14,9 +14,9 @@ from risorius.face.default_head import HeadMesh
 from risorius.face.default_head.figures import DEFAULT_FIGURES, read_figures
 from risorius.face.default_head.limit import cage_through, limit_matrix, subdivide
 from risorius.face.default_head.skin import build_skin
+from risorius.face.drive.synergies import mirror_frame
+from risorius.face.drive.wishes import Drive
 from risorius.face.pose import Poser
-from risorius.face.synergies import mirror_frame
-from risorius.face.wishes import Drive
 from scipy.spatial.transform import Rotation
 
 MIRROR = np.array([-1.0, 1.0, 1.0])

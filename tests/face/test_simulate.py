@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.api import Face
+from risorius.face.drive.wishes import Drive
 from risorius.face.pose import Poser
 from risorius.face.simulate import Simulation, stream_moments
-from risorius.face.wishes import Drive
 
 JOY = api.archetype("joy", 1)
 

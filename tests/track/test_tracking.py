@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 from risorius.errors import ModelError, ParameterError
-from risorius.mpeg4.capture import Landmarks
+from risorius.mpeg4.streams.capture import Landmarks
 from risorius.track import GENERIC, camera_faps, generic_landmarks, track_landmarks
 from scipy.spatial.transform import Rotation
 

@@ -22,10 +22,10 @@ import bpy
 import numpy as np
 import risorius.api as api
 from risorius.scene import mesh as meshes
-from risorius.scene.bake import Target
-from risorius.scene.live_face import LiveFace
+from risorius.scene.baked.bake import Target
+from risorius.scene.jobs.subjects import subject
+from risorius.scene.live.live_face import LiveFace
 from risorius.scene.progress import run
-from risorius.scene.subjects import subject
 
 from physics import SHARED, blender_frame
 

@@ -20,9 +20,9 @@ from faithful.heads import load_face
 from faithful.scans import Explained, explained, posed, scanned_shapes
 from risorius.api import Face, Mechanism
 from risorius.arrays import Floats
-from risorius.face.actuators import Amounts
 from risorius.face.anatomy import Anatomy
-from risorius.face.living_skin import Memory, Relaxation
+from risorius.face.response.actuators import Amounts
+from risorius.face.response.living_skin import Memory, Relaxation
 
 from .two_layer_skin import Insertion, LayeredTissue, Layers
 

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 from risorius.arrays import Floats, Ints
 from risorius.errors import ModelError
-from risorius.face.outer_skin import OuterSkin, smoothstep
-from risorius.face.template import MM
+from risorius.face.mesh.template import MM
+from risorius.face.skin.outer import OuterSkin, smoothstep
 from risorius.physics.mesh import Sparse, triangulate
 from scipy import sparse
 

@@ -18,10 +18,10 @@ from typing import Literal
 
 import numpy as np
 from risorius.arrays import Bools, Floats
-from risorius.face import regions
-from risorius.face.outer_skin import OuterSkin, smoothstep
-from risorius.face.template import MM
-from risorius.face.tissue import Tissue
+from risorius.face.mesh.template import MM
+from risorius.face.response import regions
+from risorius.face.response.sheet import Tissue
+from risorius.face.skin.outer import OuterSkin, smoothstep
 from risorius.physics.elastic import bending_matrix, diagonal_matrix, dirichlet_springs
 from risorius.physics.mesh import Sparse
 from risorius.physics.tissue import tissue as tissue_of

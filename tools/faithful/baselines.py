@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from risorius.api import Drive, Face
 from risorius.arrays import Floats
-from risorius.face.template import MM
+from risorius.face.mesh.template import MM
 from scipy.interpolate import RBFInterpolator
 
 from .scans import Shape, posed

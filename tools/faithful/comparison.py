@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from risorius.api import Drive, Face, Part
 from risorius.arrays import Floats
-from risorius.face.template import MM
+from risorius.face.mesh.template import MM
 
 from .scans import Shape, head_displacement
 from .sheet import Cell, write_grid

@@ -12,9 +12,9 @@ import risorius.api as api
 from risorius.api import Face, Part
 from risorius.arrays import Bools, Floats, Ints
 from risorius.errors import FormatError, ParameterError
-from risorius.face.points import PointSource
-from risorius.face.segmentation import pieces
-from risorius.face.template import MM
+from risorius.face.mesh.points import PointSource
+from risorius.face.mesh.segmentation import pieces
+from risorius.face.mesh.template import MM
 
 ROOT = Path(__file__).resolve().parents[2]
 

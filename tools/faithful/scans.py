@@ -13,7 +13,7 @@ from typing import TypeAlias
 import numpy as np
 from risorius.api import Drive, Face
 from risorius.arrays import Floats, Ints
-from risorius.face.template import MM
+from risorius.face.mesh.template import MM
 
 from .heads import ICT_SKIN, heads_folder, inner_displacements
 

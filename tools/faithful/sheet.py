@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from risorius.arrays import Floats
-from risorius.scene.lettering import Text, write_picture, write_text
+from risorius.scene.pictures.lettering import Text, write_picture, write_text
 
 MARGIN, LETTER = 14, 22.0
 

@@ -16,11 +16,11 @@ from risorius.api import Face
 from risorius.arrays import Floats
 from risorius.scene import mesh as meshes
 from risorius.scene.faces import store_points
-from risorius.scene.framing import Framing, framing_of
 from risorius.scene.head import head_object
-from risorius.scene.lettering import read_picture
-from risorius.scene.studio import Look, render_frame, studio
-from risorius.scene.subjects import paint_parts
+from risorius.scene.jobs.subjects import paint_parts
+from risorius.scene.pictures.framing import Framing, framing_of
+from risorius.scene.pictures.lettering import read_picture
+from risorius.scene.pictures.studio import Look, render_frame, studio
 
 from .heads import lash_vertices
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 from risorius.arrays import Bools, Floats
-from risorius.face.landmarks import LandmarkReading
+from risorius.face.tracked.landmarks import LandmarkReading
 from risorius.mpeg4 import FAP_COUNT, FAPS
-from risorius.mpeg4.capture import Landmarks
+from risorius.mpeg4.streams.capture import Landmarks
 from risorius.track import Smoothing, find_landmarks, open_pictures, track_landmarks
 
 from .known import BEFORE, TRUTH

@@ -10,7 +10,7 @@ import numpy as np
 from faithful.heads import load_face
 from faithful.sitter import Sitter
 from risorius.arrays import Floats
-from risorius.scene.studio import render_frame, studio
+from risorius.scene.pictures.studio import render_frame, studio
 
 from .known import FPS, STREAMS, TRUTH, stream_of
 

@@ -7,9 +7,9 @@ from tomllib import loads
 
 import numpy as np
 from risorius.arrays import Floats
-from risorius.face.captured import read_landmarks
-from risorius.face.landmarks import LandmarkReading
-from risorius.face.template import MM
+from risorius.face.mesh.template import MM
+from risorius.face.tracked.captured import read_landmarks
+from risorius.face.tracked.landmarks import LandmarkReading
 from risorius.track import find_landmarks, open_pictures
 from risorius.track.generic_face import TABLE
 

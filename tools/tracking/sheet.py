@@ -10,7 +10,7 @@ import risorius.api as api
 from faithful.heads import load_face
 from faithful.sheet import Cell, write_grid
 from faithful.sitter import Sitter, View
-from risorius.scene.lettering import read_picture
+from risorius.scene.pictures.lettering import read_picture
 
 from .known import EMOTIONS, READ, TRUTH
 

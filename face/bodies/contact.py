@@ -1,0 +1,193 @@
+"""Contact: lips and lids that meet without passing through each other, lids on the eyeballs, lips on the teeth.
+
+Projections of the skin. A pose is settled: margins that have crossed go back to where they touch, all but shut lids are
+shut, and skin that has sunk into an eyeball or a tooth is lifted out. Skin in motion is held: after every step what has
+gone too deep is put back and loses the speed with which it went there, so that contact never adds to the motion.
+What is not modelled: one lip lying over the other, and the lining of lips and cheeks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Floats, Ints
+from ...physics.mesh import fans
+from ...physics.skin import State
+from ..mechanism import Mechanism
+from ..mechanisms.jaw import Jaw
+from ..mechanisms.lids import Eye
+from ..mesh.face_mesh import FaceMesh
+from ..mesh.parts import Part
+from ..mesh.template import MM
+from ..skin.outer import OuterSkin, smoothstep
+from .dental_arch import DentalArch, build_front
+from .eyeball import Eyeball
+from .eyeball_surface import EyeballSurface, modelled_ball, round_ball
+from .margins import Depths, Meeting, build_meeting
+from .surroundings import Body, Look, Surroundings
+
+#: Share of the way back that the upper margin takes: lips give way alike unless one is asked to move, upper lids do.
+LIP_SHARE, LID_SHARE = 0.5, 0.9
+
+#: FAPs that move the upper and the lower lip up or down, inner and outer; requests below some units count as none.
+UPPER_LIP_FAPS, LOWER_LIP_FAPS = (4, 8, 9, 51, 55, 56), (5, 10, 11, 52, 57, 58)
+UNFELT = 2.0
+
+#: Skin is kept off the eyeball, and off the teeth, within the first distance of lids or lips, fading to the second.
+LID_SKIN, LIP_SKIN = (6.0 * MM, 10.0 * MM), (8.0 * MM, 14.0 * MM)
+
+#: Bodies may move margins that have been settled: both are repeated at most so often, while they move this, metres.
+SWEEPS, UNDISTURBED = 3, 0.02 * MM
+
+AT_REST = Surroundings()
+
+
+def lip_share(asked: Floats) -> float:
+    """The upper lip's part of the way back, 0..1, for requests (68,): a lip that is asked to move pushes the other."""
+    wanted = np.abs(np.nan_to_num(asked))
+    upper, lower = (UNFELT + float(wanted[np.array(faps) - 1].sum()) for faps in (UPPER_LIP_FAPS, LOWER_LIP_FAPS))
+    return lower / (upper + lower)
+
+
+@dataclass(frozen=True)
+class Slack:
+    """How far a pose passes contact, which skin on its way there may too: margins and bodies, in `Contact`'s order."""
+
+    margins: tuple[Depths, ...]
+    bodies: tuple[Floats, ...]
+
+    def towards(self, other: Slack, share: float) -> Slack:
+        """Part of the way (0..1) to another pose's slack."""
+
+        def mixed(a: Floats, b: Floats) -> Floats:
+            return (1.0 - share) * a + share * b
+
+        margins = zip(self.margins, other.margins, strict=True)
+        return Slack(
+            tuple((mixed(a[0], b[0]), mixed(a[1], b[1])) for a, b in margins),
+            tuple(mixed(a, b) for a, b in zip(self.bodies, other.bodies, strict=True)),
+        )
+
+
+class Contact:
+    """The contacts of one face's outer skin."""
+
+    def __init__(self, skin: OuterSkin, sides: Sequence[str], bodies: Sequence[Body] = ()) -> None:
+        """Lips and the lids of the eyes `sides` ("l", "r") as meetings, and the bodies that skin stays out of."""
+        self.skin = skin
+        self.bodies = tuple(bodies)
+        self.lips = build_meeting(skin, skin.mouth, skin.lip_distances, lids=False)
+        self.lids = {side: build_meeting(skin, skin.eyes[side], skin.lid_distances(side), lids=True) for side in sides}
+
+    def settle(self, displacement: Floats, lip_share: float = LIP_SHARE, at: Surroundings = AT_REST) -> Floats:
+        """The displacement (n, 3) of the outer skin in head space, metres, with every contact resolved.
+
+        `lip_share` is the upper lip's part of the way back (`lip_share`).
+        """
+        if not self.skin.has(Mechanism.CONTACT):
+            return displacement
+        rest = self.skin.positions
+        positions = rest + displacement
+        for _ in range(SWEEPS):
+            met = positions
+            for meeting, share in self._meetings(lip_share):
+                met = meeting.settle(met, share)
+            cleared = rest + self.clear(met - rest, at)
+            positions, moved = cleared, float(np.abs(cleared - met).max())
+            if moved < UNDISTURBED:
+                break
+        return positions - rest
+
+    def clear(self, displacement: Floats, at: Surroundings = AT_REST, spared: Floats | None = None) -> Floats:
+        """The displacement (n, 3) with skin kept out of eyeballs and teeth; `spared` (n,) 0..1 of it stays."""
+        if not self.skin.has(Mechanism.CONTACT):
+            return displacement
+        positions = self.skin.positions + displacement
+        for body in self.bodies:
+            positions = _lifted(positions, body, at, 0.0, spared)
+        return positions - self.skin.positions
+
+    def slack(self, displacement: Floats, at: Surroundings) -> Slack:
+        """How far a pose's displacement (n, 3) passes contact."""
+        positions = self.skin.positions + displacement
+        margins = [meeting.depths(positions) for meeting, _ in self._meetings(LIP_SHARE)]
+        return Slack(
+            tuple((np.maximum(above, 0.0), np.maximum(below, 0.0)) for above, below in margins),
+            tuple(np.maximum(body.depths(positions, at)[0], 0.0) for body in self.bodies),
+        )
+
+    def hold(self, state: State, lip_share: float, at: Surroundings, slack: Slack, step: float) -> State:
+        """The state with skin put back that has gone deeper than the slack, and without the speed of going there.
+
+        A vertex loses no more speed than would have taken it as far as it was put back within the step (s).
+        """
+        if not self.skin.has(Mechanism.CONTACT):
+            return state
+        positions = state.positions
+        for (meeting, share), more in zip(self._meetings(lip_share), slack.margins, strict=True):
+            positions = meeting.settle(positions, share, more)
+        for body, deep in zip(self.bodies, slack.bodies, strict=True):
+            positions = _lifted(positions, body, at, deep)
+        back = positions - state.positions
+        way = np.linalg.norm(back, axis=1)
+        if not way.any():
+            return state
+        out = back / np.maximum(way, 1e-12)[:, None]
+        inwards = np.clip(-(state.velocities * out).sum(axis=1), 0.0, way / step)
+        return State(positions, state.velocities + inwards[:, None] * out)
+
+    def _meetings(self, lip_share: float) -> list[tuple[Meeting, float]]:
+        """Every pair of margins with the upper one's share of the way."""
+        return [(self.lips, lip_share), *((lids, LID_SHARE) for lids in self.lids.values())]
+
+
+def _lifted(
+    positions: Floats, body: Body, at: Surroundings, deep: Floats | float, spared: Floats | None = None
+) -> Floats:
+    """Positions (n, 3) lifted out of a body as far as they lie deeper in it than `deep`."""
+    depth, out = body.depths(positions, at)
+    way = np.maximum(depth - deep, 0.0) * body.firmness
+    if spared is not None:
+        way = way * (1.0 - spared[body.index])
+    if not way.any():
+        return positions
+    lifted = positions.copy()
+    lifted[body.index] += way[:, None] * out
+    return lifted
+
+
+def build_contact(
+    skin: OuterSkin, mesh: FaceMesh, eyes: Mapping[str, Eye], eyeballs: Sequence[Eyeball], jaw: Jaw
+) -> Contact:
+    """Every contact of a face: its outer skin and mesh, lids by "l" and "r", the eyeballs it has, its mandible."""
+    positions = mesh.positions
+    bodies: list[Body] = []
+    balls = {ball.side: ball for ball in eyeballs}
+    for side, eye in eyes.items():
+        index, firmness = _near(np.min(skin.lid_distances(side), axis=0), LID_SKIN)
+        look = Look(eye.centre, balls[side].gaze if side in balls else np.array([0.0, 0.0, 1.0]))
+        triangles = _triangles(mesh, Part.EYEBALL_L if side == "l" else Part.EYEBALL_R)
+        ball = modelled_ball(look, positions, triangles) if len(triangles) else round_ball(look, eye.radius)
+        bodies.append(EyeballSurface(side, ball, index, firmness, skin.positions[index]))
+    index, firmness = _near(skin.lip_edge_distance, LIP_SKIN)
+    for part, carried_by in ((Part.TEETH_UPPER, None), (Part.TEETH_LOWER, jaw)):
+        triangles = _triangles(mesh, part)
+        if len(triangles):
+            front = build_front(positions, triangles)
+            bodies.append(DentalArch(front, carried_by, index, firmness, skin.positions[index]))
+    return Contact(skin, list(eyes), bodies)
+
+
+def _triangles(mesh: FaceMesh, part: Part) -> Ints:
+    """(t, 3) vertices of a part's surface; none where the face has none."""
+    polygons = [polygon for polygon in mesh.polygons if (mesh.parts[polygon] == part).all()]
+    return fans(polygons)[0]
+
+
+def _near(distance: Floats, within: tuple[float, float]) -> tuple[Ints, Floats]:
+    """Vertices at a distance (n,) of less than the second of two lengths, and 1 within the first, fading to 0."""
+    index = np.flatnonzero(distance < within[1])
+    return index, 1.0 - smoothstep((distance[index] - within[0]) / (within[1] - within[0]))

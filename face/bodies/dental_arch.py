@@ -1,0 +1,109 @@
+"""A row of teeth as a body that lips lie on: how far it reaches out, seen from an upright axis behind it.
+
+Teeth are many separate pieces, often open ones. What lips can feel of them is their front: the distance from the axis
+over direction and height, with the gaps between teeth closed. The lower row goes with the mandible.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy import ndimage
+
+from ...arrays import Floats, Ints
+from ...physics.mesh import surface_samples
+from ..mechanisms.jaw import Jaw, JawMotion
+from ..mesh.template import MM
+from .surroundings import Surroundings
+
+#: Distance before the teeth that lip skin keeps at least.
+CLEARANCE = 0.1 * MM
+
+#: Grid of the front: directions to each side (rad) and their step; step of the heights, metres.
+WIDEST, TURN, RISE = np.radians(80.0), np.radians(1.5), 0.5 * MM
+
+#: Gaps of this many cells are closed.
+GAP = 5
+
+#: Skin farther behind the front than this is inside the mouth and not in a tooth, metres.
+THICKEST = 6.0 * MM
+
+
+@dataclass(frozen=True)
+class Front:
+    """The front of a row of teeth in head space, the mandible at rest.
+
+    Attributes
+    ----------
+    axis : (2,) x and z of the upright axis behind the row. bottom : height of the grid's first line.
+    reach : (directions, heights) distance of the front from the axis, metres; minus infinity where there is no tooth.
+    """
+
+    axis: Floats
+    bottom: float
+    reach: Floats
+
+    def depths(self, positions: Floats) -> tuple[Floats, Floats]:
+        """Depths (k,) below the clearance, minus infinity off the row, and ways out (k, 3), for positions (k, 3)."""
+        aside, before = positions[:, 0] - self.axis[0], positions[:, 2] - self.axis[1]
+        distance = np.maximum(np.hypot(aside, before), 1e-9)
+        column = (np.arctan2(aside, before) + WIDEST) / TURN
+        line = (positions[:, 1] - self.bottom) / RISE
+        first = np.clip(np.floor(column).astype(np.int64), 0, self.reach.shape[0] - 2)
+        second = np.clip(np.floor(line).astype(np.int64), 0, self.reach.shape[1] - 2)
+        u, v = column - first, line - second
+        corners = np.stack([self.reach[first + i, second + j] for i in (0, 1) for j in (0, 1)])
+        on_row = (np.abs(u - 0.5) <= 0.5) & (np.abs(v - 0.5) <= 0.5) & np.isfinite(corners).all(axis=0)
+        shares = np.stack([(1 - u) * (1 - v), (1 - u) * v, u * (1 - v), u * v])
+        deep = (shares * np.where(on_row, corners, 0.0)).sum(axis=0) + CLEARANCE - distance
+        outwards = np.stack([aside / distance, np.zeros(len(distance)), before / distance], axis=1)
+        return np.where(on_row & (deep < THICKEST), deep, -np.inf), outwards
+
+
+def build_front(vertices: Floats, triangles: Ints) -> Front:
+    """The front of a row of teeth from its surface: vertices (v, 3) in head space, triangles (t, 3)."""
+    points = surface_samples(vertices[triangles], 0.5 * RISE)
+    axis = np.array([points[:, 0].mean(), points[:, 2].min()])
+    bottom = float(points[:, 1].min()) - RISE
+    turn = np.arctan2(points[:, 0] - axis[0], points[:, 2] - axis[1])
+    shape = int(2 * WIDEST / TURN) + 1, int((points[:, 1].max() - bottom) / RISE) + 3
+    column = np.round((turn + WIDEST) / TURN).astype(np.int64)
+    line = np.round((points[:, 1] - bottom) / RISE).astype(np.int64)
+    seen = (column >= 0) & (column < shape[0])
+    reach = np.full(shape, -np.inf)
+    np.maximum.at(reach, (column[seen], line[seen]), np.hypot(*(points[seen][:, [0, 2]] - axis).T))
+    return Front(axis, bottom, np.asarray(ndimage.grey_closing(reach, size=(GAP, GAP), mode="nearest")))
+
+
+@dataclass(frozen=True)
+class DentalArch:
+    """One row of teeth behind the skin of the lips.
+
+    Attributes
+    ----------
+    front : its front, the mandible at rest. jaw : the mandible that carries it; None for the upper row.
+    index, firmness : as `Body`. skin : (k, 3) rest positions of those vertices.
+    """
+
+    front: Front
+    jaw: Jaw | None
+    index: Ints
+    firmness: Floats
+    skin: Floats
+    _excused: Floats = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Lips that lie in the teeth at rest may stay as deep."""
+        deep, _ = self.front.depths(self.skin)
+        object.__setattr__(self, "_excused", np.maximum(deep, 0.0))
+
+    def depths(self, positions: Floats, at: Surroundings) -> tuple[Floats, Floats]:
+        """See `Body`; positions (n, 3) of the outer skin."""
+        near = positions[self.index]
+        if self.jaw is None or at.jaw == JawMotion():
+            deep, outwards = self.front.depths(near)
+        else:
+            deep, outwards = self.front.depths(self.jaw.unmoved(near, at.jaw))
+            outwards = self.jaw.turned(outwards, at.jaw)
+        return deep - self._excused, outwards

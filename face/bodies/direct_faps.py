@@ -1,0 +1,16 @@
+"""FAPs that turn or push a body as a whole (23-30, 43-50): how their values are read from a FAP frame."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...arrays import Floats
+
+#: Radians in one unit of the FAPs that are angles.
+ANGLE_UNIT = 1e-5
+
+
+def value_of(frame: Floats, number: int) -> float:
+    """A FAP of a frame (68,), 0 where silent."""
+    value = float(frame[number - 1])
+    return 0.0 if np.isnan(value) else value

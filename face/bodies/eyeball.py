@@ -1,0 +1,104 @@
+"""Eyeballs: what FAPs 23 to 30 turn, push and widen, and how those FAPs are read back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ...arrays import Floats, Ints
+from ..skin.outer import smoothstep
+from .direct_faps import ANGLE_UNIT, value_of
+from .surroundings import Look
+
+#: The neutral pupil is a third of the iris, and the iris as wide as the neutral lid gap (ISO/IEC 14496-2 neutral face).
+PUPIL_SHARE = 1.0 / 3.0
+
+
+@dataclass(frozen=True)
+class Eyeball:
+    """One eyeball: turns about its centre, comes forward, widens its pupil.
+
+    Attributes
+    ----------
+    index : (k,) mesh vertices. positions : (k, 3) at rest, head space. centre : (3,). gaze : (3,) unit axis at rest.
+    pupil : angle from the axis to the neutral pupil's edge, rad. iris : the same to the iris' edge.
+    faps : numbers of yaw, pitch, thrust, dilate for this side.
+    units : metres of head space per unit of thrust and of dilation.
+    """
+
+    index: Ints
+    positions: Floats
+    centre: Floats
+    gaze: Floats
+    pupil: float
+    iris: float
+    faps: tuple[int, int, int, int]
+    units: tuple[float, float]
+
+    @property
+    def side(self) -> str:
+        """Whose it is: "l" or "r"."""
+        return "l" if self.faps[0] == 23 else "r"
+
+    def displacement(self, frame: Floats) -> Floats:
+        """(k, 3) displacement in head space for a frame (68,) in FAP units."""
+        yaw, pitch, thrust, dilate = (value_of(frame, number) for number in self.faps)
+        away = self._dilated(dilate * self.units[1] / 2.0)
+        turn = Rotation.from_euler("yx", [yaw * ANGLE_UNIT, pitch * ANGLE_UNIT])
+        moved: Floats = turn.apply(away) + self.centre - self.positions
+        moved[:, 2] += thrust * self.units[0]
+        return moved
+
+    def look(self, frame: Floats) -> Look:
+        """Where the eyeball is and looks for a frame (68,) in FAP units."""
+        yaw, pitch, thrust = (value_of(frame, number) for number in self.faps[:3])
+        turn = Rotation.from_euler("yx", [yaw * ANGLE_UNIT, pitch * ANGLE_UNIT])
+        return Look(self.centre + np.array([0.0, 0.0, thrust * self.units[0]]), turn.apply(self.gaze))
+
+    def _dilated(self, growth: float) -> Floats:
+        """Vertices from the centre (k, 3) with the pupil's edge moved out by a growth in metres, along the ball."""
+        away: Floats = self.positions - self.centre
+        if growth == 0.0:
+            return away
+        distance = np.linalg.norm(away, axis=1)
+        angle = np.arccos(np.clip(away @ self.gaze / np.maximum(distance, 1e-9), -1.0, 1.0))
+        radius = float(np.median(distance))
+        share = 1.0 - smoothstep((angle - self.pupil) / max(self.iris - self.pupil, 1e-6))
+        wider = angle * (1.0 + max(growth / radius / self.pupil, -0.9) * share)
+        side = away - (away @ self.gaze)[:, None] * self.gaze
+        side /= np.maximum(np.linalg.norm(side, axis=1, keepdims=True), 1e-12)
+        wide: Floats = distance[:, None] * (np.cos(wider)[:, None] * self.gaze + np.sin(wider)[:, None] * side)
+        return wide
+
+    def measure(self, positions: Floats) -> dict[int, float]:
+        """FAP number -> value read off deformed vertices (k, 3) in head space."""
+        away, now = self.positions - self.centre, positions - self.centre
+        body = (away @ self.gaze) < np.cos(self.iris) * np.linalg.norm(away, axis=1)
+        if body.sum() < 4:
+            body = np.ones(len(away), dtype=bool)
+        turn, _ = Rotation.align_vectors(now[body] - now[body].mean(axis=0), away[body] - away[body].mean(axis=0))
+        centre_shift = now[body].mean(axis=0) - turn.apply(away[body].mean(axis=0))
+        yaw, pitch, _ = turn.as_euler("yxz")
+        values = {
+            self.faps[0]: yaw / ANGLE_UNIT,
+            self.faps[1]: pitch / ANGLE_UNIT,
+            self.faps[2]: float(centre_shift[2]) / self.units[0],
+        }
+        dilation = self._read_dilation(turn.inv().apply(now - centre_shift))
+        if dilation is not None:
+            values[self.faps[3]] = dilation
+        return values
+
+    def _read_dilation(self, unturned: Floats) -> float | None:
+        """Growth of the pupil in FAP units from vertices turned back (k, 3); None where the pupil has no vertices."""
+        away = self.positions - self.centre
+        angle = np.arccos(np.clip(away @ self.gaze / np.linalg.norm(away, axis=1), -1.0, 1.0))
+        pupil = (angle > 0.05 * self.pupil) & (angle <= 1.02 * self.pupil)
+        if not pupil.any():
+            return None
+        now = np.arccos(np.clip(unturned @ self.gaze / np.linalg.norm(unturned, axis=1), -1.0, 1.0))
+        growth = float(np.mean(now[pupil] / angle[pupil])) - 1.0
+        radius = float(np.median(np.linalg.norm(away, axis=1)))
+        return 2.0 * growth * self.pupil * radius / self.units[1]

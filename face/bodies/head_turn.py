@@ -1,0 +1,72 @@
+"""The head on its spine: what FAPs 48 to 50 turn, and how those FAPs are read back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ...arrays import Floats, Ints
+from ..mesh.template import MM
+from ..skin.outer import smoothstep
+from .direct_faps import ANGLE_UNIT, value_of
+
+#: The skull's pose is refitted this often with weight on the vertices that agree to about this distance, metres.
+SKULL_ROUNDS, SKULL_TOLERANCE = 12, 1e-6
+
+
+@dataclass(frozen=True)
+class HeadTurn:
+    """The head on its spine: pitch, yaw and roll about 7.1, the neck following down to its root.
+
+    Attributes
+    ----------
+    pivot : (3,) head space. weights : (V,) 1 on the head, 0 at the root of the neck.
+    skull : (s,) vertices that expression does not move, from which the head's pose is read back; may be empty.
+    """
+
+    pivot: Floats
+    weights: Floats
+    skull: Ints
+
+    def apply(self, positions: Floats, frame: Floats) -> Floats:
+        """Positions (V, 3) with FAPs 48 (down), 49 (left) and 50 (right shoulder) of a frame (68,) applied."""
+        pitch, yaw, roll = (value_of(frame, number) * ANGLE_UNIT for number in (48, 49, 50))
+        if pitch == yaw == roll == 0.0:
+            return positions
+        vector = Rotation.from_euler("yxz", [yaw, pitch, roll]).as_rotvec()
+        turn = Rotation.from_rotvec(self.weights[:, None] * vector)
+        turned: Floats = turn.apply(positions - self.pivot) + self.pivot
+        return turned
+
+    def undo(self, positions: Floats, rest: Floats) -> tuple[Floats, dict[int, float]]:
+        """Positions (V, 3) with the head's turn taken out, and FAPs 48-50; unchanged where the mesh shows no skull."""
+        if len(self.skull) < 4:
+            return positions, {}
+        turn, shift = self._rigid_motion(rest[self.skull], positions[self.skull])
+        vector = turn.as_rotvec()
+        undo = Rotation.from_rotvec(-self.weights[:, None] * vector)
+        back = undo.apply(positions - self.pivot - self.weights[:, None] * shift) + self.pivot
+        yaw, pitch, roll = turn.as_euler("yxz")
+        return back, {48: pitch / ANGLE_UNIT, 49: yaw / ANGLE_UNIT, 50: roll / ANGLE_UNIT}
+
+    def _rigid_motion(self, source: Floats, target: Floats) -> tuple[Rotation, Floats]:
+        """Rotation about the pivot and shift (3,) that most skull vertices agree on (iteratively reweighted)."""
+        weights = np.ones(len(source))
+        for _ in range(SKULL_ROUNDS):
+            middle, moved = np.average(source, axis=0, weights=weights), np.average(target, axis=0, weights=weights)
+            turn, _ = Rotation.align_vectors(target - moved, source - middle, weights=weights)
+            shift = moved - (turn.apply(middle - self.pivot) + self.pivot)
+            off = np.linalg.norm(turn.apply(source - self.pivot) + self.pivot + shift - target, axis=1)
+            weights = 1.0 / (off + SKULL_TOLERANCE)
+        return turn, shift
+
+
+def build_head_turn(positions: Floats, pivot: Floats, brow_height: float) -> HeadTurn:
+    """The head's turn on a mesh (V, 3) in head space; a head without a neck turns as a whole."""
+    low = float(positions[:, 1].min())
+    y = positions[:, 1]
+    weights = np.ones(len(positions)) if low > -105 * MM else smoothstep((y + 150 * MM) / (70 * MM))
+    skull = np.flatnonzero((y > brow_height + 45 * MM) | ((positions[:, 2] < -100 * MM) & (y > -10 * MM)))
+    return HeadTurn(pivot=pivot, weights=weights, skull=skull)

@@ -1,0 +1,89 @@
+"""Where points on smooth skin lie by a face's proportions, told by points that the skin's shape does tell."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from functools import lru_cache
+
+import numpy as np
+
+from ....arrays import Floats
+from ....errors import FormatError
+from ....resources import PRESETS
+
+FILE = PRESETS / "anatomy" / "point_proportions.csv"
+
+
+class View(Enum):
+    """Where a face is looked at from; the value is the axes of the picture: across and up."""
+
+    FRONT = (0, 2)
+    SIDE = (1, 2)
+
+
+@dataclass(frozen=True)
+class Proportion:
+    """A row of presets/anatomy/point_proportions.csv.
+
+    Attributes
+    ----------
+    point : the feature point, on the subject's left.
+    view : from where the other points are seen.
+    origin, start, end : feature points; the unit is the way from `start` to `end`.
+    along, across : from `origin`, along that way and at a right angle to it, units.
+    share : how much this counts beside the bent template, 0 to 1.
+    """
+
+    point: str
+    view: View
+    origin: str
+    start: str
+    end: str
+    along: float
+    across: float
+    share: float
+
+    def place(self, places: Mapping[str, Floats], twins: Mapping[str, str], *, left: bool) -> Floats:
+        """(3,) where the point, or its twin on the right, shall lie; the depth of the view stays.
+
+        Parameters
+        ----------
+        places : name -> (3,) template coordinates; the middle of the face is at x = 0.
+        twins : feature point -> the one on the other side.
+        """
+        flip = np.array([1.0 if left else -1.0, 1.0, 1.0])
+        point, origin, start, end = (
+            places[name if left else twins.get(name, name)] * flip
+            for name in (self.point, self.origin, self.start, self.end)
+        )
+        picture = list(self.view.value)
+        way = (end - start)[picture]
+        told = origin[picture] + self.along * way + self.across * np.array([-way[1], way[0]])
+        there = point.copy()
+        there[picture] += self.share * (told - point[picture])
+        return np.asarray(there * flip)
+
+
+@lru_cache(maxsize=1)
+def read_proportions() -> tuple[Proportion, ...]:
+    """The table of proportions.
+
+    Raises
+    ------
+    FormatError : a row that is none.
+    """
+    rows = []
+    lines = FILE.read_text(encoding="utf-8").splitlines()
+    for number, line in enumerate(lines, 1):
+        if not line or line.startswith(("#", "point,")):
+            continue
+        try:
+            point, view, origin, start, end, *figures = next(csv.reader([line]))
+            along, across, share = (float(figure) for figure in figures)
+            rows.append(Proportion(point, View[view.upper()], origin, start, end, along, across, share))
+        except (ValueError, KeyError) as error:
+            raise FormatError(FILE, f"expected point,view,origin,... but found {line!r}", line=number) from error
+    return tuple(rows)

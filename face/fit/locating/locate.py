@@ -1,0 +1,204 @@
+"""Which way the face of a mesh looks, where it is and how large: symmetry, coarse search, alignment, score."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from ....arrays import Bools, Floats
+from ....errors import ModelError
+from ..progress import FitProgress, part_of
+from ..surface.cloud import Cloud, Surface, sample
+from ..surface.symmetry import symmetry_planes
+from ..template.open_mouth import open_template
+from ..template.template import FitTemplate
+from .align import align
+from .head_pose import HeadPose
+from .regions import guesses_at_ends
+from .score import RELIEF_LIMIT, SCORE_LIMIT, FaceScore, face_score
+from .search import Guess, best_guesses, search_plane
+
+#: Points spread over the whole mesh; over the head alone; over the face alone; and those that symmetry is sought with.
+WHOLE, HEAD, FACE, SYMMETRY = 100_000, 40_000, 40_000, 2_000
+#: Boxes round the template's origin, metres: least and greatest x, y, z.
+HEAD_BOX = ((-0.12, -0.185, -0.175), (0.12, 0.135, 0.175))
+FACE_BOX = ((-0.068, -0.185, -0.09), (0.068, 0.0, 0.076))
+#: Guesses that are aligned, and those of them that are aligned twice.
+ALIGNED, FINALISTS = 10, 3
+#: From this score on it is asked whether the mouth is open, by so many degrees; an open one must score better by this.
+GOOD_SCORE, JAW_DEGREES, OPEN_COST = 0.55, (7.0, 14.0, 21.0), 0.1
+#: Of more triangles than this, none is so large that it crosses a box with no corner inside.
+MANY = 100_000
+#: Least and greatest x, y, z round the template's origin, metres.
+Box: TypeAlias = tuple[tuple[float, float, float], tuple[float, float, float]]
+
+
+@dataclass(frozen=True)
+class Located:
+    """A face found in a mesh.
+
+    Attributes
+    ----------
+    pose : where the template lies, a scale for each axis.
+    surface : the mesh's surface with normals outward.
+    score : how much it looks like a face.
+    template : the template that it looks like: with the mouth closed, or open.
+    """
+
+    pose: HeadPose
+    surface: Surface
+    score: FaceScore
+    template: FitTemplate
+
+
+def locate(surface: Surface, *, refuse: bool = True) -> Generator[FitProgress, None, Located]:
+    """Find the face of a mesh; unless `refuse`, the best place however little it looks like a face.
+
+    Raises
+    ------
+    ModelError : when nothing in the mesh looks like a face; states the score, the limit and the remedy.
+    """
+    yield FitProgress(0.0, "planes of symmetry")
+    cloud = sample(surface, WHOLE)
+    if len(cloud) == 0:
+        raise ModelError("no face found: the mesh has no area; feature points need a surface")
+    guesses = yield from part_of(_guesses_of_whole(surface, cloud), 0.0, 0.55)
+    place = yield from part_of(_best_place(surface, cloud, guesses), 0.55, 0.7)
+    if place is None or not place.score.is_face:
+        guesses = yield from part_of(guesses_at_ends(surface, cloud), 0.7, 0.9)
+        turned = yield from part_of(_best_place(surface, cloud, guesses), 0.9, 0.95)
+        place = min((other for other in (place, turned) if other), key=lambda other: other.score.value, default=None)
+    if place is not None and place.score.value > GOOD_SCORE:
+        yield FitProgress(0.95, "whether the mouth is open")
+        place = _opened(place)
+    return accepted(place, refuse=refuse)
+
+
+def _guesses_of_whole(surface: Surface, cloud: Cloud) -> Generator[FitProgress, None, list[Guess]]:
+    """The best guesses about the planes of symmetry of the whole mesh."""
+    area = float(np.linalg.norm(surface.cross(), axis=1).sum() / 2.0)
+    diagonal = float(np.linalg.norm(np.ptp(cloud.positions, axis=0)))
+    planes = symmetry_planes(cloud.positions[:: WHOLE // SYMMETRY])
+    guesses: list[Guess] = []
+    for number, plane in enumerate(planes):
+        yield FitProgress(0.25 + 0.75 * number / len(planes), "which way the face looks")
+        guesses += search_plane(cloud, area, diagonal, plane)
+    return best_guesses(guesses)
+
+
+def _best_place(
+    surface: Surface, cloud: Cloud, guesses: Sequence[Guess]
+) -> Generator[FitProgress, None, Located | None]:
+    """The place among some guesses that looks most like a face."""
+    found: list[Located] = []
+    for number, guess in enumerate(guesses[:ALIGNED]):
+        yield FitProgress(0.8 * number / len(guesses[:ALIGNED]), "how large the face is")
+        found.append(_aligned(surface, cloud, guess.pose))
+    found.sort(key=lambda place: place.score.value)
+    yield FitProgress(0.8, "a closer look")
+    best = [aligned_again(place.surface, place.pose) for place in _distinct(found)[:FINALISTS]]
+    return min(best, key=lambda place: place.score.value, default=None)
+
+
+def _opened(place: Located) -> Located:
+    """The place with an open mouth, where that looks more like a face."""
+    opened = [aligned_again(place.surface, place.pose, degrees) for degrees in JAW_DEGREES]
+    best = min(opened, key=lambda other: other.score.value)
+    return best if best.score.value + OPEN_COST < place.score.value else place
+
+
+def accepted(place: Located | None, *, refuse: bool = True) -> Located:
+    """The place, where it looks like a face.
+
+    Raises
+    ------
+    ModelError : where it does not.
+    """
+    remedy = (
+        "click its feature points 3.7, 3.12, 8.3, 8.4, 9.3 and 2.1 (outer eye corners, lip corners, nose tip, chin)"
+    )
+    if place is None:
+        raise ModelError(f"no face found in the mesh; if it has one, {remedy}")
+    score = place.score
+    if refuse and not score.is_face:
+        raise ModelError(
+            f"the mesh does not look like a face: score {score.value:.2f} (at most {SCORE_LIMIT}), agreement of eyes, "
+            f"nose and mouth {score.relief:.2f} (at least {RELIEF_LIMIT}); if it has a face, {remedy}"
+        )
+    return place
+
+
+def aligned_again(surface: Surface, pose: HeadPose, jaw_degrees: float = 0.0) -> Located:
+    """The place near a pose, seen with points spread over the head alone."""
+    template = open_template(jaw_degrees)
+    pose = align(box_cloud(surface, pose, HEAD_BOX, HEAD), pose, template)
+    return Located(pose, surface, scored(surface, pose, template), template)
+
+
+def scored(surface: Surface, pose: HeadPose, template: FitTemplate) -> FaceScore:
+    """How much what lies at a pose looks like a face."""
+    return face_score(pose.to_template(box_cloud(surface, pose, FACE_BOX, FACE).positions), template)
+
+
+def in_box(surface: Surface, pose: HeadPose, box: Box) -> Bools:
+    """(T,) which triangles touch a box round the head."""
+    if len(surface.triangles) > MANY:
+        return np.asarray(lies_in_box(surface.vertices, pose, box)[surface.triangles].any(axis=1), dtype=np.bool_)
+    corners = pose.alike().to_template(surface.vertices)[surface.triangles]
+    touches: Bools = ((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)
+    return touches
+
+
+def box_cloud(surface: Surface, pose: HeadPose, box: Box, count: int) -> Cloud:
+    """Points spread over what lies in a box round the head."""
+    chosen = in_box(surface, pose, box)
+    cloud = sample(surface.part(chosen), count)
+    whole = Cloud(cloud.positions, cloud.normals, np.flatnonzero(chosen)[cloud.triangles])
+    return whole.take(lies_in_box(cloud.positions, pose, box))
+
+
+def lies_in_box(positions: Floats, pose: HeadPose, box: Box) -> Bools:
+    """Which positions (N, 3) of the mesh lie in a box round the head."""
+    local = pose.alike().to_template(positions)
+    inside: Bools = np.all((local >= np.array(box[0])) & (local <= np.array(box[1])), axis=1)
+    return inside
+
+
+def _aligned(surface: Surface, cloud: Cloud, guess: HeadPose) -> Located:
+    """One guess aligned; the surface comes out with its normals outward."""
+    near = cloud.take(lies_in_box(cloud.positions, guess, HEAD_BOX))
+    near = near.take(np.arange(0, len(near), max(1, len(near) // (HEAD // 2))))
+    if len(near) < HEAD // 4:
+        near = box_cloud(surface, guess, HEAD_BOX, HEAD // 2)
+    if looks_backwards(near, guess):
+        surface, near = surface.flipped(), Cloud(near.positions, -near.normals, near.triangles)
+    template = open_template(0.0)
+    pose = align(near, guess, template)
+    return Located(pose, surface, scored(surface, pose, template), template)
+
+
+def looks_backwards(cloud: Cloud, pose: HeadPose) -> bool:
+    """Whether the normals of what is seen from the front point away from the viewer."""
+    local = pose.to_template(cloud.positions)
+    inside = (np.abs(local[:, 0]) < 0.05) & (np.abs(local[:, 2]) < 0.07)
+    if not inside.any():
+        return False
+    depth = local[inside, 1]
+    front = depth <= np.quantile(depth, 0.4)
+    return bool(np.median(cloud.normals[inside][front] @ pose.axes[1]) > 0.0)
+
+
+def _distinct(places: Sequence[Located]) -> list[Located]:
+    """Places that differ by more than a centimetre or 20 degrees."""
+    kept: list[Located] = []
+    for place in places:
+        for other in kept:
+            near = np.linalg.norm(place.pose.origin - other.pose.origin) < 0.01 * other.pose.size
+            if near and np.trace(place.pose.axes @ other.pose.axes.T) > 2.88:
+                break
+        else:
+            kept.append(place)
+    return kept

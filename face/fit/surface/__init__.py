@@ -1,0 +1,9 @@
+"""A mesh of any tessellation as what the fit works with.
+
+cloud       points spread evenly over it
+depth_map   its front as a picture of depths
+pieces      its skin among its connected pieces
+rims        closed lines along which the skin ends
+margins     those of eyes and mouth among the rims
+symmetry    planes about which it is nearly its own mirror image
+"""

@@ -1,0 +1,112 @@
+"""A surface as points spread evenly over it, so that its tessellation does not matter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ....arrays import Bools, Floats, Ints
+from ....physics.mesh import Polygons, triangulate, vertex_normals
+
+#: A normal with less than this length has no direction.
+_TINY = 1e-30
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A triangulated mesh.
+
+    Attributes
+    ----------
+    vertices : (V, 3) in any unit.
+    triangles : (T, 3) int64.
+    normals : (V, 3) smooth unit normals, zero where a vertex lies in no triangle of any area.
+    """
+
+    vertices: Floats
+    triangles: Ints
+    normals: Floats
+
+    @classmethod
+    def from_polygons(cls, vertices: Floats, polygons: Polygons) -> Surface:
+        """The surface of a mesh (V, 3) with polygons."""
+        return cls(vertices, triangulate(polygons), vertex_normals(vertices, polygons))
+
+    def cross(self) -> Floats:
+        """(T, 3) normals of the triangles, twice as long as their areas."""
+        a, b, c = (self.vertices[self.triangles[:, k]] for k in range(3))
+        return np.asarray(np.cross(b - a, c - a), dtype=np.float64)
+
+    def flipped(self) -> Surface:
+        """The same surface, inside out."""
+        return Surface(self.vertices, self.triangles[:, ::-1].copy(), -self.normals)
+
+    def part(self, chosen: Bools) -> Surface:
+        """The surface of the chosen (T,) triangles, with the same vertices."""
+        return Surface(self.vertices, self.triangles[chosen], self.normals)
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """Points on a surface: positions (N, 3), unit normals (N, 3), and the triangle (N,) that each lies on."""
+
+    positions: Floats
+    normals: Floats
+    triangles: Ints
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def take(self, chosen: Ints | Bools) -> Cloud:
+        """Some of the points."""
+        return Cloud(self.positions[chosen], self.normals[chosen], self.triangles[chosen])
+
+
+def nearest(tree: cKDTree, places: Floats, *, within: float = np.inf) -> tuple[Floats, Ints]:
+    """Distance (N,) and index (N,) of the point of a tree nearest to each place; infinite where none is in reach."""
+    distance, index = tree.query(places, distance_upper_bound=within)
+    return np.asarray(distance, dtype=np.float64), np.asarray(index, dtype=np.int64)
+
+
+def sample(surface: Surface, count: int, seed: int = 0) -> Cloud:
+    """Points spread over a surface, as many per area everywhere; the same for the same seed.
+
+    Returns an empty cloud where the surface has no area.
+    """
+    areas = np.linalg.norm(surface.cross(), axis=1)
+    total = float(areas.sum())
+    if not total > 0.0:
+        return Cloud(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0, dtype=np.int64))
+    random = np.random.default_rng(seed)
+    places = (np.arange(count) + random.random(count)) * (total / count)
+    chosen = np.minimum(np.searchsorted(np.cumsum(areas), places), len(areas) - 1)
+    u, v = random.random(count), random.random(count)
+    outside = u + v > 1.0
+    u, v = np.where(outside, 1.0 - u, u), np.where(outside, 1.0 - v, v)
+    weights = np.column_stack([1.0 - u - v, u, v])[:, :, None]
+    corners = surface.triangles[chosen]
+    positions = (weights * surface.vertices[corners]).sum(axis=1)
+    normals = (weights * surface.normals[corners]).sum(axis=1)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), _TINY)[:, None]
+    return Cloud(positions, normals, chosen.astype(np.int64))
+
+
+def first_hits(depth: Floats, across: Floats, up: Floats, *, pixel: float, tolerance: float) -> Bools:
+    """Which points (N,) are seen along a direction.
+
+    Parameters
+    ----------
+    depth : (N,) distance along the line of sight, smaller is nearer.
+    across, up : (N,) position in the picture.
+    pixel : width of a pixel.
+    tolerance : how far behind the nearest point of its pixel a point still counts as seen.
+    """
+    columns = np.floor((across - across.min()) / pixel).astype(np.int64)
+    rows = np.floor((up - up.min()) / pixel).astype(np.int64)
+    pixels = columns * (int(rows.max()) + 1) + rows
+    nearest = np.full(int(pixels.max()) + 1, np.inf)
+    np.minimum.at(nearest, pixels, depth)
+    seen: Bools = depth <= nearest[pixels] + tolerance
+    return seen

@@ -1,0 +1,13 @@
+"""What is given of a face, before anything moves: its mesh, feature points and parts, in head space.
+
+checks                    vertices, polygons, parts and axes of a caller, checked
+face_mesh                 all of it, checked and turned into head space
+head_frame                where the head is, which way it looks, its FAP units
+points, own_lip           feature points bound to the mesh
+fap_rows                  which point each FAP reads, along which direction, in which unit
+parts, segmentation,      which vertex is skin, eyeball, tooth or tongue, and how that is told
+  mouth_parts, sphere
+openings                  where lips and lids end
+template                  the template face of the tables, and the warp from it
+files                     meshes in files
+"""

@@ -1,0 +1,105 @@
+"""The mesh, parts and axes that a caller gives, checked once: every refusal names the thing and the remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arrays import Floats, Ints
+from ...errors import ModelError
+from .parts import Part
+from .points import FeaturePoints, PointSource
+from .segmentation import derive_parts
+from .template import TEMPLATE_POINTS
+
+
+def checked_vertices(vertices: ArrayLike) -> Floats:
+    """(V, 3) float64, finite, not empty."""
+    array = np.array(vertices, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ModelError(f"vertices must have the shape (V, 3), but have {array.shape}")
+    if len(array) == 0:
+        raise ModelError("the mesh is empty: it has no vertices")
+    wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if len(wrong):
+        raise ModelError(
+            f"{len(wrong)} vertices are NaN or infinite, the first is vertex {wrong[0]}: mend the mesh or delete them"
+        )
+    return array
+
+
+def checked_polygons(polygons: Sequence[Sequence[int]] | ArrayLike, vertex_count: int) -> list[Ints]:
+    """Polygons as index arrays, in range."""
+    faces = [np.asarray(polygon, dtype=np.int64) for polygon in polygons]  # type: ignore[union-attr]
+    if not faces:
+        raise ModelError("the mesh has no polygons: the face needs a surface")
+    for number, polygon in enumerate(faces):
+        if polygon.ndim != 1 or len(polygon) < 3:
+            raise ModelError(f"polygon {number} needs at least three corners")
+        outside = polygon[(polygon < 0) | (polygon >= vertex_count)]
+        if len(outside):
+            raise ModelError(f"polygon {number} names vertex {outside[0]}, but the mesh has {vertex_count} vertices")
+    return faces
+
+
+def with_pupils(points: Mapping[str, PointSource], vertices: Floats) -> dict[str, PointSource]:
+    """Points with 3.5 and 3.6 placed, where they are missing, as the template's pupils lie between lids and corners."""
+    complete = dict(points)
+    for pupil, around in (("3.5", ("3.1", "3.3", "3.7", "3.11")), ("3.6", ("3.2", "3.4", "3.8", "3.12"))):
+        if pupil in complete or any(name not in complete for name in around):
+            continue
+        places = [place for name in around if (place := _place(complete[name], vertices)) is not None]
+        if len(places) < len(around):
+            continue
+        template = [TEMPLATE_POINTS[name] for name in around]
+        weights, *_ = np.linalg.lstsq(
+            np.vstack([np.transpose(template), 0.01 * np.ones(4)]), np.append(TEMPLATE_POINTS[pupil], 0.01), rcond=None
+        )
+        complete[pupil] = np.transpose(places) @ (weights / weights.sum())
+    return complete
+
+
+def _place(source: PointSource, vertices: Floats) -> Floats | None:
+    """Position of a point source, or None where it names no place (binding reports it)."""
+    if isinstance(source, int | np.integer):
+        return vertices[int(source)] if 0 <= int(source) < len(vertices) else None
+    place = np.asarray(source, dtype=np.float64)
+    return place if place.shape == (3,) else None
+
+
+def checked_parts(
+    parts: ArrayLike | None,
+    head: Floats,
+    polygons: Sequence[Ints],
+    landmarks: Mapping[str, Floats],
+    points: FeaturePoints,
+) -> Ints:
+    """Given parts, checked, or derived ones."""
+    nose = points["9.3"]
+    if not nose.is_bound:
+        raise ModelError(
+            "feature point 9.3 (nose tip) does not lie on the mesh: give a vertex or a point on the surface"
+        )
+    if parts is None:
+        return derive_parts(head, polygons, landmarks, int(nose.vertices[0]))
+    array = np.array(parts, dtype=np.int64)
+    if array.shape != (len(head),):
+        raise ModelError(f"parts must have one number per vertex ({len(head)}), but have the shape {array.shape}")
+    if not np.isin(array, [int(p) for p in Part]).all():
+        raise ModelError(f"parts must be numbers of Part (0 to {max(Part)})")
+    if not (array == Part.SKIN).any():
+        raise ModelError("the face has no skin: parts marks no vertex as skin (0)")
+    return array
+
+
+def checked_axes(axes: ArrayLike) -> Floats:
+    """(3, 3) float64, a rotation: left, up and forward of a head."""
+    array = np.array(axes, dtype=np.float64)
+    if array.shape != (3, 3) or not np.allclose(array @ array.T, np.eye(3), atol=1e-6) or np.linalg.det(array) < 0.0:
+        raise ModelError(
+            "axes must be three unit vectors at right angles, to the subject's left, up and forward; "
+            "left x up must point forward"
+        )
+    return array

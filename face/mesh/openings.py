@@ -1,0 +1,125 @@
+"""The mouth and the eyes as openings of the skin: where the lips and the lids end.
+
+A mesh may have a mouth bag, an open mouth boundary or triangles that fill it; eyes likewise. Forces must not pass
+through any of these, or the lips would pull each other. So the outer skin is cut along closed paths through the
+lip and lid points, and what lies inside a path is left to follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components, dijkstra
+
+from ...arrays import Bools, Floats, Ints
+from ...errors import ModelError
+from ...physics.mesh import Sparse
+
+#: Closed path through the lips: upper arc from the left corner to the right one, then the lower arc back.
+LIP_UPPER = ("2.4", "2.6", "2.2", "2.7", "2.5")
+LIP_LOWER = ("2.5", "2.9", "2.3", "2.8", "2.4")
+
+#: The same for each eye: upper lid from the inner to the outer corner, then the lower lid back.
+LIDS = {
+    "l": (("3.11", "3.1", "3.7"), ("3.7", "3.3", "3.11")),
+    "r": (("3.8", "3.2", "3.12"), ("3.12", "3.4", "3.8")),
+}
+
+
+@dataclass(frozen=True)
+class Opening:
+    """One opening of the skin: the vertex paths (indices into the mesh) of its upper and lower margin."""
+
+    upper: Ints
+    lower: Ints
+
+    @property
+    def loop(self) -> Ints:
+        """Every margin vertex once."""
+        return np.asarray(np.unique(np.concatenate([self.upper, self.lower])), dtype=np.int64)
+
+
+def edge_graph(edges: Ints, vertices: Floats) -> Sparse:
+    """(V, V) symmetric graph of edge lengths."""
+    lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+    lengths = np.maximum(lengths, 1e-9)
+    n = len(vertices)
+    half = sparse.coo_array((lengths, (edges[:, 0], edges[:, 1])), shape=(n, n))
+    return sparse.csr_array(half + half.T)
+
+
+def _path(graph: Sparse, stops: Sequence[int], names: Sequence[str]) -> Ints:
+    """Shortest path along edges through the given vertices, each vertex named once per leg."""
+    steps = [stops[0]]
+    for start, end, a, b in zip(stops, stops[1:], names, names[1:], strict=False):
+        if start == end:
+            continue
+        distance, previous = dijkstra(graph, indices=np.array(end), return_predecessors=True)
+        if not np.isfinite(distance[start]):
+            raise ModelError(f"feature points {a} and {b} lie on separate pieces of the mesh: no lip or lid joins them")
+        at = start
+        while at != end:
+            at = int(previous[at])
+            steps.append(at)
+    return np.array(steps, dtype=np.int64)
+
+
+def find_opening(graph: Sparse, nearest: Mapping[str, int], upper: Sequence[str], lower: Sequence[str]) -> Opening:
+    """The opening whose margin runs through the named points.
+
+    Parameters
+    ----------
+    graph : (V, V) edge lengths (`edge_graph`).
+    nearest : feature point -> vertex index.
+    upper, lower : point names along the two arcs; those that the face lacks are skipped.
+
+    Raises
+    ------
+    ModelError : when two of the points are not joined by edges.
+    """
+    arcs = []
+    for arc in (upper, lower):
+        names = [name for name in arc if name in nearest]
+        arcs.append(_path(graph, [nearest[name] for name in names], names))
+    return Opening(upper=arcs[0], lower=arcs[1])
+
+
+def outer_faces(polygons: Sequence[Ints], openings: Sequence[Opening], seed: int) -> Bools:
+    """Which polygons belong to the outer skin: those joined to a seed vertex without crossing an opening's margin.
+
+    Parameters
+    ----------
+    polygons : sequence of vertex index arrays.
+    openings : margins that are not crossed.
+    seed : a vertex well outside every opening, such as the nose tip.
+
+    Returns
+    -------
+    (F,) mask.
+    """
+    margin: set[tuple[int, int]] = set()
+    for opening in openings:
+        for arc in (opening.upper, opening.lower):
+            margin |= {(min(a, b), max(a, b)) for a, b in zip(arc.tolist(), arc[1:].tolist(), strict=False)}
+    owners: dict[tuple[int, int], int] = {}
+    first, second = [], []
+    for face, polygon in enumerate(polygons):
+        corners = polygon.tolist()
+        for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
+            edge = (a, b) if a < b else (b, a)
+            if edge in margin:
+                continue
+            other = owners.setdefault(edge, face)
+            if other != face:
+                first.append(other)
+                second.append(face)
+    n = len(polygons)
+    graph = sparse.coo_array((np.ones(len(first)), (first, second)), shape=(n, n))
+    _, labels = connected_components(graph, directed=False)
+    home = next((face for face, polygon in enumerate(polygons) if seed in polygon), None)
+    if home is None:
+        raise ModelError("the nose tip 9.3 lies on no polygon of the skin")
+    return np.asarray(labels == labels[home])

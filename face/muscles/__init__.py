@@ -1,0 +1,1 @@
+"""The muscles of the anatomy tables (`table`), and their lines placed on one face (`placement`)."""

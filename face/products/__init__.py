@@ -1,0 +1,8 @@
+"""What is made with a whole `Face`. Only these import it.
+
+animation_tables, animation_table_building,   Face Animation Tables, for players without muscles
+  animation_table_files
+blendshapes                                   shape keys that engines and trackers know by name
+creases, crease_places, crease_table          where squeezed skin wrinkles, for renderers
+muscle_lines, trajectories                    muscles as lines; paths of the skin
+"""

@@ -1,0 +1,74 @@
+"""Shape keys that engines and trackers know by name, made by posing the muscles of one face."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from ...arrays import Floats
+from ...mpeg4 import FAP_COUNT
+from ...mpeg4.streams.capture import CaptureShape, KeyShape, load_key_names, load_shapes
+from ..drive.wishes import Drive
+from ..face import Face
+
+
+def arkit_shapes(face: Face, names: str | Path = "arkit") -> dict[str, Floats]:
+    """Shape keys of a face, by name.
+
+    Parameters
+    ----------
+    names : "arkit" for the 52 of ARKit, another preset of key names ("oculus_visemes", "ict_facekit"), or a TOML file
+        of your own (docs/formats.md).
+
+    Returns
+    -------
+    name -> (V, 3) positions at full strength, in the face's coordinates. The key's displacement is what differs from
+    ``face.vertices``; displacements of several keys add up, as in any engine.
+
+    Raises
+    ------
+    FormatError : a table of names that breaks a rule.
+    ParameterError : a shape of muscles that this face has not.
+    """
+    return dict(arkit_shape_steps(face, load_key_names(names)))
+
+
+def arkit_shape_steps(face: Face, keys: Mapping[str, KeyShape]) -> Iterator[tuple[str, Floats]]:
+    """Name and positions (V, 3) of each key in turn, for callers that show progress; see `arkit_shapes`."""
+    poser = _ShapePoser(face)
+    for name, key in keys.items():
+        moved = sum(
+            (share * poser.moved(shape, key.natural) for shape, share in key.parts), np.zeros_like(face.vertices)
+        )
+        yield name, face.vertices + moved
+
+
+class _ShapePoser:
+    """Displacements of blend shapes on one face, each posed once."""
+
+    def __init__(self, face: Face) -> None:
+        self.face = face
+        self.rest = face.pose(np.full(FAP_COUNT, np.nan), drive=Drive.MUSCLES).positions
+        self.done: dict[tuple[str, bool], Floats] = {}
+
+    def moved(self, shape: CaptureShape, natural: bool) -> Floats:
+        """(V, 3) displacement of a shape at full strength."""
+        key = (shape.name, natural)
+        if key not in self.done:
+            self.done[key] = self._moved(shape, natural)
+        return self.done[key]
+
+    def _moved(self, shape: CaptureShape, natural: bool) -> Floats:
+        """See `moved`: muscles as they are given, measured FAPs met exactly, a correction over what it corrects."""
+        if shape.contractions:
+            silent = np.full(FAP_COUNT, np.nan)
+            pose = self.face.pose(silent, drive=Drive.MUSCLES, contractions=shape.contractions)
+            return pose.positions - self.rest
+        if shape.over is None:
+            pose = self.face.pose(shape.frame, drive=Drive.NATURAL if natural else Drive.EXACT)
+            return pose.positions - self.face.vertices
+        below = load_shapes()[shape.over]
+        both = np.where(np.isnan(shape.frame), below.frame, np.nan_to_num(below.frame) + shape.frame)
+        return self.face.pose(both, drive=Drive.EXACT).positions - self.face.vertices - self.moved(below, False)

@@ -1,0 +1,116 @@
+"""Where the vertices of a face lie across a crease: figures that a renderer interpolates over polygons."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ...arrays import Floats, Ints
+from ..mesh.template import TemplateWarp
+from ..skin.outer import OuterSkin, smoothstep
+from .crease_table import CreaseRow
+
+#: Points along a line, for its course.
+COURSE = 49
+
+#: Share of a line at each end over which its crease fades.
+ENDS = 0.35
+
+#: Beyond the outermost lines a crease lasts as many spacings in full, and is gone after so many.
+LASTS, GONE = 0.6, 1.2
+
+#: Vertices farther from every line belong to other folds of the surface (lips, nostrils), spacings.
+FAR = 3.0
+
+_MIRROR = np.array([-1.0, 1.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Line:
+    """The outer skin about one line.
+
+    Attributes
+    ----------
+    across : (n,) signed distance, metres; of a single line positive away from the face's middle.
+    share : (n,) share of the line's length at the nearest place on it.
+    off : (n,) plain distance, metres.
+    """
+
+    across: Floats
+    share: Floats
+    off: Floats
+
+
+def place_crease(skin: OuterSkin, warp: TemplateWarp, row: CreaseRow) -> Floats:
+    """Places of the outer skin on a crease; of a pair, each vertex on its own side's.
+
+    Returns
+    -------
+    (n, 2) place across in spacings, the first line at 0, the second at 1; presence from 0 to 1.
+    """
+    left = _places(_beside_all(skin, warp, row, mirrored=False), row.spacing)
+    if not row.paired:
+        return left
+    right = _places(_beside_all(skin, warp, row, mirrored=True), row.spacing)
+    return np.where((skin.positions[:, 0] > 0.0)[:, None], left, right)
+
+
+def _beside_all(skin: OuterSkin, warp: TemplateWarp, row: CreaseRow, *, mirrored: bool) -> list[Line]:
+    """All lines of a crease; where there are several, the positive side of each is toward the last."""
+    lines = [_beside(skin, warp, line * _MIRROR if mirrored else line) for line in row.lines]
+    signs = [1.0] * len(lines)
+    for number, line in enumerate(lines if len(lines) > 1 else []):
+        other = lines[number - 1] if number else lines[1]
+        there = line.across[int(np.argmin(other.off))]
+        signs[number] = float(np.copysign(1.0, there if number == 0 else -there))
+    return [Line(sign * line.across, line.share, line.off) for sign, line in zip(signs, lines, strict=True)]
+
+
+def _places(lines: list[Line], spacing: float) -> Floats:
+    """(n, 2) place across and presence, from all lines of one side."""
+    across = np.stack([line.across for line in lines])
+    shares = np.stack([line.share for line in lines])
+    ends = smoothstep(shares / ENDS) * smoothstep((1.0 - shares) / ENDS)
+    last, every = len(lines) - 1, np.arange(across.shape[1])
+    before = np.clip((across > 0.0).sum(axis=0) - 1, 0, last)
+    after = np.minimum(before + 1, last)
+    gone, left = across[before, every], -across[after, every]
+    between = (gone > 0.0) & (left > 0.0)
+    part = np.where(between, gone / np.where(between, gone + left, 1.0), gone / spacing)
+    place = before + part
+    mixed = (1.0 - part) * ends[before, every] + part * ends[after, every]
+    nearest = np.argmin(np.abs(across), axis=0)
+    ending = np.where(between, mixed, ends[nearest, every])
+    beyond = np.maximum(np.maximum(-place, place - last), 0.0)
+    near = np.min([line.off for line in lines], axis=0) < FAR * spacing
+    presence = ending * smoothstep((GONE - beyond) / (GONE - LASTS)) * near
+    return np.column_stack([place, presence])
+
+
+def _beside(skin: OuterSkin, warp: TemplateWarp, line: Floats) -> Line:
+    """The outer skin about one line (k, 3) of the template."""
+    course = warp(_resampled(line))
+    _, nearest = cKDTree(skin.positions).query(course)
+    normal = skin.normals[nearest]
+    course = course + normal * (normal * (skin.positions[nearest] - course)).sum(axis=1, keepdims=True)
+    outwards = np.cross(np.gradient(course, axis=0), normal)
+    outwards /= np.maximum(np.linalg.norm(outwards, axis=1, keepdims=True), 1e-12)
+    outwards *= np.copysign(1.0, (outwards[:, 0] * course[:, 0]).sum())
+    away = skin.positions[:, None] - course
+    flat = away - normal * (away * normal).sum(axis=2, keepdims=True)
+    closest: Ints = np.argmin((flat**2).sum(axis=2) + 0.1 * (away**2).sum(axis=2), axis=1)
+    every = np.arange(skin.vertex_count)
+    return Line(
+        across=(flat[every, closest] * outwards[closest]).sum(axis=1),
+        share=closest / (COURSE - 1.0),
+        off=np.linalg.norm(away[every, closest], axis=1),
+    )
+
+
+def _resampled(line: Floats) -> Floats:
+    """(COURSE, 3) points at even distances along a line (k, 3)."""
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    places = np.linspace(0.0, along[-1], COURSE)
+    return np.column_stack([np.interp(places, along, line[:, axis]) for axis in range(3)])

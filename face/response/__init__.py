@@ -1,0 +1,10 @@
+"""What muscles do to one face's skin, and what follows the skin.
+
+regions                   how firmly each place is held, how stiffly it bends
+sheet                     the skin's elastic answer to forces
+fields, pulls             where each muscle pulls, and what of that shows
+actuators, contractible   muscles, lids and jaw as one list; their names, for setting by hand
+living_skin               the biphasic springs with mass and damping
+folds                     lines where squeezed skin gives way
+followers                 mouth bag, sockets, lashes, brows and loose pieces
+"""

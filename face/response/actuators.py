@@ -1,0 +1,120 @@
+"""Everything that FAPs are explained by: muscles, lids and jaw, as linear responses of the FAP rows.
+
+Each actuator has an amount in metres: the largest skin displacement of a muscle, the way of a lid's middle, the way of
+the chin. Amounts are what the inverse finds; contractions in [0, 1] are amounts over amplitudes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Floats
+from ...physics.mesh import Sparse
+from ..mechanism import Mechanism
+from ..mechanisms.jaw import Jaw, JawMotion
+from ..mechanisms.lids import Eye, LidMove
+from ..mesh.template import MM
+from ..skin.outer import OuterSkin
+from .pulls import Pulls
+
+LID_PRIOR = 12 * MM
+JAW_PRIOR = 25 * MM
+SLIDE_PRIOR = {"left": 12 * MM, "forward": 16 * MM}
+
+LID_NAMES: Mapping[LidMove, str] = {
+    LidMove.UPPER_CLOSE: "orbicularis_oculi_upper",
+    LidMove.UPPER_OPEN: "levator_palpebrae",
+    LidMove.LOWER_UP: "orbicularis_oculi_lower",
+    LidMove.LOWER_DOWN: "lower_lid_retractor",
+}
+LID_AMPLITUDES: Mapping[LidMove, float] = {
+    LidMove.UPPER_CLOSE: 12 * MM,
+    LidMove.UPPER_OPEN: 8 * MM,
+    LidMove.LOWER_UP: 6 * MM,
+    LidMove.LOWER_DOWN: 6 * MM,
+}
+
+
+@dataclass(frozen=True)
+class Amounts:
+    """How much of each actuator: muscles (k,) in metres, lid moves in metres, jaw."""
+
+    muscles: Floats
+    lids: Mapping[tuple[str, LidMove], float]
+    jaw: JawMotion
+
+
+class Actuators:
+    """The actuators of one face with their fields on the outer skin."""
+
+    def __init__(self, skin: OuterSkin, pulls: Pulls, jaw: Jaw, eyes: Mapping[str, Eye]) -> None:
+        self.skin, self.jaw, self.eyes = skin, jaw, eyes
+        self.muscles, self.sheets, self.fields = list(pulls.muscles), pulls.sheets, pulls.fields
+        lids = skin.has(Mechanism.LIDS)
+        self.lid_moves = [(side, move) for side in "lr" for move in LidMove] if lids else []
+
+    @property
+    def prior(self) -> Floats:
+        """(k + 8 + 3,) usual amounts, metres: muscles, lids, jaw at the chin, its slides left and forward.
+
+        Without lids there are no 8.
+        """
+        muscles = [muscle.row.prior for muscle in self.muscles]
+        return np.array([*muscles, *[LID_PRIOR] * len(self.lid_moves), JAW_PRIOR, *SLIDE_PRIOR.values()])
+
+    @property
+    def upper(self) -> Floats:
+        """Largest amount of each actuator, metres; the jaw's slides may also be negative."""
+        muscles = [muscle.amplitude for muscle in self.muscles]
+        lids = [LID_AMPLITUDES[move] for _, move in self.lid_moves]
+        return np.array([*muscles, *lids, 45 * MM, 12 * MM, 10 * MM])
+
+    @property
+    def chin_lever(self) -> float:
+        """Metres the chin moves per radian of opening."""
+        return float(np.linalg.norm((self.skin.points["2.1"] - self.jaw.hinge)[1:]))
+
+    def responses(self, rows: Sparse) -> Floats:
+        """(m, k + 8 + 3) change of FAP rows per metre of each amount, about rest.
+
+        rows : (m, 3n) reads rows off flattened displacements of the outer skin.
+        """
+        lids = [self.lid_field({move: 1 * MM}, side) / MM for side, move in self.lid_moves]
+        opening, left, forward = self.jaw.derivatives(self.skin.positions, JawMotion())
+        extra = np.stack([*lids, opening / self.chin_lever, left, forward])
+        every = np.concatenate([self.fields, extra])
+        return np.asarray(rows @ every.reshape(len(every), -1).T)
+
+    def lid_field(self, moves: dict[LidMove, float], side: str) -> Floats:
+        """(n, 3) displacement of the outer skin by lid moves of one eye (metres)."""
+        return self.eyes[side].skin(self.skin.positions, moves)
+
+    def amounts(self, solution: Floats) -> Amounts:
+        """Name the entries of a solution vector (k + 8 + 3,)."""
+        count = len(self.muscles)
+        lids = dict(zip(self.lid_moves, solution[count:-3].tolist(), strict=True))
+        angle, left, forward = solution[-3] / self.chin_lever, solution[-2], solution[-1]
+        return Amounts(solution[:count].copy(), lids, JawMotion(float(angle), float(left), float(forward)))
+
+    def kinematic(self, amounts: Amounts) -> Floats:
+        """(n, 3) displacement of the outer skin by jaw and lids, as exact rotations."""
+        moved = self.jaw.skin(self.skin.positions, amounts.jaw)
+        for side in "lr":
+            moved = moved + self.lid_field({m: v for (s, m), v in amounts.lids.items() if s == side}, side)
+        return moved
+
+    def muscular(self, amounts: Amounts) -> Floats:
+        """(n, 3) displacement of the outer skin by muscles."""
+        return np.asarray(np.tensordot(amounts.muscles, self.fields, axes=1), dtype=np.float64)
+
+    def contractions(self, amounts: Amounts) -> dict[str, float]:
+        """Actuator name -> contraction in [0, 1]; the jaw as "jaw_open"."""
+        named = {muscle.name: a / muscle.amplitude for muscle, a in zip(self.muscles, amounts.muscles, strict=True)}
+        for (side, move), amount in amounts.lids.items():
+            named[f"{LID_NAMES[move]}_{side}"] = amount / LID_AMPLITUDES[move]
+        if self.skin.has(Mechanism.JAW):
+            named["jaw_open"] = amounts.jaw.angle * self.chin_lever / self.upper[-3]
+        return {name: float(np.clip(value, 0.0, 1.0)) for name, value in named.items()}

@@ -1,0 +1,51 @@
+"""What can be contracted by hand: names and titles of all muscles, lids and the jaw, without a face."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from types import MappingProxyType
+
+from ..muscles.table import read_muscles
+from .actuators import LID_NAMES
+
+_LID_TITLES = {
+    "orbicularis_oculi_upper": ("orbicularis oculi, lid part: closes the upper lid", "43"),
+    "levator_palpebrae": ("levator palpebrae: raises the upper lid", "5"),
+    "orbicularis_oculi_lower": ("orbicularis oculi, lid part: raises the lower lid", "7"),
+    "lower_lid_retractor": ("lower lid retractors: lower the lower lid", ""),
+}
+
+
+@dataclass(frozen=True)
+class Contractible:
+    """A muscle of one side, or the jaw.
+
+    Attributes
+    ----------
+    name : as in `Pose.contractions` ("zygomaticus_major_l").
+    title : for people, without the side. action_unit : of FACS, or "".
+    mirror : the name of the same muscle on the other side, or its own.
+    group : the part of the face ("lips").
+    """
+
+    name: str
+    title: str
+    action_unit: str
+    mirror: str
+    group: str
+
+
+@cache
+def contractibles() -> Mapping[str, Contractible]:
+    """All of them by name, in the order of the table: forehead first."""
+    rows = [(name, row.title, row.au, str(row.mechanism)) for name, row in read_muscles().items()]
+    rows += [(name, *_LID_TITLES[name], "lids") for name in LID_NAMES.values()]
+    found = [
+        Contractible(f"{name}_{side}", title, unit, f"{name}_{'r' if side == 'l' else 'l'}", group)
+        for name, title, unit, group in rows
+        for side in "lr"
+    ]
+    found.append(Contractible("jaw_open", "jaw, opening", "26", "jaw_open", "jaw"))
+    return MappingProxyType({entry.name: entry for entry in found})

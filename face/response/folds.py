@@ -1,0 +1,227 @@
+"""Folds: lines where squeezed skin gives way - nasolabial, forehead, glabella.
+
+The elastic skin is smooth over a centimetre; folds are not. Each is a line on the template, carried to the face. Where
+the posed skin is shortened across the line, it sinks along the line and rises beside it, the more the shorter it gets
+and without gaining volume. A mesh too coarse for a fold gets a broader and shallower one, or none. Feature points keep
+their places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.spatial import cKDTree
+
+from ...arrays import Floats, Ints
+from ...errors import FormatError
+from ...physics.mesh import Sparse
+from ..mesh.template import ANATOMY, MM, TemplateWarp
+from ..skin.outer import OuterSkin, smoothstep
+from ..tables import read_toml
+
+#: Points along a line: for its course, and where compression is taken.
+COURSE, GAUGES = 49, 9
+
+#: Half a valley is at least this many edges wide; made so many times wider by that, a fold begins to fade and is gone.
+EDGES = 1.3
+FADES_FROM, FADES_TO = 1.4, 1.75
+
+#: A fold that would be shallower than this at its fullest is left out, metres.
+SHALLOWEST = 0.1 * MM
+
+#: Share of a line at each end over which the fold fades.
+ENDS = 0.25
+
+#: A line folds as one: share of each place's compression that is the mean of the line's more squeezed half.
+SHARED = 0.6
+
+#: Radius round feature points that a fold spares, metres.
+SPARED = 4.0 * MM
+
+_FIGURES = ("width_mm", "depth_mm", "lean", "gauge_mm", "onset", "full")
+
+
+@dataclass(frozen=True)
+class FoldRow:
+    """One row of the table of folds; lengths in metres of head space.
+
+    Attributes
+    ----------
+    name : unique, with "_l" or "_r" where there are two.
+    line : (k, 3) along the valley on the template.
+    width, depth, lean : half width and depth of the valley; how much higher the outer ridge is.
+    gauge, onset, full : length over which compression is taken; compressions at which the fold begins and is full.
+    """
+
+    name: str
+    line: Floats
+    width: float
+    depth: float
+    lean: float
+    gauge: float
+    onset: float
+    full: float
+
+
+def _rows(path: Path, name: str, raw: Mapping[str, Any]) -> list[FoldRow]:
+    """The one or two folds of a table's entry."""
+    key = f"folds.{name}"
+    if raw.get("sides") not in ("pair", "joined"):
+        raise FormatError(path, f'sides must be "pair" or "joined", not {raw.get("sides")!r}', key=key)
+    if set(raw) != {"sides", "line_mm", *_FIGURES}:
+        raise FormatError(path, f"a fold has sides, line_mm, {', '.join(_FIGURES)} and nothing else", key=key)
+    line = np.array(raw["line_mm"], dtype=np.float64) * MM
+    if line.ndim != 2 or line.shape[1] != 3 or len(line) < 2:
+        raise FormatError(path, "line_mm needs two or more points of three numbers", key=key)
+    width, depth, lean, gauge, onset, full = (float(raw[figure]) for figure in _FIGURES)
+    if min(width, depth, gauge) <= 0.0 or not 0.0 <= onset < full:
+        raise FormatError(path, "width, depth and gauge must be positive, onset below full", key=key)
+    figures = (width * MM, depth * MM, lean, gauge * MM, onset, full)
+    mirrored = line * np.array([-1.0, 1.0, 1.0])
+    if raw["sides"] == "joined":
+        across = np.concatenate([mirrored[::-1], line[1:] if line[0, 0] == 0.0 else line])
+        return [FoldRow(name, across, *figures)]
+    return [FoldRow(f"{name}_l", line, *figures), FoldRow(f"{name}_r", mirrored, *figures)]
+
+
+def read_folds(path: Path = ANATOMY / "folds.toml") -> list[FoldRow]:
+    """The folds of a table.
+
+    Raises
+    ------
+    FormatError : names the file, the key and the rule that is broken.
+    """
+    raw = read_toml(path)
+    return [fold for name, entry in raw.get("folds", {}).items() for fold in _rows(path, name, entry)]
+
+
+def _resample(line: Floats, count: int) -> Floats:
+    """(count, 3) points at even distances along a polyline (k, 3)."""
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    places = np.linspace(0.0, along[-1], count)
+    return np.column_stack([np.interp(places, along, line[:, axis]) for axis in range(3)])
+
+
+@dataclass(frozen=True)
+class PlacedFold:
+    """One fold on one face.
+
+    Attributes
+    ----------
+    row : its figures.
+    plus, minus : (GAUGES, n) readers of the skin on both sides of the line, half a gauge away.
+    lengths : (GAUGES,) distances between what they read at rest, metres.
+    field : (n, GAUGES) heights in metres along the skin's normals for full folding at each gauge.
+    """
+
+    row: FoldRow
+    plus: Sparse
+    minus: Sparse
+    lengths: Floats
+    field: Sparse
+
+    def compression(self, positions: Floats) -> Floats:
+        """(GAUGES,) share by which posed skin (n, 3) is shortened across the line; negative: stretched."""
+        now = np.linalg.norm(np.asarray(self.plus @ positions - self.minus @ positions), axis=1)
+        return np.asarray(1.0 - now / self.lengths)
+
+    def heights(self, positions: Floats) -> Floats:
+        """(n,) heights along the normals, metres, for posed skin (n, 3)."""
+        row = self.row
+        squeezed = self.compression(positions)
+        together = (1.0 - SHARED) * squeezed + SHARED * float(np.sort(squeezed)[-GAUGES // 2 :].mean())
+        amount = smoothstep((together - row.onset) / (row.full - row.onset))
+        return np.asarray(self.field @ amount)
+
+
+def _reader(tree: cKDTree, places: Floats, count: int) -> Sparse:
+    """(k, n) averages of the skin round some places (k, 3), each over the few nearest vertices."""
+    distance, nearest = (np.reshape(part, (len(places), 6)) for part in tree.query(places, k=6))
+    share = np.exp(-((distance / (distance[:, 2:3] + 0.1 * MM)) ** 2))
+    share /= share.sum(axis=1, keepdims=True)
+    rows = np.repeat(np.arange(len(places)), 6)
+    return sparse.csr_array((share.ravel(), (rows, nearest.ravel())), shape=(len(places), count))
+
+
+def _profile(across: Floats, lean: float) -> Floats:
+    """Height over distance across the line in half widths: a valley of depth 1, ridges beside it, no volume."""
+    fall = np.exp(-(across**2) / 2.0)
+    profile: Floats = (across**2 - 1.0 + lean * across) * fall
+    return profile
+
+
+def place_fold(skin: OuterSkin, warp: TemplateWarp, row: FoldRow, spared: Floats) -> PlacedFold | None:
+    """A fold on a face, or None where the mesh is too coarse for it; `spared` (n,) is 0 where nothing may move."""
+    rest, tree = skin.positions, cKDTree(skin.positions)
+    course = warp(_resample(row.line, COURSE))
+    _, nearest = tree.query(course)
+    normal = skin.normals[nearest]
+    course = course + normal * (normal * (rest[nearest] - course)).sum(axis=1, keepdims=True)
+    tangent = np.gradient(course, axis=0)
+    outwards = np.cross(tangent, normal)
+    outwards /= np.maximum(np.linalg.norm(outwards, axis=1, keepdims=True), 1e-12)
+    outwards *= np.sign(outwards[:, 0].sum() * course[:, 0].sum() or 1.0)
+    edge = float(np.median(np.sqrt(skin.areas[tree.query(course, k=6)[1]])))
+    width = max(row.width, EDGES * edge)
+    excess = width / row.width
+    depth = row.depth / excess * (1.0 - float(smoothstep(np.array((excess - FADES_FROM) / (FADES_TO - FADES_FROM)))))
+    if depth < SHALLOWEST:
+        return None
+    field = _field(skin, course, normal, outwards, width, row.lean)
+    field = _neutral(field * (depth * spared)[:, None], skin.areas)
+    at = np.linspace(0, COURSE - 1, GAUGES).round().astype(np.int64)
+    reach = 0.5 * max(row.gauge, 3.0 * edge) * outwards[at]
+    plus, minus = (_reader(tree, course[at] + sign * reach, skin.vertex_count) for sign in (1.0, -1.0))
+    lengths = np.linalg.norm(np.asarray(plus @ rest - minus @ rest), axis=1)
+    return PlacedFold(row, plus, minus, lengths, sparse.csr_array(field))
+
+
+def _field(skin: OuterSkin, course: Floats, normal: Floats, outwards: Floats, width: float, lean: float) -> Floats:
+    """(n, GAUGES) heights of a fold of depth 1 over the skin, shared among the gauges along the course."""
+    away = skin.positions[:, None] - course
+    flat = away - normal * (away * normal).sum(axis=2, keepdims=True)
+    near = (flat**2).sum(axis=2) + 0.1 * (away**2).sum(axis=2)
+    closest: Ints = np.argmin(near, axis=1)
+    every = np.arange(skin.vertex_count)
+    across = (flat[every, closest] * outwards[closest]).sum(axis=1) / width
+    along = closest / (COURSE - 1.0)
+    ends = smoothstep(along / ENDS) * smoothstep((1.0 - along) / ENDS)
+    off = np.linalg.norm(away[every, closest], axis=1)
+    height = _profile(across, lean) * ends * (off < 5.0 * width)
+    place = along * (GAUGES - 1.0)
+    share = np.maximum(1.0 - np.abs(place[:, None] - np.arange(GAUGES)), 0.0)
+    heights: Floats = height[:, None] * share
+    return heights
+
+
+def _neutral(field: Floats, areas: Floats) -> Floats:
+    """The field with its ridges scaled, within reason, to hold what the valley has lost."""
+    lost, gained = (float((areas @ np.maximum(sign * field, 0.0)).sum()) for sign in (-1.0, 1.0))
+    scale = float(np.clip(lost / max(gained, 1e-18), 0.5, 1.5))
+    return np.where(field > 0.0, scale * field, field)
+
+
+class Folds:
+    """The folds of one face's outer skin."""
+
+    def __init__(self, skin: OuterSkin, warp: TemplateWarp, fixed: Ints, rows: Sequence[FoldRow] | None = None) -> None:
+        """Place the folds of a table (the built-in one) on a face; `fixed` are vertices that must stay."""
+        self.skin = skin
+        distance, _ = cKDTree(skin.positions[fixed]).query(skin.positions)
+        spared = 1.0 - np.exp(-((distance / SPARED) ** 2))
+        spared[fixed] = 0.0
+        placed = [place_fold(skin, warp, row, spared) for row in (read_folds() if rows is None else rows)]
+        self.placed = [fold for fold in placed if fold is not None]
+
+    def displacement(self, displacement: Floats) -> Floats:
+        """What folds add (n, 3) to a displacement (n, 3) of the outer skin; head space, metres."""
+        positions = self.skin.positions + displacement
+        heights = np.zeros(self.skin.vertex_count)
+        for fold in self.placed:
+            heights += fold.heights(positions)
+        return heights[:, None] * self.skin.normals

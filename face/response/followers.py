@@ -1,0 +1,114 @@
+"""What is not outer skin follows: mouth bag and eye sockets, lashes and brows, loose pieces."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+from scipy.spatial import cKDTree
+
+from ...arrays import Bools, Floats, Ints
+from ...physics.elastic import Factor, diagonal_matrix
+from ...physics.mesh import Sparse
+from ..skin.outer import OuterSkin
+
+#: Loose vertices follow this many nearest carriers.
+NEIGHBOURS = 12
+
+#: Neighbours lie on a sheet; across it a slope cannot be told and is held at 0 by this much.
+SHEET_TIE = 0.02
+
+#: Inner skin is tied to rest as weakly as this, relative to its neighbours, so that loose pieces stay put.
+REST_TIE = 1e-4
+
+#: Inner skin goes with outer skin that it lies behind at less than the reach, ever less towards it (metres); the length
+#: over which that wins over the inner skin's own smoothness.
+FLESH_REACH = 14e-3
+FLESH_LENGTH = 4e-3
+
+
+class InnerSkin:
+    """Skin behind the lips and lids: takes the smoothest displacement that fits the margins it hangs on.
+
+    Where only a few millimetres of flesh lie between it and the outer skin, it goes with that skin, and so cannot come
+    out through it.
+    """
+
+    def __init__(self, laplacian: Sparse, areas: Floats, inner: Bools, positions: Floats, outer: OuterSkin) -> None:
+        """Prepare for a mesh's Laplacian (V, V), vertex areas (V,), the mask (V,) of vertices that follow, and `outer`.
+
+        Lengths are metres of head space.
+        """
+        self.index: Ints = np.flatnonzero(inner)
+        if len(self.index) == 0:
+            return
+        rows: Sparse = laplacian[self.index]
+        own: Sparse = rows[:, self.index]
+        diagonal = own.diagonal()
+        rest = REST_TIE * np.where(diagonal > 0, diagonal, 1.0)
+        flesh = _flesh(positions[self.index], areas[self.index], outer, len(positions))
+        self._factor = Factor(own + diagonal_matrix(rest + np.asarray(flesh.sum(axis=1)).ravel()))
+        keep = np.ones(laplacian.shape[0])
+        keep[self.index] = 0.0
+        self._coupling: Sparse = flesh - rows @ diagonal_matrix(keep)
+
+    def follow(self, displacement: Floats) -> None:
+        """Fill in the inner rows of a displacement field (V, 3), in place."""
+        if len(self.index):
+            displacement[self.index] = self._factor.solve(np.asarray(self._coupling @ displacement))
+
+
+def _flesh(inner: Floats, areas: Floats, outer: OuterSkin, count: int) -> Sparse:
+    """(i, count) how firmly each inner vertex is tied to the outer skin that it lies behind.
+
+    Summed over the outer skin within reach by its area, so that neither density nor the order of neighbours matters;
+    before a flat skin at depth h the sum is (1 - (h / reach)^2)^4.
+    """
+    pairs = cKDTree(inner).sparse_distance_matrix(cKDTree(outer.positions), FLESH_REACH, output_type="coo_matrix")
+    own, other, distance = pairs.row, pairs.col, pairs.data
+    away = outer.positions[other] - inner[own]
+    behind = np.maximum((away * outer.normals[other]).sum(axis=1) / np.maximum(distance, 1e-9), 0.0) ** 2
+    near = outer.areas[other] * (1.0 - (distance / FLESH_REACH) ** 2) ** 3 * 4.0 / (np.pi * FLESH_REACH**2)
+    ties = areas[own] * near * behind / FLESH_LENGTH**2
+    return sparse.csr_array((ties, (own, outer.index[other])), shape=(len(inner), count))
+
+
+class LooseParts:
+    """Lashes, brows and other pieces: each vertex goes with the nearest carriers."""
+
+    def __init__(self, positions: Floats, loose: Ints, carriers: Ints) -> None:
+        """Bind vertices `loose` to the nearest of `carriers` (indices into positions (V, 3))."""
+        self.index = loose
+        self._weights: Sparse = sparse.csr_array((len(loose), len(positions)), dtype=np.float64)
+        if len(loose) == 0 or len(carriers) == 0:
+            return
+        count = min(NEIGHBOURS, len(carriers))
+        found = cKDTree(positions[carriers]).query(positions[loose], k=count)
+        distance, nearest = (np.reshape(part, (len(loose), count)) for part in found)
+        weight = _linear_shares(positions[carriers][nearest] - positions[loose][:, None], distance)
+        rows = np.repeat(np.arange(len(loose)), count)
+        self._weights = sparse.csr_array(
+            (weight.ravel(), (rows, carriers[nearest.ravel()])), shape=(len(loose), len(positions))
+        )
+
+    def follow(self, displacement: Floats) -> None:
+        """Fill in the loose rows of a displacement field (V, 3), in place."""
+        if len(self.index):
+            displacement[self.index] = np.asarray(self._weights @ displacement)
+
+
+def _linear_shares(away: Floats, distance: Floats) -> Floats:
+    """Weights (l, k) of neighbours that reproduce constant and, along the sheet they lie on, linear displacements.
+
+    Moving least squares; neighbours given by offset (l, k, 3) and distance (l, k), nearest first. Averages alone would
+    let a brow sink where the skin turns.
+    """
+    reach = np.maximum(distance[:, -1:], 1e-9)
+    near = np.exp(-2.0 * (distance / reach) ** 2)
+    basis = np.concatenate([np.ones((*distance.shape, 1)), away / reach[:, :, None]], axis=2)
+    moment = np.einsum("lk,lki,lkj->lij", near, basis, basis)
+    moment[:, range(1, 4), range(1, 4)] += SHEET_TIE * near.sum(axis=1)[:, None]
+    value = np.zeros((len(moment), 4, 1))
+    value[:, 0] = 1.0
+    shape = np.linalg.solve(moment, value)[:, :, 0]
+    shares: Floats = near * np.einsum("lki,li->lk", basis, shape)
+    return np.asarray(shares / shares.sum(axis=1, keepdims=True))

@@ -1,0 +1,59 @@
+"""What each muscle does to one face's skin: how the sheet answers its force, and what of that shows."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Floats
+from ...physics.elastic import diagonal_matrix
+from ..muscles.placement import PlacedMuscle
+from ..skin.fine import SUMMED, fine_skin
+from ..skin.outer import OuterSkin
+from .fields import force_density
+from .sheet import Tissue
+
+
+@dataclass(frozen=True)
+class Pulls:
+    """Muscles and their fields on the outer skin, per metre of amount.
+
+    Attributes
+    ----------
+    muscles : those k that move the skin at all.
+    sheets, fields : (k, n, 3) displacement of the elastic sheet, and of what the face shows, whose largest is 1.
+    """
+
+    muscles: Sequence[PlacedMuscle]
+    sheets: Floats
+    fields: Floats
+
+    def of(self, names: Collection[str]) -> Pulls:
+        """Those of some muscles alone."""
+        kept = np.array([muscle.name in names for muscle in self.muscles], dtype=bool)
+        muscles = [muscle for muscle, keep in zip(self.muscles, kept, strict=True) if keep]
+        return Pulls(muscles, self.sheets[kept], self.fields[kept])
+
+
+def pulls_of(skin: OuterSkin, tissue: Tissue, muscles: Sequence[PlacedMuscle]) -> Pulls:
+    """What muscles do to a skin."""
+    sheets = tissue.relax(_forces(skin, muscles))
+    shown = tissue.show(sheets)
+    peak = np.linalg.norm(shown, axis=2).max(axis=1)
+    alive = peak > 0.0
+    scale = (1.0 / peak[alive])[:, None, None]
+    return Pulls(
+        muscles=[muscle for muscle, moves in zip(muscles, alive, strict=True) if moves],
+        sheets=np.ascontiguousarray(sheets[alive] * scale),
+        fields=np.ascontiguousarray(shown[alive] * scale),
+    )
+
+
+def _forces(skin: OuterSkin, muscles: Sequence[PlacedMuscle]) -> Floats:
+    """(k, n, 3) force of each muscle on each vertex, summed over the skin between them."""
+    fine, carry = fine_skin(skin, SUMMED)
+    spread = (diagonal_matrix(fine.areas) @ carry).T.tocsr()
+    forces = [np.asarray(spread @ force_density(fine, muscle)) for muscle in muscles]
+    return np.array(forces).reshape(-1, skin.vertex_count, 3)

@@ -1,0 +1,151 @@
+"""The outer skin of one face as the elastic sheet that muscles pull on: geometry only.
+
+It is the part of the mesh that a viewer sees: lips, lids and face up to the margins of mouth and eyes. Mouth bag and
+eye sockets are left out of it and follow (`followers.py`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import cKDTree
+
+from ...arrays import Floats, Ints
+from ...physics import mesh
+from ...physics.elastic import Factor, diagonal_matrix, laplacian
+from ...physics.mesh import Sparse
+from ..mechanism import EVERY, Mechanism
+from ..mesh.openings import Opening
+
+#: So far behind the pupils lies the middle of any head, from which its skin faces away, metres.
+BEHIND_THE_EYES = 0.06
+
+
+def smoothstep(t: Floats) -> Floats:
+    """3t^2 - 2t^3 on [0, 1], clamped outside."""
+    t = np.clip(t, 0.0, 1.0)
+    eased: Floats = t * t * (3.0 - 2.0 * t)
+    return eased
+
+
+def gaussian(positions: Floats, centre: Floats, radii: Floats | float) -> Floats:
+    """(n,) exp(-|d/r|^2) round a centre (3,) with radius or radii (3,) in metres."""
+    away: Floats = (((positions - centre) / radii) ** 2).sum(axis=1)
+    value: Floats = np.exp(-away)
+    return value
+
+
+@dataclass(frozen=True)
+class OuterSkin:
+    """The visible skin in head space.
+
+    Attributes
+    ----------
+    index : (g,) vertex numbers of the face's mesh. Of a skin that is split (`fine_skin`) these are the first g of its
+        vertices, of any other all of them.
+    positions : (n, 3) rest positions in head space, metres.
+    polygons : sequence of local vertex index arrays.
+    points : feature point -> (3,) position in head space.
+    mouth, eyes : the openings, in local vertex numbers; eyes by "l" and "r".
+    mechanisms : those that this skin has; what is built on it leaves the others out.
+    """
+
+    index: Ints
+    positions: Floats
+    polygons: Sequence[Ints]
+    points: Mapping[str, Floats]
+    mouth: Opening
+    eyes: Mapping[str, Opening]
+    mechanisms: frozenset[Mechanism] = EVERY
+    _cache: dict[str, Floats] = field(default_factory=dict, repr=False)
+
+    def has(self, mechanism: Mechanism) -> bool:
+        """Whether a mechanism has not been left out."""
+        return mechanism in self.mechanisms
+
+    @property
+    def vertex_count(self) -> int:
+        """Number of skin vertices n."""
+        return len(self.positions)
+
+    @cached_property
+    def areas(self) -> Floats:
+        """(n,) area of skin that each vertex stands for, m^2."""
+        return mesh.vertex_areas(self.positions, self.polygons)
+
+    @cached_property
+    def laplacian(self) -> Sparse:
+        """(n, n) L with u'Lu the integral of |grad u|^2 over the skin."""
+        return laplacian(self.positions, self.polygons)
+
+    @cached_property
+    def fans(self) -> tuple[Ints, Floats]:
+        """(t, 3) local vertex numbers of every split of every polygon, and (t,) how much each one counts."""
+        return mesh.fans(self.polygons)
+
+    @cached_property
+    def graph(self) -> Sparse:
+        """(n, n) lengths of edges and face diagonals: distances along it are distances along the skin."""
+        pairs = np.concatenate([mesh.unique_edges(self.polygons), mesh.face_diagonals(self.polygons)])
+        lengths = np.linalg.norm(self.positions[pairs[:, 0]] - self.positions[pairs[:, 1]], axis=1)
+        n = self.vertex_count
+        half = sparse.coo_array((np.maximum(lengths, 1e-9), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
+        return sparse.csr_array(half + half.T)
+
+    def distance_from(self, sources: Ints) -> Floats:
+        """(n,) distance along the skin from the nearest of some vertices, metres; far pieces count as 1 m away.
+
+        Without `Mechanism.SEPARATION` it goes through the air, where one lip is as near as the other.
+        """
+        if not self.has(Mechanism.SEPARATION):
+            through_the_air, _ = cKDTree(self.positions[sources]).query(self.positions)
+            return np.minimum(np.asarray(through_the_air, dtype=np.float64), 1.0)
+        distance = dijkstra(self.graph, directed=False, indices=np.unique(sources), min_only=True)
+        return np.minimum(distance, 1.0)
+
+    def smoothing(self, radius: float) -> Factor:
+        """Prefactored filter: solve(areas * f) is f averaged over a Gaussian-like window of a given radius (metres)."""
+        return Factor(diagonal_matrix(self.areas) + 0.5 * radius**2 * self.laplacian)
+
+    @cached_property
+    def raw_normals(self) -> Floats:
+        """(n, 3) outward unit normals of the sheet, whichever way its polygons wind."""
+        normals = mesh.vertex_normals(self.positions, self.polygons)
+        inside = (self.points["3.5"] + self.points["3.6"]) / 2.0 - np.array([0.0, 0.0, BEHIND_THE_EYES])
+        outwards = self.areas @ (normals * (self.positions - inside)).sum(axis=1)
+        return normals * (1.0 if outwards >= 0.0 else -1.0)
+
+    @cached_property
+    def normals(self) -> Floats:
+        """(n, 3) unit normals averaged over 12 mm: the lie of the bone rather than of the wrinkle."""
+        smooth = self.smoothing(0.012).solve(self.areas[:, None] * self.raw_normals)
+        unit: Floats = smooth / np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
+        return unit
+
+    @cached_property
+    def lip_distances(self) -> tuple[Floats, Floats]:
+        """Distances (n,) along the skin from the upper and from the lower lip's edge, metres."""
+        return self.distance_from(self.mouth.upper), self.distance_from(self.mouth.lower)
+
+    def lid_distances(self, side: str) -> tuple[Floats, Floats]:
+        """Distances (n,) along the skin from the upper and from the lower lid's edge of eye "l" or "r", metres."""
+        for name in ("upper", "lower"):
+            if side + name not in self._cache:
+                self._cache[side + name] = self.distance_from(getattr(self.eyes[side], name))
+        return self._cache[side + "upper"], self._cache[side + "lower"]
+
+    @cached_property
+    def lid_edge_distance(self) -> Floats:
+        """(n,) distance along the skin from the nearest lid edge of either eye, metres."""
+        nearest: Floats = np.min([self.lid_distances(side)[i] for side in "lr" for i in (0, 1)], axis=0)
+        return nearest
+
+    @cached_property
+    def lip_edge_distance(self) -> Floats:
+        """(n,) distance along the skin from the nearest lip edge, metres."""
+        return np.minimum(*self.lip_distances)

@@ -1,0 +1,10 @@
+"""The emotion model of Raouzaiou et al. 2002.
+
+words, wheel                  emotion words; the wheel of activation and evaluation
+profile, archetypes           a profile of FAP ranges; those of the six archetypal emotions (Tables 2, 4, 5)
+intermediate, expressions     emotions between two archetypes; from a word or a point to a profile
+emotion_presets               words of users, in files
+features, recognition         Table 3; from FAPs back to emotions (section 5)
+belief_track                  beliefs over time
+action_units                  Table 1
+"""

@@ -1,0 +1,50 @@
+"""What trackers write, as FAPs: one file per format, by the tables of presets/capture/.
+
+preset, shapes, columns              mapping tables: blend shapes and action units in FAPs
+samples, rotation                    times to an even rate; rotations of a head as FAPs 48 to 50
+table_file, json_file                CSV and JSON, with errors that name line and column or frame
+openface, live_link                  action units with pose and gaze; ARKit blend shapes
+mediapipe_scores, landmark_file      MediaPipe's blend shapes, and its landmarks (`face.tracked` reads FAPs off them)
+fap_csv                              FAPs as CSV, out and in
+key_names                            which shape keys a preset of names asks for
+"""
+
+from .columns import ColumnTable, arkit_columns, load_columns
+from .fap_csv import holds_faps, read_fap_csv, write_fap_csv
+from .json_file import JsonFrame, read_json_frames
+from .key_names import KeyShape, load_key_names
+from .landmark_file import Landmarks, holds_landmarks, landmarks_from_csv, landmarks_from_json
+from .live_link import read_arkit
+from .mediapipe_scores import read_scores
+from .openface import read_openface
+from .preset import CAPTURE_PRESETS, read_document
+from .samples import Samples
+from .shapes import CaptureShape, load_shapes
+from .table_file import TableFile, read_table_file
+
+__all__ = [
+    "CAPTURE_PRESETS",
+    "CaptureShape",
+    "ColumnTable",
+    "JsonFrame",
+    "KeyShape",
+    "Landmarks",
+    "Samples",
+    "TableFile",
+    "arkit_columns",
+    "holds_faps",
+    "holds_landmarks",
+    "landmarks_from_csv",
+    "landmarks_from_json",
+    "load_columns",
+    "load_key_names",
+    "load_shapes",
+    "read_arkit",
+    "read_document",
+    "read_fap_csv",
+    "read_json_frames",
+    "read_openface",
+    "read_scores",
+    "read_table_file",
+    "write_fap_csv",
+]

@@ -1,0 +1,64 @@
+"""FAPs as CSV in OpenFace's manner, for statistics: a row per frame, a column per FAP, empty where unknown.
+
+Columns: frame (from 1), timestamp (s), confidence and success (1 where the frame states anything, else 0), then
+F03_open_jaw to F68_pull_r_ear in FAP units (1e-5 rad for angles).
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+
+import numpy as np
+
+from ....errors import FormatError
+from ...files import write_whole
+from ...standard import FAP_COUNT, FAPS
+from ..fap_stream import FapStream
+from .samples import Samples
+from .table_file import TableFile
+
+COLUMNS = {number: f"F{number:02d}_{fap.name}" for number, fap in FAPS.items() if not fap.high_level}
+
+
+def write_fap_csv(path: str | Path, stream: FapStream) -> None:
+    """Write a stream as CSV, whole or not at all; FAP 1 and 2 are expanded to the FAPs that they stand for.
+
+    Raises
+    ------
+    FormatError : the file cannot be written.
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["frame", "timestamp", "confidence", "success", *COLUMNS.values()])
+    for index, values in enumerate(stream.expanded()):
+        known = int(not np.isnan(values).all())
+        cells = ["" if np.isnan(values[n - 1]) else f"{values[n - 1]:.6g}" for n in COLUMNS]
+        writer.writerow([index + 1, f"{index / stream.fps:.6f}", known, known, *cells])
+    write_whole(path, out.getvalue())
+
+
+def holds_faps(table: TableFile) -> bool:
+    """Whether a CSV has columns of FAPs."""
+    return any(name in table for name in COLUMNS.values())
+
+
+def read_fap_csv(table: TableFile) -> Samples:
+    """The samples of a CSV of FAPs.
+
+    Raises
+    ------
+    FormatError : a cell that is no number, or times that do not rise.
+    """
+    frames = np.full((len(table.rows), FAP_COUNT), np.nan)
+    for number, name in COLUMNS.items():
+        if name in table:
+            frames[:, number - 1] = table.numbers(name)
+    times = table.numbers("timestamp")
+    for row in range(len(times)):
+        if not np.isfinite(times[row]) or (row > 0 and times[row] <= times[row - 1]):
+            raise FormatError(
+                table.path, "has a timestamp that does not come after the one before", line=table.lines[row]
+            )
+    return Samples(times, frames)

@@ -1,0 +1,183 @@
+"""Landmarks of a face mesh tracker (MediaPipe's 468, or 478 with irises), JSON or CSV.
+
+JSON: as `json_file`, each landmark an object with x, y and z, or a list of three numbers. CSV: wide (a row per frame,
+columns x_0, y_0, z_0, x_1, ... or 0_x, ..., with or without the underscore) or long (a row per landmark, columns frame,
+landmark or index, x, y, z).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ....arrays import Floats
+from ....errors import FormatError, ParameterError
+from .json_file import JsonFrame, times_of
+from .table_file import TableFile
+
+#: Landmarks beyond this are in pixels; within it they are shares of the picture (a face may stick out a little).
+NORMALISED = 4.0
+
+#: Where a file says no times.
+USUAL_RATE = 30.0
+
+COLUMN = re.compile(r"(?:.*[_\W])?(?:([xyz])_?(\d+)|(\d+)_?([xyz]))", re.IGNORECASE)
+INDEX_NAMES = ("landmark", "landmark_id", "landmark_index", "index", "id")
+FEWEST, MOST = 468, 1000
+
+
+@dataclass(frozen=True)
+class Landmarks:
+    """Landmarks over time.
+
+    Attributes
+    ----------
+    times : (T,) seconds, rising.
+    positions : (T, N, 3) to the right of the picture (the left of a subject who faces it), up, and towards the camera;
+        the picture's height is 1, or it is in pixels. NaN where no face was seen.
+    """
+
+    times: Floats
+    positions: Floats
+
+
+def landmarks_from_json(frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, rate: float | None = None) -> Landmarks:
+    """The landmarks of a JSON file.
+
+    Parameters
+    ----------
+    aspect : the picture's width over its height; x and z of MediaPipe are shares of the width.
+    rate : frames per second, where the file says no times; None: 30.
+
+    Raises
+    ------
+    FormatError : no landmarks; an entry that is none: names the frame and the landmark.
+    """
+    listed = [_listed(frame) for frame in frames]
+    count = max((len(entries) for entries in listed), default=0)
+    if count < FEWEST:
+        problem = f"has {count} landmarks a frame, but a face mesh has {FEWEST} or more: is it another kind of file?"
+        raise FormatError(frames[0].path, problem)
+    if count > MOST:
+        raise FormatError(frames[0].path, f"has {count} landmarks in one frame: keep those of one face")
+    raw = np.full((len(frames), count, 3), np.nan)
+    for frame, entries, row in zip(frames, listed, raw, strict=True):
+        if entries and len(entries) != count:
+            raise frame.refuse("landmarks", f"must be {count} as in other frames, but they are {len(entries)}")
+        for number, entry in enumerate(entries):
+            row[number] = _position(frame, number, entry)
+    return Landmarks(np.array(times_of(frames, rate or USUAL_RATE)), _upright(raw, aspect))
+
+
+def _listed(frame: JsonFrame) -> list[Any]:
+    """The landmarks of the one face of a frame; none where no face was seen."""
+    found = frame.entry("landmarks")
+    while isinstance(found, list) and len(found) == 1:
+        found = found[0]
+    if isinstance(found, dict):
+        found = found.get("landmark", found.get("landmarks"))
+    if found is None:
+        return []
+    if not isinstance(found, list):
+        raise frame.refuse("landmarks", "must be a list")
+    if len(found) <= 16 and all(isinstance(face, list) and len(face) >= FEWEST for face in found):
+        raise frame.refuse("landmarks", f"hold {len(found)} faces: keep one")
+    return found
+
+
+def _position(frame: JsonFrame, number: int, entry: Any) -> tuple[float, ...]:
+    """x, y and z of one landmark."""
+    if isinstance(entry, dict) and all(axis in entry for axis in "xyz"):
+        values = [entry[axis] for axis in "xyz"]
+    elif isinstance(entry, list) and len(entry) >= 3:
+        values = entry[:3]
+    else:
+        raise frame.refuse(f"landmark {number}", f"must have x, y and z, but it is {str(entry)[:40]!r}")
+    return tuple(frame.number_at(f"landmark {number}", value) for value in values)
+
+
+def holds_landmarks(table: TableFile) -> bool:
+    """Whether a CSV looks like landmarks."""
+    return _is_long(table) or len(_wide_columns(table)) >= 3 * FEWEST
+
+
+def landmarks_from_csv(table: TableFile, *, aspect: float = 16.0 / 9.0, rate: float | None = None) -> Landmarks:
+    """The landmarks of a CSV file; parameters and errors as `landmarks_from_json`."""
+    raw, times = _long(table) if _is_long(table) else _wide(table)
+    if np.isnan(times).all():
+        times = np.arange(len(raw)) / (rate or USUAL_RATE)
+    if (np.diff(times) <= 0.0).any() or np.isnan(times).any():
+        raise FormatError(table.path, "has times that do not rise from frame to frame: sort its rows")
+    return Landmarks(times - times[0], _upright(raw, aspect))
+
+
+def _wide_columns(table: TableFile) -> dict[tuple[int, int], str]:
+    """(landmark, axis) -> column."""
+    found = {}
+    for name in table.columns:
+        match = COLUMN.fullmatch(name)
+        if match is not None:
+            axis, number = (match[1], match[2]) if match[1] else (match[4], match[3])
+            found[int(number), "xyz".index(axis.lower())] = name
+    return found
+
+
+def _wide(table: TableFile) -> tuple[Floats, Floats]:
+    """(T, N, 3) landmarks and (T,) times of a table with a row per frame."""
+    columns = _wide_columns(table)
+    numbers = sorted({number for number, _ in columns})
+    if len(numbers) < FEWEST or numbers != list(range(len(numbers))):
+        problem = f"must have columns x_0, y_0, z_0 to x_{FEWEST - 1}, ..., but it has {len(numbers)} landmarks"
+        raise FormatError(table.path, problem, line=1)
+    missing = [f"{'xyz'[axis]}_{n}" for n in numbers for axis in range(3) if (n, axis) not in columns]
+    if missing:
+        raise FormatError(table.path, f"lacks the columns {', '.join(missing[:5])}", line=1)
+    raw = np.stack([np.stack([table.numbers(columns[n, a]) for a in range(3)], axis=1) for n in numbers], axis=1)
+    return raw, _times(table)
+
+
+def _is_long(table: TableFile) -> bool:
+    """Whether a table has a row per landmark."""
+    return all(axis in table for axis in "xyz") and any(name in table for name in INDEX_NAMES)
+
+
+def _long(table: TableFile) -> tuple[Floats, Floats]:
+    """(T, N, 3) landmarks and (T,) times of a table with a row per landmark."""
+    which = table.numbers(next(name for name in INDEX_NAMES if name in table))
+    frames = table.numbers("frame") if "frame" in table else np.zeros(len(which))
+    for row, (landmark, frame) in enumerate(zip(which, frames, strict=True)):
+        if not (0 <= landmark < MOST and landmark == int(landmark) and math.isfinite(frame)):
+            raise FormatError(table.path, "must name its frame and its landmark (0, 1, ...)", line=table.lines[row])
+    counted, place = np.unique(frames, return_inverse=True)
+    count = int(which.max()) + 1
+    if count < FEWEST:
+        raise FormatError(table.path, f"has {count} landmarks a frame, but a face mesh has {FEWEST} or more")
+    if count * len(counted) > 2 * len(which) + MOST:
+        raise FormatError(table.path, "has frames that lack most of their landmarks: mend the column frame")
+    raw = np.full((len(counted), count, 3), np.nan)
+    raw[place, which.astype(np.int64)] = np.stack([table.numbers(axis) for axis in "xyz"], axis=1)
+    times = np.full(len(counted), np.nan)
+    times[place] = _times(table)
+    return raw, times
+
+
+def _times(table: TableFile) -> Floats:
+    """(rows,) seconds; NaN where the table has none."""
+    for name, unit in (("timestamp", 1.0), ("time", 1.0), ("timestamp_ms", 1e-3), ("time_ms", 1e-3)):
+        if name in table:
+            return table.numbers(name) * unit
+    return np.full(len(table.rows), np.nan)
+
+
+def _upright(raw: Floats, aspect: float) -> Floats:
+    """Positions from x to the right, y down and z away, as shares of the picture or in pixels."""
+    if not (math.isfinite(aspect) and aspect > 0.0):
+        raise ParameterError("aspect", "must be the picture's width over its height", aspect)
+    pixels = np.nanmax(np.abs(raw[..., :2]), initial=0.0) > NORMALISED
+    wide = 1.0 if pixels else aspect
+    positions: Floats = raw * np.array([wide, -1.0, -wide])
+    return positions

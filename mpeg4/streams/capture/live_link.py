@@ -1,0 +1,99 @@
+"""ARKit blend shapes in CSV: Live Link Face's recordings, and any table with columns of ARKit's names.
+
+Live Link Face writes ``Timecode`` (HH:MM:SS:FF.fraction), ``BlendShapeCount``, the 52 blend shapes in PascalCase and
+nine rotations. Units and signs of the rotations are Unreal's (rad; yaw to the subject's right, pitch up, roll to the
+right shoulder) and stand in presets/capture/live_link.toml, for versions of the app differ.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from ....arrays import Floats
+from ....errors import FormatError, ParameterError
+from .columns import arkit_columns
+from .preset import CAPTURE_PRESETS, read_preset
+from .samples import Samples
+from .shapes import fap_frame
+from .table_file import TableFile
+
+TIMECODE = re.compile(r"(\d+):(\d{1,2}):(\d{1,2})[:;](\d+(?:\.\d+)?)")
+
+#: Live Link Face's own frame rate, at which the frames of a timecode are counted unless it shows a higher one.
+USUAL_RATE = 60.0
+
+#: Columns of time in other tables, with the seconds of one unit; the first that is there counts.
+TIME_COLUMNS = (("timestamp", 1.0), ("time", 1.0), ("timestamp_s", 1.0), ("timestamp_ms", 1e-3), ("time_ms", 1e-3))
+
+
+def read_arkit(table: TableFile, *, rate: float | None = None, preset: Path | None = None) -> Samples:
+    """The samples of a table of ARKit blend shapes.
+
+    Parameters
+    ----------
+    rate : frames per second of the recording, in which its timecode counts; None: 60, or what the timecode shows.
+    preset : the table of rotations; by default presets/capture/live_link.toml.
+
+    Raises
+    ------
+    FormatError : no column of a blend shape; a timecode that is none; times that do not rise.
+    """
+    columns = arkit_columns()
+    scores = table.several(name for name in table.columns if name.lower() in columns.gains)
+    if not scores:
+        raise FormatError(table.path, "has no column of an ARKit blend shape, such as jawOpen", line=1)
+    frames = columns.frames(scores)
+    turned = _rotations(table, preset or CAPTURE_PRESETS / "live_link.toml")
+    frames = np.where(np.isnan(frames), turned, frames)
+    return Samples(_times(table, rate), frames)
+
+
+def _rotations(table: TableFile, preset: Path) -> Floats:
+    """(T, 68) FAPs of the columns of rotations; NaN elsewhere."""
+    frames = np.full((len(table.rows), 68), np.nan)
+    for name, row in read_preset(preset, "rotations").items():
+        if name not in table:
+            continue
+        gains = fap_frame(preset, f"rotations.{name}", row.get("faps"))
+        values = table.numbers(name)
+        for place in np.flatnonzero(~np.isnan(gains)):
+            frames[:, place] = values * gains[place]
+    return frames
+
+
+def _times(table: TableFile, rate: float | None) -> Floats:
+    """(T,) seconds from the first row on."""
+    if rate is not None and not (math.isfinite(rate) and rate > 0.0):
+        raise ParameterError("rate", "must be a positive number of frames per second", rate)
+    units: Mapping[str, float] = dict(TIME_COLUMNS)
+    name = next((name for name in units if name in table), None)
+    times: Floats = np.arange(len(table.rows)) / (rate or USUAL_RATE)
+    if "timecode" in table:
+        times = _timecodes(table, rate)
+    elif name is not None:
+        times = table.numbers(name) * units[name]
+    for row in range(1, len(times)):
+        if not times[row] > times[row - 1]:
+            raise FormatError(table.path, "has a time that does not come after the one before", line=table.lines[row])
+    since: Floats = times - times[0]
+    return since
+
+
+def _timecodes(table: TableFile, rate: float | None) -> Floats:
+    """(T,) seconds of the timecodes."""
+    parts = []
+    for text, line in zip(table.texts("timecode"), table.lines, strict=True):
+        match = TIMECODE.fullmatch(text)
+        if match is None:
+            problem = f"column Timecode must be HH:MM:SS:FF or HH:MM:SS:FF.fraction, but it is {text[:40]!r}"
+            raise FormatError(table.path, problem, line=line)
+        parts.append([float(part) for part in match.groups()])
+    hours, minutes, seconds, frames = np.array(parts).T
+    counted = rate or max(USUAL_RATE, float(np.floor(frames.max())) + 1.0)
+    times: Floats = 3600.0 * hours + 60.0 * minutes + seconds + frames / counted
+    return times

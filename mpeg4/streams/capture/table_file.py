@@ -1,0 +1,127 @@
+"""CSV files of trackers: one row per sample, one column per quantity."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from ....arrays import Floats
+from ....errors import FormatError
+
+#: What trackers write for "no value".
+UNKNOWN = ("", "nan", "na", "none", "null", "-nan", "-nan(ind)", "inf", "-inf")
+
+
+@dataclass(frozen=True)
+class TableFile:
+    """A CSV file as text.
+
+    Attributes
+    ----------
+    path : the file. columns : names as in the heading, without blanks around them.
+    rows : cells of each row, as many as there are columns. lines : 1-based line of each row.
+    """
+
+    path: Path
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    lines: tuple[int, ...]
+
+    def __contains__(self, name: str) -> bool:
+        return name.lower() in self._places
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        """Column by lower-case name; the first of equal names."""
+        return {name.lower(): place for place, name in reversed(list(enumerate(self.columns)))}
+
+    def texts(self, name: str) -> list[str]:
+        """The cells of one column.
+
+        Raises
+        ------
+        FormatError : no such column.
+        """
+        place = self._places.get(name.lower())
+        if place is None:
+            raise FormatError(self.path, f"has no column {name}: is it the file that you mean?", line=1)
+        return [row[place] for row in self.rows]
+
+    def numbers(self, name: str) -> Floats:
+        """(T,) values of one column; NaN where the tracker wrote none.
+
+        Raises
+        ------
+        FormatError : no such column, or a cell that is no number: names line and column.
+        """
+        return np.array([self._number(name, text, row) for row, text in enumerate(self.texts(name))])
+
+    def _number(self, name: str, text: str, row: int) -> float:
+        """One cell."""
+        if text.lower() in UNKNOWN:
+            return math.nan
+        try:
+            value = float(text) if "_" not in text else math.nan
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise FormatError(
+                self.path, f"column {name} must be a number, but it is {text[:40]!r}", line=self.lines[row]
+            )
+        return value
+
+    def several(self, names: Iterable[str]) -> dict[str, Floats]:
+        """Those of the named columns that the file has."""
+        return {name: self.numbers(name) for name in names if name in self}
+
+
+def read_table_file(path: str | Path) -> TableFile:
+    """A CSV file (comma, semicolon or tab; UTF-8 or Latin-1), with its heading in the first line that says something.
+
+    Raises
+    ------
+    FormatError : names the file, the line and the remedy.
+    """
+    file = Path(path)
+    lines = [(number, line) for number, line in enumerate(_text(file).splitlines(), start=1) if line.strip()]
+    if not lines:
+        raise FormatError(file, "is empty: it must begin with a line of column names")
+    heading = lines[0][1]
+    mark = max(",;\t", key=heading.count)
+    columns = tuple(cell.strip() for cell in next(csv.reader([heading], delimiter=mark)))
+    rows, numbers = [], []
+    for number, line in lines[1:]:
+        try:
+            cells = tuple(cell.strip() for cell in next(csv.reader([line], delimiter=mark)))
+        except csv.Error as error:
+            raise FormatError(file, f"is no row of a table ({error}): mend or remove it", line=number) from error
+        if len(cells) == len(columns) + 1 and cells[-1] == "":
+            cells = cells[:-1]
+        if len(cells) != len(columns):
+            problem = f"has {len(cells)} cells where the heading has {len(columns)}: is the file cut off here?"
+            raise FormatError(file, problem, line=number)
+        rows.append(cells)
+        numbers.append(number)
+    if not rows:
+        raise FormatError(file, "has a heading but no rows: nothing was recorded")
+    return TableFile(file, columns, tuple(rows), tuple(numbers))
+
+
+def _text(file: Path) -> str:
+    """The file's text."""
+    try:
+        data = file.read_bytes()
+    except OSError as error:
+        raise FormatError(file, f"cannot be read ({error.strerror})") from error
+    if b"\0" in data:
+        raise FormatError(file, "is binary, not a CSV file", offset=data.index(b"\0"))
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")

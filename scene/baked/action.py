@@ -1,0 +1,248 @@
+"""Clips as actions: one action per clip with keyframes on the shape keys of one face.
+
+A face may be several meshes (eyes, teeth and tongue apart), but its clips are one action each: the meshes' shape
+keys bear the same names, and so share one action and its one slot. An own action keys *every* own shape of the
+face, with a constant zero for those of other clips, so that no clip leaks into the next in the NLA editor or a game
+engine. Own actions have a fake user, so that a clip that is not playing is saved too.
+
+Blender 4.4 gave actions slots, 5.0 took `Action.fcurves` away; `fcurves_of` is the only place that knows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Floats
+from ...errors import ParameterError
+from .shape_keys import own_names_of
+
+FACE_TAG, CLIP_TAG = "risorius_face", "risorius_clip"
+TRACK_NAME = "Risorius"
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Keyframes of one shape key: `frames` (N,) and `values` (N,); `linear` between them, else eased."""
+
+    frames: Floats
+    values: Floats
+    linear: bool = False
+
+    def __post_init__(self) -> None:
+        if self.frames.shape != self.values.shape or self.frames.ndim != 1 or len(self.frames) == 0:
+            raise ParameterError("frames and values", "must be equally long and not empty", self.values.shape)
+
+
+def fcurves_of(action: Any) -> Any:
+    """The collection of the F-curves of an action for shape keys, whatever Blender keeps it in."""
+    if not hasattr(action, "slots"):
+        action.id_root = "KEY"
+        return action.fcurves
+    slot = slot_of(action)
+    layer = action.layers[0] if action.layers else action.layers.new("Layer")
+    strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
+    return strip.channelbag(slot, ensure=True).fcurves
+
+
+def slot_of(action: Any) -> Any | None:
+    """The action's slot for shape keys, made where there is none; None where Blender has no slots."""
+    if not hasattr(action, "slots"):
+        return None
+    for slot in action.slots:
+        if slot.target_id_type in {"KEY", "UNSPECIFIED"}:
+            return slot
+    return action.slots.new(id_type="KEY", name="Face")
+
+
+def data_path(key_name: str) -> str:
+    """RNA path of a shape key's value."""
+    return f'key_blocks["{bpy.utils.escape_identifier(key_name)}"].value'
+
+
+def write_curve(action: Any, key_name: str, curve: Curve) -> None:
+    """Write one shape key's keyframes, in place of those it had."""
+    fcurves = fcurves_of(action)
+    path = data_path(key_name)
+    old = fcurves.find(path)
+    if old is not None:
+        fcurves.remove(old)
+    fcurve = fcurves.new(path)
+    points = fcurve.keyframe_points
+    points.add(len(curve.frames))
+    points.foreach_set("co", np.column_stack([curve.frames, curve.values]).astype(np.float32).ravel())
+    for point in points:
+        point.interpolation = "LINEAR" if curve.linear else "BEZIER"
+        point.handle_left_type = point.handle_right_type = "AUTO_CLAMPED"
+    fcurve.update()
+
+
+def remove_curves(action: Any, key_names: Iterable[str]) -> None:
+    """Remove the keyframes of the named shape keys."""
+    fcurves = fcurves_of(action)
+    for name in key_names:
+        fcurve = fcurves.find(data_path(name))
+        if fcurve is not None:
+            fcurves.remove(fcurve)
+
+
+def own_actions(face: str) -> list[Any]:
+    """All clips of one face."""
+    return [action for action in bpy.data.actions if face and action.get(FACE_TAG) == face]
+
+
+def _used_elsewhere(action: Any, keys: Iterable[Any]) -> bool:
+    """Whether anything besides these shape key datablocks plays the action."""
+    users = bpy.data.user_map(subset=[action])[action]
+    return bool(users - set(keys))
+
+
+def write_clip(
+    face: str,
+    clip: str,
+    name: str,
+    curves: Mapping[str, Curve],
+    *,
+    keys: Iterable[Any],
+    retired: Iterable[str] = (),
+    silent: Iterable[str] = (),
+) -> Any:
+    """Write one clip as an action, in place of the one it had, and silence its keys in the face's other clips.
+
+    Keyframes that a user has added to an own action for anything else stay.
+
+    Parameters
+    ----------
+    face : the face's name (`shape_keys.OwnKeys.face`).
+    clip : the clip's name within the face.
+    name : what a new action is called.
+    curves : shape key name -> its keyframes.
+    keys : the shape key datablocks of the face's meshes.
+    retired : names of the keys that the clip had before.
+    silent : names of the keys of the face's other clips, which get a constant zero.
+
+    Returns
+    -------
+    The action. Its frame range is the clip's.
+    """
+    keys, gone = list(keys), set(retired) - set(curves)
+    others = [a for a in own_actions(face) if a.get(CLIP_TAG) != clip]
+    mine = [a for a in own_actions(face) if a.get(CLIP_TAG) == clip and not _used_elsewhere(a, keys)]
+    action = mine[0] if mine else bpy.data.actions.new(name)
+    start = min(float(curve.frames[0]) for curve in curves.values())
+    end = max(float(curve.frames[-1]) for curve in curves.values())
+    remove_curves(action, gone)
+    for key_name, curve in curves.items():
+        write_curve(action, key_name, curve)
+    for key_name in set(silent) - set(curves):
+        write_curve(action, key_name, _silence(start))
+    for other in others:
+        remove_curves(other, gone)
+        for key_name in curves:
+            write_curve(other, key_name, _silence(other.frame_start))
+    action[FACE_TAG], action[CLIP_TAG] = face, clip
+    action.use_fake_user = True
+    action.use_frame_range = True
+    action.frame_start, action.frame_end = start, max(end, start + 1.0)
+    return action
+
+
+def _silence(frame: float) -> Curve:
+    """A constant zero."""
+    return Curve(np.array([frame]), np.zeros(1), linear=True)
+
+
+def play(keys: Any, action: Any) -> str | None:
+    """Let a shape key datablock play the clip; a user's own action stays, and the clip goes on an NLA track then.
+
+    Returns
+    -------
+    A remark for the user where the clip went on a track, else None.
+    """
+    animation = keys.animation_data or keys.animation_data_create()
+    current = animation.action
+    if current is None or FACE_TAG in current:
+        animation.action = action
+        if hasattr(animation, "action_slot"):
+            animation.action_slot = slot_of(action)
+        return None
+    track = next((t for t in animation.nla_tracks if t.name == TRACK_NAME), None)
+    if track is None:
+        track = animation.nla_tracks.new()
+        track.name = TRACK_NAME
+    for strip in list(track.strips):
+        track.strips.remove(strip)
+    add_strip(track, action)
+    return f"the action {current.name} stays; the clip plays on the NLA track {TRACK_NAME}"
+
+
+def add_strip(track: Any, action: Any) -> Any:
+    """Put a clip on an NLA track, at its own frames. Outside them it holds its ends, which are at rest.
+
+    A strip that said nothing there would leave the face as the last frame shown had it.
+    """
+    strip = track.strips.new(action.name, int(action.frame_start), action)
+    if hasattr(strip, "action_slot"):
+        strip.action_slot = slot_of(action)
+    strip.frame_start = action.frame_start
+    strip.extrapolation = "HOLD_FORWARD" if len(track.strips) > 1 else "HOLD"
+    return strip
+
+
+def is_own_track(track: Any) -> bool:
+    """Whether an NLA track is ours; Blender numbers tracks of one name."""
+    return str(track.name).partition(".")[0] == TRACK_NAME
+
+
+def remove_clip(face: str, clip: str, *, keys: Iterable[Any], key_names: Iterable[str]) -> None:
+    """Remove a clip's action, its strips, and its keys' silence in the face's other clips.
+
+    An action that something else plays, or to which a user has added keyframes, loses only what is ours.
+    """
+    keys, key_names = list(keys), list(key_names)
+    for action in own_actions(face):
+        if action.get(CLIP_TAG) != clip:
+            remove_curves(action, key_names)
+            continue
+        for datablock in keys:
+            _detach(datablock, action)
+        if _used_elsewhere(action, keys):
+            continue
+        remove_curves(action, [*key_names, *_own_names(keys)])
+        if len(fcurves_of(action)) == 0:
+            bpy.data.actions.remove(action)
+        else:
+            del action[FACE_TAG], action[CLIP_TAG]
+
+
+def _own_names(keys: Iterable[Any]) -> set[str]:
+    """Names of all own shape keys in the datablocks."""
+    return {name for datablock in keys for name in own_names_of(datablock)}
+
+
+def rename_face(old: str, new: str, keys: Iterable[Any]) -> None:
+    """Give the clips that only these shape key datablocks play to the face `new`."""
+    keys = list(keys)
+    playing = bpy.data.user_map(subset=own_actions(old)) if own_actions(old) else {}
+    for action, users in playing.items():
+        if users and not users - set(keys):
+            action[FACE_TAG] = new
+
+
+def _detach(keys: Any, action: Any) -> None:
+    """Stop a shape key datablock from playing the action."""
+    animation = keys.animation_data
+    if animation is None:
+        return
+    if animation.action == action:
+        animation.action = None
+    for track in list(animation.nla_tracks):
+        for strip in list(track.strips):
+            if strip.action == action:
+                track.strips.remove(strip)
+        if is_own_track(track) and not track.strips:
+            animation.nla_tracks.remove(track)

@@ -1,0 +1,138 @@
+"""Shape keys that engines know by name (ARKit, visemes) on a face's meshes; from then on they are the user's own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Floats
+from ...errors import ParameterError, SceneError
+from ..faces import FaceSource, face_of
+from ..jobs.jobs import empty_file, save
+from ..jobs.subjects import subject
+from ..pictures.film import refuse_unwritable_output
+from ..progress import Progress, Work, run
+from ..refusals import own_mesh
+from .bake import STILL, Target
+
+#: Files that a whole job writes.
+SUFFIXES = (".blend", ".glb")
+
+
+@dataclass(frozen=True)
+class WrittenKeys:
+    """What was written: the keys by name, and those that the object had before and that were replaced."""
+
+    keys: tuple[str, ...]
+    replaced: tuple[str, ...]
+
+
+def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: bool = False) -> Work[WrittenKeys]:
+    """Make the shape keys of a preset of names by posing the face, and write them onto its meshes.
+
+    They are the user's own: no later bake, and no clearing of what was baked, touches them. Every key is on the head's
+    mesh; eyes, teeth and tongue that are objects of their own get those in which they move.
+
+    Parameters
+    ----------
+    names : "arkit", another preset of key names, or a TOML file (docs/formats.md).
+    replace : write over keys of the same names; without it they are refused.
+
+    Raises
+    ------
+    SceneError, ModelError, FormatError : nothing has been changed then.
+    """
+    from ...face.products.blendshapes import arkit_shape_steps
+    from ...mpeg4.streams.capture import load_key_names
+
+    wanted = load_key_names(names)
+    source = target.source()
+    there = _taken(source, wanted)
+    if there and not replace:
+        problem = f"has shape keys of these names already ({', '.join(there[:3])}): remove them, or ask to replace them"
+        raise SceneError(source.head.name, problem)
+    yield Progress(0.0, "Placing the muscles")
+    face = face_of(source)
+    shapes: dict[str, Floats] = {}
+    for name, positions in arkit_shape_steps(face, wanted):
+        shapes[name] = positions - source.vertices
+        yield Progress(0.1 + 0.85 * len(shapes) / len(wanted), f"Posing {name}")
+    yield Progress(0.97, "Writing the shape keys")
+    if target.make_single_user:
+        for obj in source.objects:
+            own_mesh(obj)
+    for piece in source.pieces:
+        moving = {
+            name: piece.local_positions(moved)
+            for name, moved in shapes.items()
+            if piece is source.pieces[0] or np.abs(moved[piece.slice]).max(initial=0.0) > STILL
+        }
+        _write(piece.obj, moving)
+    return WrittenKeys(tuple(shapes), there)
+
+
+def _taken(source: FaceSource, wanted: Mapping[str, object]) -> tuple[str, ...]:
+    """Names among those wanted that a mesh of the face has already."""
+    blocks = (obj.data.shape_keys.key_blocks for obj in source.objects if obj.data.shape_keys is not None)
+    return tuple(sorted({block.name for keys in blocks for block in keys if block.name in wanted}))
+
+
+def _write(obj: Any, shapes: Mapping[str, Floats]) -> None:
+    """Shape keys at rest, positions (V, 3) in the mesh's own coordinates."""
+    if obj.data.shape_keys is None and shapes:
+        obj.shape_key_add(name="Basis", from_mix=False)
+    for name, positions in shapes.items():
+        block = obj.data.shape_keys.key_blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
+        block.slider_min, block.slider_max, block.value = 0.0, 1.0, 0.0
+        block.data.foreach_set("co", np.ascontiguousarray(positions, dtype=np.float32).ravel())
+    obj.data.update_tag()
+
+
+def blendshape_file(
+    out: str | Path,
+    *,
+    mesh: str | Path | None = None,
+    points: str | Path | None = None,
+    names: str | Path = "arkit",
+    replace: bool = False,
+    progress: Callable[[Progress], None] | None = None,
+) -> WrittenKeys:
+    """Make the shape keys of a face and save it as .blend, or as .glb for engines.
+
+    Parameters
+    ----------
+    mesh, points : see `subjects.subject`; by default the default head.
+    names, replace : as for `write_blendshapes`.
+    progress : called with each step.
+
+    Raises
+    ------
+    RisoriusError : nothing has been written then.
+    """
+    path = Path(out)
+    if path.suffix.lower() not in SUFFIXES:
+        raise ParameterError("out", f"must end in {' or '.join(SUFFIXES)}", str(out))
+    refuse_unwritable_output(path)
+    empty_file(25.0)
+    obj = subject(mesh, points)
+    written = run(write_blendshapes(Target(obj), names, replace=replace), progress)
+    if path.suffix.lower() == ".blend":
+        save(path)
+    else:
+        _export_glb(path)
+    return written
+
+
+def _export_glb(path: Path) -> None:
+    """Save all objects with their shape keys as morph targets."""
+    if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
+        raise SceneError(str(path), "this Blender has no glTF exporter: write a .blend instead")
+    try:
+        bpy.ops.export_scene.gltf(filepath=str(path.resolve()), export_format="GLB", export_morph=True)
+    except RuntimeError as problem:
+        raise SceneError(str(path), f"could not be written ({problem}): choose another folder") from problem

@@ -1,0 +1,97 @@
+"""What a motion bake simulates: expressions in time, or a stream of FAPs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from ...arrays import Floats
+from ...errors import ParameterError
+from ...mpeg4 import Cue, Liveliness, strengths
+
+if TYPE_CHECKING:
+    from ...face.face import Face
+    from ...physics.tissue import Tissue
+
+
+class Motion(Protocol):
+    """Anything that moves a face."""
+
+    def frame_count(self, fps: float) -> int:
+        """Number of frames at a frame rate."""
+        ...
+
+    def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
+        """Positions (V, 3) frame by frame."""
+        ...
+
+
+@dataclass(frozen=True)
+class CueMotion:
+    """Expressions in time, each planned at its apex; see `Face.performance`.
+
+    `contractions` are those set by hand, a set per cue; `tissue` a name or figures; `liveliness` adds blinks
+    and small motions of head and eyes.
+    """
+
+    cues: Sequence[Cue]
+    contractions: Sequence[Mapping[str, float]] | None = None
+    tissue: str | Tissue = "default"
+    liveliness: Liveliness | None = None
+
+    def frame_count(self, fps: float) -> int:
+        """Frames to the end of the last cue."""
+        return len(strengths(self.cues, fps=fps))
+
+    def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
+        """The performance."""
+        return face.performance(
+            self.cues,
+            fps,
+            drive=drive,
+            contractions=self.contractions,
+            tissue=self.tissue,
+            liveliness=self.liveliness,
+        )
+
+
+@dataclass(frozen=True)
+class FapMotion:
+    """A stream of FAPs (T, 68), NaN where silent, and the emotions (T, 6) behind it where they are known."""
+
+    frames: Floats
+    emotions: Floats | None = None
+
+    def __post_init__(self) -> None:
+        if len(self.frames) == 0:
+            raise ParameterError("frames", "must hold at least one frame", len(self.frames))
+
+    def frame_count(self, fps: float) -> int:
+        """The stream's own frames."""
+        return len(self.frames)
+
+    def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
+        """The stream, each frame planned by itself; see `Face.simulation`."""
+        return face.simulation(self.frames, fps, drive=drive, emotions=self.emotions)
+
+
+def at_rate(frames: Floats, fps: float, wanted: float) -> Floats:
+    """Frames (T, 68) at another rate, seconds kept; between frames each FAP goes evenly.
+
+    A FAP is silent (NaN) where the nearer one of the frames around it is.
+    """
+    if fps == wanted or len(frames) < 2:
+        return frames
+    count = int(np.floor((len(frames) - 1) / fps * wanted + 1e-6)) + 1
+    places = np.minimum(np.arange(count) / wanted * fps, len(frames) - 1.0)
+    below = np.minimum(places.astype(np.int64), len(frames) - 2)
+    share = (places - below)[:, None]
+    first, second = frames[below], frames[below + 1]
+    nearer = np.where(share < 0.5, first, second)
+    mixed = (1.0 - share) * np.where(np.isnan(first), second, first) + share * np.where(
+        np.isnan(second), first, second
+    )
+    return np.where(np.isnan(nearer), np.nan, mixed)

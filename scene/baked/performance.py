@@ -1,0 +1,79 @@
+"""Several expressions of one face, one after another: a shape key and a clip for each, on one track of the timeline."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ...errors import ParameterError
+from ..progress import Work, part_of
+from . import action as actions
+from . import bake
+
+if TYPE_CHECKING:
+    from ...api import Cue
+
+ARCHETYPES = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
+#: Seconds of rest before, between and after expressions.
+PAUSE = 0.2
+#: Frame at which it begins.
+FIRST_FRAME = 1
+
+
+def cues_of(words: Sequence[str]) -> list[Cue]:
+    """One cue per word, one after another, each with the natural timing."""
+    from ... import api
+
+    if not words:
+        raise ParameterError("words", "must name at least one emotion", tuple(words))
+    timing = api.load_timings()["natural"]
+    cues: list[Cue] = []
+    start = PAUSE
+    for word in words:
+        profile = api.expression(word)
+        cues.append(api.Cue(profile, start=start, onset=timing.onset, apex=timing.apex, offset=timing.offset))
+        start = cues[-1].start + cues[-1].duration + PAUSE
+    return cues
+
+
+def pose_all(target: bake.Target, cues: Sequence[Cue], fps: float, creases: bool | None) -> Work[list[bake.BakeResult]]:
+    """One shape key per cue, each clip at its cue's time."""
+    results = []
+    for index, cue in enumerate(cues):
+        timing = bake.ClipTiming(
+            start=FIRST_FRAME + cue.start * fps, onset=cue.onset, apex=cue.apex, offset=cue.offset, fps=fps
+        )
+        work = bake.bake_expression(
+            target,
+            cue.profile.frame(),
+            clip=str(cue.profile.word),
+            timing=timing,
+            emotion=cue.profile.weights,
+            creases=creases,
+        )
+        share = 1.0 / len(cues)
+        results.append((yield from part_of(work, index * share, (index + 1) * share)))
+    return results
+
+
+def line_up(target: bake.Target, results: Sequence[bake.BakeResult]) -> int:
+    """Put the clips one after another on an NLA track of every mesh of the face; returns the last frame.
+
+    What the track held before goes; an action of the user's own stays as it is, on top.
+    """
+    for obj in target.objects():
+        animation = obj.data.shape_keys.animation_data if obj.data.shape_keys is not None else None
+        if animation is None:
+            continue
+        if animation.action is not None and actions.FACE_TAG in animation.action:
+            animation.action = None
+        for track in [track for track in animation.nla_tracks if track.name == actions.TRACK_NAME]:
+            animation.nla_tracks.remove(track)
+        track = animation.nla_tracks.new()
+        track.name = actions.TRACK_NAME
+        for result in results:
+            actions.add_strip(track, bpy.data.actions[result.action])
+    return int(np.ceil(max(result.frame_range[1] for result in results)))

@@ -1,0 +1,183 @@
+"""Risorius's own shape keys on a mesh: written, replaced and removed by name; the user's are never touched.
+
+Which keys are our own is recorded, per clip, as JSON in a property of the mesh's shape key datablock. A key that
+the user renames drops out of the record and is the user's from then on.
+"""
+
+from __future__ import annotations
+
+import json
+import uuid
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Floats
+
+RECORD = "risorius"
+
+
+@dataclass(frozen=True)
+class OwnKeys:
+    """What Risorius has put on one mesh.
+
+    Attributes
+    ----------
+    face : a name for this face that its actions carry too.
+    added_basis : the Basis is ours: there were no shape keys before.
+    clips : clip name -> names of its shape keys.
+    """
+
+    face: str = ""
+    added_basis: bool = False
+    clips: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All own shape keys, clip by clip."""
+        return tuple(name for keys in self.clips.values() for name in keys)
+
+
+def read_own(mesh: Any) -> OwnKeys:
+    """The record of `mesh`, without keys that no longer exist. Empty where there is none."""
+    return _record_of(mesh.shape_keys)
+
+
+def own_names_of(keys: Any | None) -> tuple[str, ...]:
+    """Names of the own keys of a shape key datablock."""
+    return _record_of(keys).names
+
+
+def _record_of(keys: Any | None) -> OwnKeys:
+    """The record of a shape key datablock."""
+    if keys is None or RECORD not in keys:
+        return OwnKeys()
+    try:
+        stored = json.loads(keys[RECORD])
+        clips = {
+            str(clip): tuple(str(name) for name in names if name in keys.key_blocks)
+            for clip, names in stored["clips"].items()
+        }
+        return OwnKeys(str(stored["face"]), bool(stored["added_basis"]), clips)
+    except (ValueError, KeyError, TypeError, AttributeError):
+        return OwnKeys()
+
+
+def _write_own(mesh: Any, own: OwnKeys) -> None:
+    """Store the record with the mesh's shape keys."""
+    stored = {"face": own.face, "added_basis": own.added_basis, "clips": {c: list(n) for c, n in own.clips.items()}}
+    mesh.shape_keys[RECORD] = json.dumps(stored)
+
+
+def free_names(wanted: Sequence[str], meshes: Iterable[Any], clip: str) -> tuple[str, ...]:
+    """`wanted` key names, numbered where a mesh already has such a key that is not `clip`'s own."""
+    taken: set[str] = set()
+    for mesh in meshes:
+        if mesh.shape_keys is not None:
+            ours = set(read_own(mesh).clips.get(clip, ()))
+            taken |= {block.name for block in mesh.shape_keys.key_blocks} - ours
+    chosen: list[str] = []
+    for name in wanted:
+        candidate, number = name, 1
+        while candidate in taken:
+            candidate, number = f"{name}.{number:03d}", number + 1
+        taken.add(candidate)
+        chosen.append(candidate)
+    return tuple(chosen)
+
+
+def _ensure_basis(obj: Any) -> OwnKeys:
+    """Give the mesh a Basis where it has no shape keys, and the face a name; return the record."""
+    if obj.data.shape_keys is None:
+        obj.shape_key_add(name="Basis", from_mix=False)
+        return OwnKeys(uuid.uuid4().hex, added_basis=True)
+    own = read_own(obj.data)
+    return own if own.face else replace(own, face=uuid.uuid4().hex)
+
+
+def write_keys(
+    obj: Any, clip: str, shapes: Mapping[str, Floats], *, slider_min: float = 0.0, face: str = ""
+) -> OwnKeys:
+    """Write the shape keys of one clip, in place of those it had before.
+
+    Parameters
+    ----------
+    obj : a mesh object that `refusals.refuse_unwritable` has let pass.
+    clip : which clip the keys belong to.
+    shapes : free key name (see `free_names`) -> (V, 3) positions in the mesh's own coordinates.
+    slider_min : lowest value of the keys; the highest is 1.
+    face : name of the face that this mesh is part of; by default its own.
+
+    Returns
+    -------
+    The new record of the mesh.
+    """
+    own = _ensure_basis(obj)
+    _remove_blocks(obj, [name for name in own.clips.get(clip, ()) if name not in shapes])
+    blocks = obj.data.shape_keys.key_blocks
+    for name, positions in shapes.items():
+        block = blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
+        block.slider_min, block.slider_max = slider_min, 1.0
+        block.value = 0.0
+        block.data.foreach_set("co", np.ascontiguousarray(positions, dtype=np.float32).ravel())
+    own = replace(own, face=face or own.face, clips={**own.clips, clip: tuple(shapes)})
+    _write_own(obj.data, own)
+    obj.data.update_tag()
+    return own
+
+
+def remove_keys(obj: Any, clips: Iterable[str] | None = None) -> tuple[str, ...]:
+    """Remove the shape keys of `clips` (default: all clips), and the Basis where it was ours and nothing is left.
+
+    Returns
+    -------
+    Names of the removed keys.
+    """
+    if obj.data.shape_keys is None:
+        return ()
+    own = read_own(obj.data)
+    going = set(own.clips) if clips is None else set(clips)
+    removed = tuple(name for clip, names in own.clips.items() if clip in going for name in names)
+    _remove_blocks(obj, removed)
+    left = {clip: names for clip, names in own.clips.items() if clip not in going}
+    if not left and own.added_basis and len(obj.data.shape_keys.key_blocks) == 1:
+        obj.shape_key_clear()
+        return removed
+    if left:
+        _write_own(obj.data, replace(own, clips=left))
+    elif RECORD in obj.data.shape_keys:
+        del obj.data.shape_keys[RECORD]
+    obj.data.update_tag()
+    return removed
+
+
+def _remove_blocks(obj: Any, names: Iterable[str]) -> None:
+    """Remove the named keys that exist."""
+    for name in names:
+        block = obj.data.shape_keys.key_blocks.get(name)
+        if block is not None:
+            obj.shape_key_remove(block)
+
+
+def own_face(mesh: Any) -> str:
+    """The name of the face that `mesh` is part of, or "" where nothing is baked on it."""
+    return read_own(mesh).face
+
+
+def has_own(obj: Any) -> bool:
+    """Whether Risorius has baked anything onto `obj`."""
+    return obj is not None and obj.type == "MESH" and bool(read_own(obj.data).clips)
+
+
+def settle_face(members: Sequence[Any]) -> tuple[str, str]:
+    """The name of the face that these meshes are, and the name it had before.
+
+    They differ where another mesh carries the old name too, which happens when a user duplicates a baked face: the
+    copy becomes a face of its own. Both are "" where nothing has been baked yet.
+    """
+    old = next((own_face(mesh) for mesh in members if own_face(mesh)), "")
+    strangers = [mesh for mesh in bpy.data.meshes if old and mesh not in members and own_face(mesh) == old]
+    return (uuid.uuid4().hex if strangers else old), old

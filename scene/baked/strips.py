@@ -1,0 +1,136 @@
+"""Baking a timeline as strips: a shape key, an action and an NLA strip per clip, to be moved about by hand.
+
+Clips that overlap lie on several tracks and add up; their curves hold what is left to each by the rules of blending.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Floats
+from ..creases import marks as crease_marks
+from ..faces import face_of
+from ..progress import Progress, Work
+from ..refusals import remarks
+from . import action as actions
+from . import shape_keys
+from .bake import BakeResult, Target, clear, write_baked
+from .notes import BakeKind, Note, read_notes
+
+if TYPE_CHECKING:
+    from ...face.drive.natural import EmotionShares
+
+
+@dataclass(frozen=True)
+class ClipShape:
+    """One clip of a timeline.
+
+    Attributes
+    ----------
+    clip : its name. frame : (68,) FAPs at its apex; NaN where silent. curve : how much of it shows, frame by frame.
+    settings : digest of what it is baked from. emotion, contractions : as for `Face.pose`.
+    """
+
+    clip: str
+    frame: Floats
+    curve: actions.Curve
+    settings: str = ""
+    emotion: EmotionShares | None = None
+    contractions: Mapping[str, float] = field(default_factory=dict)
+
+
+def bake_strips(
+    target: Target, shapes: Sequence[ClipShape], *, drive: str = "natural", creases: bool | None = None
+) -> Work[BakeResult]:
+    """Bake each clip as a shape key with an action of its own, and lay their strips on NLA tracks.
+
+    Strips baked before whose clips are gone from the timeline are removed.
+
+    Raises
+    ------
+    SceneError, ModelError, SolverError : nothing has been changed then.
+    """
+    yield Progress(0.0, "Reading the face")
+    source = target.source()
+    yield Progress(0.05, "Placing the muscles")
+    face = face_of(source)
+    moved = []
+    for number, shape in enumerate(shapes):
+        yield Progress(0.2 + 0.75 * number / len(shapes), f"Relaxing the skin into {shape.clip}")
+        pose = face.pose(shape.frame, drive=drive, emotion=shape.emotion, contractions=shape.contractions)
+        moved.append((np.asarray(pose.positions) - source.vertices)[None])
+    marks = crease_marks.prepare(source, creases)
+    yield Progress(0.95, "Writing the shape keys")
+    written: list[Any] = []
+    keys: list[str] = []
+    said: set[str] = set(remarks(source.head))
+    for shape, displacement in zip(shapes, moved, strict=True):
+        note = Note(BakeKind.STRIP, shape.settings, ((shape.clip, float(shape.curve.frames[0])),))
+        action, names, remark = write_baked(
+            target,
+            source,
+            shape.clip,
+            [shape.clip],
+            displacement,
+            [shape.curve],
+            slider_min=0.0,
+            creases=marks,
+            note=note,
+        )
+        written.append(action)
+        keys += names
+        said |= set(remark)
+    _remove_gone(target, [shape.clip for shape in shapes])
+    for datablock in _datablocks(target):
+        line_up(datablock, written)
+    ends = [tuple(action.frame_range) for action in written]
+    return BakeResult(
+        ", ".join(shape.clip for shape in shapes),
+        ", ".join(action.name for action in written),
+        tuple(keys),
+        0.0,
+        (min(start for start, _ in ends), max(end for _, end in ends)),
+        None,
+        tuple(sorted(said)),
+    )
+
+
+def _remove_gone(target: Target, clips: Iterable[str]) -> None:
+    """Remove strips of clips that are no longer there."""
+    notes = read_notes(shape_keys.own_face(target.obj.data))
+    gone = [clip for clip, note in notes.items() if note.kind is BakeKind.STRIP and clip not in set(clips)]
+    if gone:
+        clear(target, clips=gone)
+
+
+def _datablocks(target: Target) -> list[Any]:
+    """Shape key datablocks of the face's meshes."""
+    return [member.data.shape_keys for member in target.objects() if member.data.shape_keys is not None]
+
+
+def line_up(keys: Any, clips: Sequence[Any]) -> None:
+    """Lay actions on own NLA tracks of a shape key datablock, one below the other where they overlap, and play them.
+
+    A user's own action stays where it is and plays on top.
+    """
+    animation = keys.animation_data or keys.animation_data_create()
+    if animation.action is not None and actions.FACE_TAG in animation.action:
+        animation.action = None
+    for track in [track for track in animation.nla_tracks if actions.is_own_track(track)]:
+        animation.nla_tracks.remove(track)
+    tracks: list[Any] = []
+    for action in sorted(clips, key=lambda clip: float(clip.frame_start)):
+        free = (track for track in tracks if track.strips[-1].frame_end <= action.frame_start)
+        track = next(free, None)
+        if track is None:
+            track = animation.nla_tracks.new()
+            track.name = actions.TRACK_NAME
+            tracks.append(track)
+        strip = actions.add_strip(track, action)
+        strip.blend_type = "REPLACE" if track == tracks[0] else "ADD"
+    bpy.context.view_layer.update()

@@ -1,0 +1,162 @@
+"""Creases on a Blender mesh: attributes that say where they lie, and a modifier that says how full they are.
+
+Everything is the object's own and saved with it. The user's attributes, modifiers and materials stay as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...arrays import Floats
+from ..faces import FaceSource, face_of
+from . import nodes as nodes
+
+if TYPE_CHECKING:
+    from ...face.products.creases import Creases
+
+MODIFIER = "Risorius Creases"
+
+#: On an object whose resting positions are handed to its modifiers because of us.
+RESTING = "risorius_creases"
+
+#: By what the depth of a full crease multiplies the skin's colour: light that has gone through skin comes out red.
+DEPTH = (0.72, 0.54, 0.5)
+
+
+def prepare(source: FaceSource, wanted: bool | None) -> Creases | None:
+    """The creases to `settle` on a face.
+
+    Parameters
+    ----------
+    wanted : None: where a material of the head draws them, or they are there already.
+    """
+    from ...face.products.creases import Creases
+
+    if wanted is None:
+        wanted = has(source.head) or shown_by(source.head)
+    return Creases(face_of(source)) if wanted else None
+
+
+def settle(source: FaceSource, creases: Creases | None) -> None:
+    """Give the head these creases in place of those it had; None: take them away."""
+    obj = source.head
+    if creases is None:
+        remove(obj)
+        return
+    _clear(obj)
+    _write_places(obj, creases, source.pieces[0].slice)
+    if not obj.add_rest_position_attribute:
+        obj.add_rest_position_attribute = True
+        obj[RESTING] = True
+    modifier = obj.modifiers.new(MODIFIER, "NODES")
+    modifier.node_group = nodes.measuring_group(creases.rounds)
+    obj.modifiers.move(len(obj.modifiers) - 1, 0)
+    nodes.drawing_group().use_fake_user = not shown_by(obj)
+
+
+def remove(obj: Any) -> None:
+    """Take away all that `settle` has put on an object, and the node groups that nothing uses then."""
+    if has(obj):
+        _clear(obj)
+        nodes.forget_unused()
+
+
+def has(obj: Any) -> bool:
+    """Whether an object has creases."""
+    return any(_is_ours(modifier) for modifier in obj.modifiers)
+
+
+def shown_by(obj: Any) -> bool:
+    """Whether a material of the object draws creases: then they are worth having without being asked for."""
+    return any(
+        nodes.is_drawing(getattr(node, "node_tree", None))
+        for material in obj.data.materials
+        if material is not None and material.node_tree is not None
+        for node in material.node_tree.nodes
+    )
+
+
+def draw_in(material: Any) -> None:
+    """Let a material of ours draw creases: as a bump, and a little darker and redder in their depth.
+
+    The skin's colour stays a plain factor, which exporters understand.
+    """
+    graph = material.node_tree
+    surface = next(node for node in graph.nodes if node.type == "BSDF_PRINCIPLED")
+    x, y = surface.location
+    group = graph.nodes.new("ShaderNodeGroup")
+    group.node_tree = nodes.drawing_group()
+    group.location = (x - 660.0, y - 200.0)
+    graph.links.new(group.outputs["Normal"], surface.inputs["Normal"])
+    tint = _mix(graph, "MIX", (1.0, 1.0, 1.0, 1.0), (*DEPTH, 1.0))
+    tint.location = (x - 440.0, y)
+    graph.links.new(group.outputs["Shade"], _socket(tint.inputs, "Factor_Float"))
+    colour = _mix(graph, "MULTIPLY", surface.inputs["Base Color"].default_value, (1.0, 1.0, 1.0, 1.0))
+    colour.location = (x - 220.0, y)
+    _socket(colour.inputs, "Factor_Float").default_value = 1.0
+    graph.links.new(_socket(tint.outputs, "Result_Color"), _socket(colour.inputs, "B_Color"))
+    graph.links.new(_socket(colour.outputs, "Result_Color"), surface.inputs["Base Color"])
+
+
+def _mix(graph: Any, how: str, a: Any, b: Any) -> Any:
+    """A node that mixes two colours."""
+    node = graph.nodes.new("ShaderNodeMix")
+    node.data_type, node.blend_type = "RGBA", how
+    _socket(node.inputs, "A_Color").default_value = a
+    _socket(node.inputs, "B_Color").default_value = b
+    return node
+
+
+def _socket(sockets: Any, identifier: str) -> Any:
+    """A socket by its identifier: several bear the same name."""
+    return next(socket for socket in sockets if socket.identifier == identifier)
+
+
+def _write_places(obj: Any, creases: Creases, head: slice) -> None:
+    """The attributes that stay as they are in every pose."""
+    vectors = {nodes.HEAD: creases.head_positions[head]}
+    for name, crease in creases.creases.items():
+        places = crease.places[head]
+        vectors[nodes.PLACE + name] = np.column_stack([places, np.zeros(len(places))])
+    for name, values in vectors.items():
+        _write_attribute(obj.data, name, values)
+
+
+def _write_attribute(mesh: Any, name: str, vectors: Floats) -> None:
+    """A vector attribute (V, 3) of the vertices."""
+    attribute = mesh.attributes.new(name, "FLOAT_VECTOR", "POINT")
+    attribute.data.foreach_set("vector", np.ascontiguousarray(vectors, dtype=np.float32).ravel())
+
+
+@contextmanager
+def unmeasured(objects: Iterable[Any]) -> Iterator[None]:
+    """Renders that would not show creases, without measuring them: the modifiers rest, and are as they were after."""
+    shown = [m for obj in objects for m in obj.modifiers if _is_ours(m) and m.show_render]
+    for modifier in shown:
+        modifier.show_render = False
+    try:
+        yield
+    finally:
+        for modifier in shown:
+            modifier.show_render = True
+
+
+def _clear(obj: Any) -> None:
+    """Remove modifier and attributes."""
+    for modifier in [modifier for modifier in obj.modifiers if _is_ours(modifier)]:
+        obj.modifiers.remove(modifier)
+    ours = [a.name for a in obj.data.attributes if a.name == nodes.HEAD or a.name.startswith(nodes.PLACE)]
+    for name in ours:
+        obj.data.attributes.remove(obj.data.attributes[name])
+    if RESTING in obj:
+        obj.add_rest_position_attribute = False
+        del obj[RESTING]
+
+
+def _is_ours(modifier: Any) -> bool:
+    """Whether a modifier is that of `settle`."""
+    return modifier.type == "NODES" and nodes.is_measuring(modifier.node_group)

@@ -1,0 +1,202 @@
+"""Whose face a job is about: the default head, or a mesh from a file with its feature points."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Bools, Ints
+from ...errors import FormatError
+from ...face.mesh.parts import Part
+from .. import mesh as meshes
+from ..creases.marks import draw_in
+from ..faces import face_of, read_face, store_points
+from ..head import add_default_head, select_only
+from ..pictures.irises import iris_polygons, lay_irises
+from ..points.file import read_points
+from ..points.found import find_points
+from ..points.kept import has_points
+from ..progress import run
+
+if TYPE_CHECKING:
+    from ...face.face import Face
+
+#: Colours (linear RGB) of meshes that bring no materials, by part; the iris is cut out of the eyeballs.
+PLAIN_COLOURS = {
+    "Skin": (0.55, 0.36, 0.28),
+    "Sclera": (0.8, 0.78, 0.75),
+    "Teeth": (0.75, 0.7, 0.6),
+    "Tongue": (0.45, 0.14, 0.13),
+    "Other": (0.16, 0.1, 0.08),
+    "Iris": (0.1, 0.2, 0.25),
+    "Pupil": (0.01, 0.01, 0.01),
+    "Mouth": (0.13, 0.035, 0.035),
+}
+_COLOUR_OF_PART = {
+    Part.SKIN: 0,
+    Part.EYEBALL_L: 1,
+    Part.EYEBALL_R: 1,
+    Part.TEETH_UPPER: 2,
+    Part.TEETH_LOWER: 2,
+    Part.TONGUE: 3,
+    Part.OTHER: 4,
+}
+_MOUTH = list(PLAIN_COLOURS).index("Mouth")
+
+#: From this many pieces on, teeth are modelled one by one.
+MANY_TEETH = 8
+
+
+def subject(
+    mesh: str | Path | None = None, points: str | Path | None = None, *, creases: bool = False
+) -> Any:
+    """Put the face of a job into the current scene.
+
+    Parameters
+    ----------
+    mesh : .npz, .obj, .blend, .glb or .gltf; by default the default head.
+    points : JSON file of its feature points; left out, they are those stored in a .blend, or found on the mesh.
+    creases : whether the skin of a mesh that brings no materials shows creases.
+
+    Returns
+    -------
+    The object.
+
+    Raises
+    ------
+    FormatError, SceneError : a file that cannot be read, or no mesh in it.
+    ModelError : no points given and no face found.
+    """
+    if mesh is None:
+        return add_default_head()
+    path = Path(mesh)
+    suffix = path.suffix.lower()
+    if suffix in (".npz", ".obj"):
+        obj = _from_arrays(path)
+    elif suffix == ".blend":
+        obj = _from_blend(path)
+    elif suffix in (".glb", ".gltf"):
+        obj = _from_gltf(path)
+    else:
+        raise FormatError(path, "is none of .npz, .obj, .blend, .glb and .gltf: export the mesh as one of these")
+    if points is not None:
+        store_points(obj, read_points(points))
+    if not has_points(obj):
+        run(find_points(obj))
+    if not obj.data.materials:
+        paint_parts(obj, creases=creases)
+    select_only(obj)
+    return obj
+
+
+def _from_arrays(path: Path) -> Any:
+    """A mesh that is read without Blender, vertex for vertex."""
+    from ...face.mesh.files import read_mesh
+
+    stored = read_mesh(path)
+    obj = bpy.data.objects.new(
+        path.stem, meshes.new_mesh(path.stem, stored.vertices, *meshes.flatten_polygons(stored.polygons))
+    )
+    bpy.context.collection.objects.link(obj)
+    return obj
+
+
+def _from_blend(path: Path) -> Any:
+    """The mesh object of a .blend: the one with feature points, else the one with the most vertices."""
+    if not path.is_file():
+        raise FormatError(path, "there is no such file")
+    try:
+        with bpy.data.libraries.load(str(path)) as (there, here):
+            here.objects = list(there.objects)
+    except OSError as problem:
+        raise FormatError(path, f"is not a .blend that this Blender reads ({problem})") from problem
+    found = [obj for obj in here.objects if obj is not None]
+    chosen = _largest(found, path)
+    for obj in found:
+        if obj == chosen or obj.parent is not None or obj.type in {"MESH", "ARMATURE", "EMPTY"}:
+            bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.update()
+    return chosen
+
+
+def _from_gltf(path: Path) -> Any:
+    """The largest mesh of a glTF file."""
+    if not path.is_file():
+        raise FormatError(path, "there is no such file")
+    before = set(bpy.data.objects)
+    try:
+        bpy.ops.import_scene.gltf(filepath=str(path))
+    except (RuntimeError, AttributeError) as problem:
+        raise FormatError(path, f"cannot be imported: {problem}") from problem
+    return _largest([obj for obj in bpy.data.objects if obj not in before], path)
+
+
+def _largest(objects: list[Any], path: Path) -> Any:
+    """The mesh with feature points, else the one with the most vertices."""
+    candidates = [obj for obj in objects if obj.type == "MESH"]
+    if not candidates:
+        raise FormatError(path, "has no mesh in it")
+    return max(candidates, key=lambda obj: (has_points(obj), len(obj.data.vertices)))
+
+
+def paint_parts(obj: Any, *, creases: bool = False) -> None:
+    """Give a mesh without materials one per part of its face, so that eyes and teeth can be told from skin."""
+    face = face_of(read_face(obj))
+    parts = np.asarray(face.parts)
+    corners, sizes = meshes.polygon_arrays(obj.data)
+    first = corners[np.cumsum(sizes) - sizes]
+    lookup = np.zeros(max(_COLOUR_OF_PART) + 1, dtype=np.int64)
+    for part, index in _COLOUR_OF_PART.items():
+        lookup[part] = index
+    colours = lookup[parts[first]]
+    for polygons, name in zip(iris_polygons(face, corners, sizes), ("Iris", "Pupil"), strict=True):
+        colours[polygons] = list(PLAIN_COLOURS).index(name)
+    colours[_gums(face, parts, first)] = _COLOUR_OF_PART[Part.TONGUE]
+    colours[_lining(face, corners, sizes)] = _MOUTH
+    painted = {}
+    for name, colour in PLAIN_COLOURS.items():
+        material = bpy.data.materials.new(f"Risorius plain {name.lower()}")
+        material.diffuse_color = (*colour, 1.0)
+        if material.node_tree is None:
+            material.use_nodes = True
+        for node in material.node_tree.nodes:
+            if node.type == "BSDF_PRINCIPLED":
+                node.inputs["Base Color"].default_value = (*colour, 1.0)
+        if creases and name == "Skin":
+            draw_in(material)
+        obj.data.materials.append(material)
+        painted[name] = material
+    eye = {name: np.array(PLAIN_COLOURS[name]) for name in ("Sclera", "Iris", "Pupil")}
+    lay_irises(obj, face, [painted[name] for name in eye], sclera=eye["Sclera"], iris=eye["Iris"], pupil=eye["Pupil"])
+    obj.data.polygons.foreach_set("material_index", colours.astype(np.int32))
+    obj.data.update()
+
+
+def _lining(face: Face, corners: Ints, sizes: Ints) -> Bools:
+    """(F,) polygons of skin behind the lips, by the corners of all polygons (L,) and their sizes (F,)."""
+    anatomy, starts = face.anatomy, np.cumsum(sizes) - sizes
+    inner = np.asarray(face.parts) == Part.SKIN
+    inner[anatomy.given_skin.index] = False
+    centres = np.add.reduceat(anatomy.mesh.positions[corners], starts) / sizes[:, None]
+    lips, *eyes = (
+        np.linalg.norm(centres - np.mean([anatomy.given_skin.points[name] for name in names], axis=0), axis=1)
+        for names in (("2.2", "2.3"), ("3.7", "3.11"), ("3.8", "3.12"))
+    )
+    behind: Bools = np.logical_or.reduceat(inner[corners], starts) & (lips < np.minimum(*eyes))
+    return behind
+
+
+def _gums(face: Face, parts: Ints, first: Ints) -> Bools:
+    """(F,) polygons of gums, by their first corners (F,): where every tooth is a piece, the large pieces are gums."""
+    from ...face.mesh.segmentation import pieces
+
+    label = pieces(face.polygons, len(parts))
+    teeth = np.isin(parts, (Part.TEETH_UPPER, Part.TEETH_LOWER))
+    found, counts = np.unique(label[teeth], return_counts=True)
+    if len(found) < MANY_TEETH:
+        return np.zeros(len(first), dtype=bool)
+    large = found[counts > 4 * np.median(counts)]
+    return np.isin(label[first], large)

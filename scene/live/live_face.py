@@ -1,0 +1,126 @@
+"""One face held ready for a live preview: read once, worked out bit by bit, sketched again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...arrays import Floats, Ints
+from ..baked.bake import Target
+from ..faces import face_of
+from ..mesh import rest_vertices
+from ..points.kept import POINTS
+from ..progress import Progress, Work
+from . import preview
+
+if TYPE_CHECKING:
+    from ...face.drive.natural import EmotionShares
+    from ...face.products.muscle_lines import MuscleLines
+
+#: Stops on a traced way, and distance of the traced vertices, metres.
+STOPS, SPACING = 7, 7e-3
+
+
+def uid_of(obj: Any) -> int:
+    """A number that an object keeps while Blender runs, through renaming and undo."""
+    return int(obj.session_uid)
+
+
+def print_of(target: Target) -> str:
+    """A fingerprint of all that a face is read from; cheap."""
+    digest = blake2b(digest_size=16)
+    for obj in target.objects():
+        digest.update(f"{uid_of(obj)} {len(obj.data.polygons)}".encode())
+        digest.update(np.array(obj.matrix_world, dtype=np.float32)[:3, :3].tobytes())
+        digest.update(rest_vertices(obj.data).tobytes())
+    digest.update(str(target.obj.data.get(POINTS, "")).encode())
+    return digest.hexdigest()
+
+
+class LiveFace:
+    """A face that shows itself on its own objects without changing them; see `preview`.
+
+    `contractions` are those of the last sketch or pose; `paths` (k, T, 3) the skin's ways into the last traced
+    expression, in the head mesh's own coordinates, or None.
+    """
+
+    def __init__(self, target: Target) -> None:
+        """Read the face.
+
+        Raises
+        ------
+        SceneError, ModelError : as for a bake.
+        """
+        self.uid, self.print = uid_of(target.obj), print_of(target)
+        self._source = target.source()
+        self._face = face_of(self._source)
+        self._sketcher = self._face.sketcher()
+        self.contractions: Mapping[str, float] = {}
+        self.paths: Floats | None = None
+
+    def is_of(self, target: Target) -> bool:
+        """Whether the face is still as it was read."""
+        return print_of(target) == self.print
+
+    def prepare(self) -> Work[None]:
+        """Work out what the first sketch needs."""
+        for fraction, text in self._face.prepare():
+            yield Progress(fraction, text)
+
+    def moved(
+        self,
+        frame: Floats,
+        *,
+        drive: str,
+        emotion: EmotionShares | None = None,
+        contractions: Mapping[str, float] | None = None,
+        exact: bool = False,
+    ) -> Floats:
+        """(V, 3) displacement for one frame of FAPs, metres: a sketch (`Face.sketcher`), or in balance as a bake is."""
+        show = self._face.pose if exact else self._sketcher.sketch
+        shown = show(frame, drive=drive, emotion=emotion, contractions=contractions)
+        self.contractions = shown.contractions
+        moved: Floats = shown.positions - self._source.vertices
+        return moved
+
+    def trace(self, frame: Floats, **asked: Any) -> None:
+        """Find the skin's ways from rest to a frame of FAPs; keywords as for `moved`."""
+        rest, contractions = self._source.vertices[self._traced], self.contractions
+        stops = [self.moved(share * frame, **asked)[self._traced] for share in np.linspace(0.0, 1.0, STOPS)[1:]]
+        self.contractions = contractions
+        self.paths = self._local(np.stack([rest, *[rest + moved for moved in stops]], axis=1))
+
+    @cached_property
+    def _traced(self) -> Ints:
+        """The vertices whose ways are traced."""
+        from ...face.products.trajectories import sampled_vertices
+
+        return sampled_vertices(self._face, SPACING)
+
+    def muscle_strands(self, shown: Floats) -> dict[str, Floats]:
+        """Muscle name -> (s, n, 3) strands, in the head mesh's own coordinates, where its vertices show (V, 3)."""
+        head = self._source.pieces[0]
+        moved = np.zeros_like(self._source.vertices)
+        moved[head.slice] = (shown - head.rest) @ head.to_metres[:3, :3].T
+        return {name: self._local(lines.moved(moved)) for name, lines in self._muscle_lines.items()}
+
+    @cached_property
+    def _muscle_lines(self) -> Mapping[str, MuscleLines]:
+        from ...face.products.muscle_lines import muscle_lines
+
+        return muscle_lines(self._face)
+
+    def _local(self, places: Floats) -> Floats:
+        """Places (..., 3) of the joined metres in the head mesh's own coordinates."""
+        to_metres = self._source.pieces[0].to_metres
+        local: Floats = (places - to_metres[:3, 3]) @ np.linalg.inv(to_metres[:3, :3]).T
+        return local
+
+    def show(self, target: Target, moved: Floats) -> None:
+        """Show a displacement on the objects of the face, which may be others than those read where undo made them."""
+        for piece, obj in zip(self._source.pieces, target.objects(), strict=True):
+            preview.show(obj, piece.local_positions(moved))

@@ -1,0 +1,106 @@
+"""A face shown as it would be, on top of whatever the mesh is, and taken away again without a trace.
+
+The shown positions are an attribute of the mesh that a modifier, first in the stack, puts in place of the vertices:
+shape keys and animation stay as they are, and later modifiers go on working. Renders do not show it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Floats
+from ..node_graph import NodeGraph
+
+NAME = "Risorius Preview"
+ATTRIBUTE = "risorius_preview"
+
+
+def show(obj: Any, positions: Floats) -> None:
+    """Show positions (V, 3) in the mesh's own coordinates."""
+    mesh = obj.data
+    attribute = mesh.attributes.get(ATTRIBUTE)
+    if attribute is None or len(attribute.data) != len(mesh.vertices):
+        if attribute is not None:
+            mesh.attributes.remove(attribute)
+        attribute = mesh.attributes.new(ATTRIBUTE, "FLOAT_VECTOR", "POINT")
+    attribute.data.foreach_set("vector", np.ascontiguousarray(positions, dtype=np.float32).ravel())
+    modifier = _modifier(obj)
+    if modifier is None:
+        modifier = obj.modifiers.new(NAME, "NODES")
+        modifier.node_group = _group()
+        modifier.show_render = modifier.show_in_editmode = modifier.show_expanded = False
+        obj.modifiers.move(len(obj.modifiers) - 1, 0)
+    modifier.show_viewport = True
+    mesh.update_tag()
+
+
+def rest(objects: Sequence[Any]) -> None:
+    """Let objects show themselves again, ready for the next `show`."""
+    for obj in objects:
+        modifier = _modifier(obj)
+        if modifier is not None and modifier.show_viewport:
+            modifier.show_viewport = False
+
+
+def is_shown(obj: Any) -> bool:
+    """Whether `obj` shows a preview now."""
+    modifier = _modifier(obj)
+    return modifier is not None and bool(modifier.show_viewport)
+
+
+def has_preview(obj: Any) -> bool:
+    """Whether anything of a preview is on `obj`."""
+    return obj.type == "MESH" and (_modifier(obj) is not None or ATTRIBUTE in obj.data.attributes)
+
+
+def remove_all() -> None:
+    """Take every preview out of the file, wherever it may have been left."""
+    for obj in bpy.data.objects:
+        if obj.type == "MESH" and obj.library is None:
+            modifier = _modifier(obj)
+            if modifier is not None:
+                obj.modifiers.remove(modifier)
+    remove_unused()
+
+
+def remove_unused() -> None:
+    """Take away what no object shows any more: places on meshes, and the modifier's group."""
+    shown = {obj.data for obj in bpy.data.objects if obj.type == "MESH" and _modifier(obj) is not None}
+    for mesh in bpy.data.meshes:
+        attribute = mesh.attributes.get(ATTRIBUTE) if mesh.library is None and mesh not in shown else None
+        if attribute is not None and not mesh.is_editmode:
+            mesh.attributes.remove(attribute)
+    for tree in [tree for tree in bpy.data.node_groups if _is_ours(tree)]:
+        if tree.users - tree.use_fake_user == 0:
+            bpy.data.node_groups.remove(tree)
+
+
+def _modifier(obj: Any) -> Any | None:
+    """Our modifier on an object."""
+    return next((m for m in obj.modifiers if m.type == "NODES" and _is_ours(m.node_group)), None)
+
+
+def _is_ours(tree: Any | None) -> bool:
+    """Whether a node tree is our group, or a copy of it."""
+    return tree is not None and tree.bl_idname == "GeometryNodeTree" and tree.name.startswith(NAME)
+
+
+def _group() -> Any:
+    """The geometry node group that puts vertices where the attribute says."""
+    for tree in bpy.data.node_groups:
+        if _is_ours(tree) and tree.library is None:
+            return tree
+    graph = NodeGraph(NAME, "GeometryNodeTree")
+    graph.tree.is_modifier = True
+    geometry = graph.takes("Geometry", "NodeSocketGeometry")
+    place = graph.node("GeometryNodeInputNamedAttribute", settings={"data_type": "FLOAT_VECTOR"}, Name=ATTRIBUTE)
+    there = place.outputs["Attribute"]
+    moved = graph.node(
+        "GeometryNodeSetPosition", Geometry=geometry, Position=there, Selection=place.outputs["Exists"]
+    ).outputs[0]
+    graph.gives(Geometry=moved)
+    return graph.arranged()

@@ -1,0 +1,193 @@
+"""Reading a face as Blender shows it: shape keys, bones and modifiers applied, however it was animated.
+
+What shows is measured against the resting mesh. Motion of the head as a whole (a bone, the object) is no expression:
+the object's own motion is left out by its coordinates, a bone's by the skull, or by points that expressions hardly move
+where the mesh is a mask without one. Only the head's own mesh is read: eyes that are objects of their own are not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Floats
+from ...errors import ModelError, ParameterError, SceneError
+from ..faces import face_of, read_face
+from ..mesh import metres_matrix, rest_vertices
+from ..points.kept import POINTS
+from ..points.seen import Visible
+from ..progress import Progress, Work
+from .live_face import uid_of
+from .shown_rest import shown_rest
+
+if TYPE_CHECKING:
+    from ...api import Beliefs, BeliefTrack
+
+#: Corners of the eyes, bridge of the nose and ears: they tell how a mask without a skull has moved as a whole.
+STEADY = ("3.7", "3.8", "3.11", "3.12", "9.12", "10.7", "10.8", "10.9", "10.10")
+#: An expression less strong than this share of the one it is most like is as good as none.
+RESTING = 0.2
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a face shows at one moment.
+
+    Attributes
+    ----------
+    frame : (68,) FAPs in FAP units; NaN where the face has no such point.
+    features : (15,) features of Table 3; None where the face lacks points for them.
+    beliefs : in the six emotions.
+    words : emotion word -> belief, the most believed first.
+    strength : how strongly the most believed emotion is shown, 1 as its profile asks.
+    """
+
+    frame: Floats
+    features: Floats | None
+    beliefs: Beliefs
+    words: dict[str, float]
+    strength: float
+
+    @property
+    def is_resting(self) -> bool:
+        """Whether there is hardly any expression."""
+        return self.strength < RESTING
+
+
+class FaceReader:
+    """One face held ready to be read again and again, as long as its resting mesh stays as it is."""
+
+    def __init__(self, obj: Any) -> None:
+        """Read the resting face.
+
+        Raises
+        ------
+        SceneError, ModelError : no face, no feature points; says what to do.
+        """
+        self.obj, self.uid = obj, uid_of(obj)
+        self.print = print_of(obj)
+        source = read_face(obj)
+        self._face = face_of(source)
+        self._to_metres = source.pieces[0].to_metres[:3, :3]
+        self._rest = source.pieces[0].rest
+        self._shown_rest: Floats | None = None
+        anatomy = self._face.anatomy
+        held = [n for n in STEADY if n in self._face.points and self._face.points[n].is_bound]
+        is_mask = len(anatomy.head_turn.skull) < 4
+        self._steady = anatomy.mesh.points.matrix(held) if is_mask and len(held) >= 4 else None
+
+    def is_of(self, obj: Any) -> bool:
+        """Whether `obj` still is the face that was read."""
+        return uid_of(obj) == self.uid and print_of(obj) == self.print
+
+    def positions(self, depsgraph: Any) -> Floats:
+        """(V, 3) vertices of the mesh in metres as they show.
+
+        Raises
+        ------
+        SceneError : modifiers make other vertices of the mesh; names them.
+        """
+        visible = Visible.of(self.obj, depsgraph)
+        moved = visible.vertices if visible.same_polygons else self._rest + self._displacement(visible)
+        found = moved @ self._to_metres.T
+        return found if self._steady is None else _steadied(found, self._rest @ self._to_metres.T, self._steady)
+
+    def _displacement(self, visible: Visible) -> Floats:
+        """(V, 3) of the mesh's own vertices, which lead those that show; in the object's coordinates."""
+        shown = visible.shown.data
+        if self._shown_rest is None or len(self._shown_rest) != len(shown.vertices):
+            self._shown_rest = shown_rest(self.obj, len(shown.vertices))
+        flat = np.empty(3 * len(shown.vertices), dtype=np.float32)
+        shown.vertices.foreach_get("co", flat)
+        count = len(self._rest)
+        moved: Floats = flat.astype(np.float64).reshape(-1, 3)[:count] - self._shown_rest[:count]
+        return moved
+
+    def measure(self, depsgraph: Any) -> Floats:
+        """(68,) FAPs as the face shows them; NaN where it has no such point.
+
+        Raises
+        ------
+        SceneError : as `positions`; vertices that are not finite.
+        """
+        return self._measured(self.positions(depsgraph))
+
+    def _measured(self, positions: Floats) -> Floats:
+        """(68,) FAPs of positions."""
+        try:
+            return self._face.measure(positions)
+        except ParameterError as problem:
+            raise SceneError(self.obj.name, f"cannot be measured as it shows: {problem}") from problem
+
+    def read(self, depsgraph: Any, *, rule: str = "paper", words: Iterable[str] = ()) -> Reading:
+        """What the face shows now.
+
+        Parameters
+        ----------
+        rule : as for `recognise`. words : emotion words to compare with, besides the six.
+
+        Raises
+        ------
+        SceneError : as `measure`.
+        """
+        from ... import api
+
+        positions = self.positions(depsgraph)
+        frame = self._measured(positions)
+        try:
+            features: Floats | None = self._face.features(positions)
+        except ModelError:
+            features = None
+        beliefs = api.recognise(frame, rule=rule)
+        profile = beliefs.best_profile
+        strength = 0.0 if profile is None else api.shown_strength(frame, profile)
+        return Reading(frame, features, beliefs, api.recognise_words(frame, words), strength)
+
+
+def print_of(obj: Any) -> bytes:
+    """A fingerprint of all that a resting face is read from; cheap."""
+    digest = blake2b(rest_vertices(obj.data).tobytes(), digest_size=16)
+    digest.update(metres_matrix(obj).round(6).tobytes())
+    digest.update(f"{len(obj.data.polygons)} {obj.data.get(POINTS, '')}".encode())
+    return digest.digest()
+
+
+def _steadied(positions: Floats, rest: Floats, reader: Any) -> Floats:
+    """Positions (V, 3) moved back as a whole, so that their steady points lie on those at rest."""
+    from scipy.spatial.transform import Rotation
+
+    was, now = np.asarray(reader @ rest), np.asarray(reader @ positions)
+    turn, _ = Rotation.align_vectors(was - was.mean(axis=0), now - now.mean(axis=0))
+    back: Floats = turn.apply(positions - now.mean(axis=0)) + was.mean(axis=0)
+    return back
+
+
+def read_animation(obj: Any, scene: Any, *, start: int, end: int, rule: str = "paper") -> Work[BeliefTrack]:
+    """Read a face at every frame of a range. The scene's frame is put back, also where the work is closed early.
+
+    Raises
+    ------
+    SceneError, ModelError : as `FaceReader`. ParameterError : an empty range.
+    """
+    from ... import api
+
+    if end < start:
+        raise ParameterError("end", f"must not lie before the first frame {start}", end)
+    yield Progress(0.0, "Reading the resting face")
+    reader = FaceReader(obj)
+    now, between = scene.frame_current, scene.frame_subframe
+    frames = []
+    try:
+        for number in range(start, end + 1):
+            scene.frame_set(number)
+            frames.append(reader.measure(bpy.context.evaluated_depsgraph_get()))
+            yield Progress((number - start + 1) / (end - start + 1) * 0.98, f"Reading frame {number}")
+    finally:
+        scene.frame_set(now, subframe=between)
+    fps = scene.render.fps / scene.render.fps_base
+    return api.recognise_over_time(np.array(frames), rule=rule, fps=fps, first_frame=start)

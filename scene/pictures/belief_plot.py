@@ -1,0 +1,137 @@
+"""Beliefs over time as a picture: a curve per emotion, and below them a band of the emotion that is most believed."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Floats
+from ..live.reading import RESTING
+from .lettering import Text, write_text
+
+if TYPE_CHECKING:
+    from ...api import BeliefTrack
+
+#: Pixels: the picture, the field of the curves within it (left, top, right, bottom), the band below.
+WIDTH, HEIGHT = 1280, 640
+LEFT, TOP, RIGHT, BOTTOM = 80, 84, 1090, 520
+BAND_TOP, BAND_BOTTOM = 556, 578
+TITLE, LETTER, LINE = 26.0, 18.0, 1.6
+#: Grey levels: ground, field, lines of the grid, letters.
+GROUND, FIELD, GRID, INK = 0.11, 0.15, 0.27, 0.88
+#: Steps between lines of the grid: frames, and the highest belief.
+FRAME_STEPS = (1, 2, 5, 10, 20, 25, 50, 100, 200, 250, 500, 1000, 2000, 5000, 10000)
+HEIGHTS = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0)
+
+Colour = tuple[float, float, float]
+
+
+def draw_plot(track: BeliefTrack, title: str, colours: Mapping[str, Colour]) -> Floats:
+    """(640, 1280, 3) the plot, 0..1, first row at the top.
+
+    Parameters
+    ----------
+    colours : emotion -> its colour, 0..1.
+    """
+    from ... import api
+
+    top = next((height for height in HEIGHTS if height >= track.beliefs.max(initial=0.0)), 1.0)
+    picture = np.full((HEIGHT, WIDTH, 3), GROUND)
+    picture[TOP:BOTTOM, LEFT:RIGHT] = FIELD
+    for share in range(5):
+        row = round(BOTTOM + share * (TOP - BOTTOM) / 4)
+        picture[row : row + 1, LEFT:RIGHT] = GRID
+    for number in _frames(track):
+        column = round(_column(track, number))
+        picture[TOP:BOTTOM, column : column + 1] = GRID
+    for values, name in zip(track.beliefs.T, api.ARCHETYPES, strict=True):
+        _draw_curve(picture, values / top, colours[name])
+    _draw_band(picture, track, colours)
+    for index, name in enumerate(api.ARCHETYPES):
+        row = round(TOP + 10 + 2 * LETTER * index)
+        picture[row - 2 : row + 3, RIGHT + 22 : RIGHT + 50] = colours[name]
+    with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
+        ink = 1.0 - write_text(_texts(track, title, top), WIDTH, HEIGHT, Path(folder))
+    drawn: Floats = np.clip(picture * (1.0 - ink) + INK * ink, 0.0, 1.0)
+    return drawn
+
+
+def _frames(track: BeliefTrack) -> list[int]:
+    """Round frame numbers for at most ten lines of the grid."""
+    first, last = int(track.numbers[0]), int(track.numbers[-1])
+    step = next((step for step in FRAME_STEPS if (last - first) / step <= 10), FRAME_STEPS[-1])
+    return list(range(-(-first // step) * step, last + 1, step))
+
+
+def _column(track: BeliefTrack, number: float) -> float:
+    """The pixel column of a frame."""
+    span = max(1.0, float(track.numbers[-1] - track.numbers[0]))
+    return LEFT + (number - float(track.numbers[0])) / span * (RIGHT - 1 - LEFT)
+
+
+def _draw_curve(picture: Floats, values: Floats, colour: Colour) -> None:
+    """A line of three pixels through values (T,), 0..1, over the field."""
+    columns = np.arange(LEFT, RIGHT)
+    stops = np.linspace(LEFT, RIGHT - 1, len(values)) if len(values) > 1 else np.array([LEFT])
+    rows = BOTTOM - np.interp(columns, stops, values) * (BOTTOM - TOP)
+    slope = np.abs(np.gradient(rows))
+    across = 1.5 * np.hypot(1.0, slope)
+    distance = np.abs(np.arange(TOP - 3, BOTTOM + 3)[:, None] - rows)
+    cover = np.clip(across + 0.5 - distance, 0.0, 1.0)[:, :, None]
+    field = picture[TOP - 3 : BOTTOM + 3, LEFT:RIGHT]
+    field += cover * (np.array(colour) - field)
+
+
+def _draw_band(picture: Floats, track: BeliefTrack, colours: Mapping[str, Colour]) -> None:
+    """For each frame the colour of the most believed emotion, the fuller the more it is shown; grey at rest."""
+    nearest = np.linspace(0, len(track.frames) - 1, RIGHT - LEFT).round().astype(int)
+    shades = np.full((len(track.frames), 3), FIELD)
+    for index, name in enumerate(track.best):
+        share = min(1.0, float(track.strengths[index]))
+        if name is not None and share >= RESTING:
+            shades[index] += share * (np.array(colours[name]) - shades[index])
+    picture[BAND_TOP:BAND_BOTTOM, LEFT:RIGHT] = shades[nearest]
+
+
+def _texts(track: BeliefTrack, title: str, top: float) -> list[Text]:
+    """Title, numbers at both axes, names of the emotions."""
+    from ... import api
+
+    texts = [Text((title,), LEFT, 48, TITLE)]
+    for share in range(5):
+        row = BOTTOM + share * (TOP - BOTTOM) / 4 + 0.35 * LETTER
+        texts.append(Text((f"{share * top / 4:.3g}",), LEFT - 10, row, LETTER, right=True))
+    for number in _frames(track):
+        texts.append(Text((str(number),), _column(track, number) - 8, BOTTOM + 1.4 * LETTER, LETTER))
+    for index, name in enumerate(api.ARCHETYPES):
+        texts.append(Text((name.capitalize(),), RIGHT + 60, TOP + 10 + 2 * LETTER * index + 0.35 * LETTER, LETTER))
+    texts.append(Text(("most believed",), RIGHT + 22, BAND_BOTTOM - 5, LETTER))
+    texts.append(
+        Text(
+            ("Frames. The band is grey where the face is at rest, and fuller the stronger it shows.",),
+            LEFT,
+            BAND_BOTTOM + 1.9 * LETTER,
+            LETTER,
+        )
+    )
+    return texts
+
+
+def keep_plot(name: str, pixels: Floats) -> Any:
+    """Keep a plot (h, w, 3) in the file as an image of this name, in place of the one that was there."""
+    height, width, _ = pixels.shape
+    image = bpy.data.images.get(name) or bpy.data.images.new(name, width, height, alpha=False)
+    if tuple(image.size) != (width, height):
+        image.scale(width, height)
+    full = np.ones((height, width, 4), dtype=np.float32)
+    full[:, :, :3] = pixels[::-1]
+    image.pixels.foreach_set(full.ravel())
+    image.update()
+    image.pack()
+    image.use_fake_user = True
+    return image

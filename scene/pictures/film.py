@@ -1,0 +1,147 @@
+"""Films of a face: PNG frames, then an MP4 by Blender's own encoder."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ...errors import SceneError
+from ..progress import Progress, Work
+from .framing import framing_of
+from .studio import Look, render_frame, studio, usable_engine
+
+
+@dataclass(frozen=True)
+class FilmResult:
+    """A rendered film: the MP4 where one was asked for, its number of frames, the PNG folder where kept, remarks."""
+
+    path: Path | None
+    frame_count: int
+    frames: Path | None = None
+    remarks: tuple[str, ...] = ()
+
+
+def refuse_unwritable_output(path: Path) -> None:
+    """Refuse an output file that cannot be written, before anything is rendered; missing folders are made.
+
+    Raises
+    ------
+    SceneError : names the path and the remedy.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if path.is_dir():
+            raise IsADirectoryError(21, "is a folder")
+        with tempfile.NamedTemporaryFile(dir=path.parent, prefix=".risorius-"):
+            pass
+        if path.exists():
+            with path.open("r+b"):
+                pass
+    except OSError as problem:
+        raise SceneError(
+            str(path), f"cannot be written ({problem.strerror or problem}): choose a file in a folder of yours"
+        ) from problem
+
+
+def render_film(
+    objects: Sequence[Any],
+    path: str | Path | None,
+    *,
+    start: int,
+    end: int,
+    look: Look | None = None,
+    frames: str | Path | None = None,
+) -> Work[FilmResult]:
+    """Render the face of ``objects[0]``, well framed and lit, as an MP4.
+
+    Parameters
+    ----------
+    objects : the face's objects, the head first.
+    path : the MP4 to write; an older one is replaced only once the new one is complete. None: pictures only.
+    start, end : first and last frame of the timeline.
+    frames : a folder to keep the PNG frames in; by default they are thrown away.
+
+    Raises
+    ------
+    SceneError : an output that cannot be written, no frames, or an engine that is not there.
+    """
+    look = look or Look()
+    film = Path(path) if path is not None else None
+    kept = Path(frames) if frames is not None else None
+    if film is None and kept is None:
+        raise SceneError("Film", "neither a film nor pictures are wanted: choose one of them")
+    if end < start:
+        raise SceneError("Film", f"would have no frames: its end {end} lies before its start {start}")
+    for output in (film, kept / "0001.png" if kept is not None else None):
+        if output is not None:
+            refuse_unwritable_output(output)
+    _, remark = usable_engine(look.engine)
+    with tempfile.TemporaryDirectory(prefix="risorius-") as temporary:
+        folder = kept if kept is not None else Path(temporary)
+        pictures = yield from render_frames(objects, folder, start=start, end=end, look=look)
+        if film is not None:
+            yield Progress(0.95, "Encoding the film")
+            shutil.copyfile(encode(pictures, Path(temporary) / "film.mp4", look=look), film)
+    return FilmResult(film, len(pictures), kept, (remark,) if remark else ())
+
+
+def render_frames(
+    objects: Sequence[Any], folder: Path, *, start: int, end: int, look: Look
+) -> Work[list[Path]]:
+    """Render frames `start` to `end` as numbered PNGs into `folder`."""
+    pictures = []
+    count = end - start + 1
+    with studio(objects, framing_of(objects[0]), look) as scene:
+        for index, frame in enumerate(range(start, end + 1)):
+            pictures.append(render_frame(scene, frame, folder))
+            yield Progress(0.95 * (index + 1) / count, f"Rendering frame {index + 1} of {count}")
+    return pictures
+
+
+def encode(pictures: Sequence[Path], path: Path, *, look: Look, fps: tuple[int, float] | None = None) -> Path:
+    """Encode numbered pictures of one folder as an H.264 MP4 with Blender's sequencer.
+
+    Raises
+    ------
+    SceneError : this Blender wrote no film.
+    """
+    source = bpy.context.scene.render
+    rate = fps or (source.fps, source.fps_base)
+    scene = bpy.data.scenes.new("Risorius Encoder")
+    try:
+        _sequence(scene, pictures)
+        render = scene.render
+        render.fps, render.fps_base = rate
+        render.resolution_x, render.resolution_y, render.resolution_percentage = look.width, look.height, 100
+        scene.view_settings.view_transform = "Standard"
+        settings = render.image_settings
+        if hasattr(settings, "media_type"):
+            settings.media_type = "VIDEO"
+        settings.file_format = "FFMPEG"
+        render.ffmpeg.format, render.ffmpeg.codec = "MPEG4", "H264"
+        render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "HIGH", "GOOD"
+        render.use_sequencer, render.use_compositing, render.use_file_extension = True, False, False
+        render.filepath = str(path)
+        bpy.ops.render.render(animation=True, scene=scene.name)
+    finally:
+        bpy.data.scenes.remove(scene)
+    if not path.is_file() or path.stat().st_size == 0:
+        raise SceneError(str(path), "no film was encoded: this Blender may lack FFmpeg; keep the PNG frames instead")
+    return path
+
+
+def _sequence(scene: Any, pictures: Sequence[Path]) -> None:
+    """Put the pictures on the scene's timeline as one strip."""
+    editor = scene.sequence_editor_create()
+    strips = editor.strips if hasattr(editor, "strips") else editor.sequences
+    strip = strips.new_image("Film", str(pictures[0]), 1, 1)
+    for picture in pictures[1:]:
+        strip.elements.append(picture.name)
+    strip.frame_final_duration = len(pictures)
+    scene.frame_start, scene.frame_end = 1, len(pictures)

@@ -1,0 +1,65 @@
+"""Feature points from a JSON file. Needs no Blender.
+
+The file is an object of name -> vertex index or position in the mesh's own coordinates, ``{"8.4": 6207, "3.5":
+[0.03, -0.1, 0.04]}``, or has such an object under "points" beside other things it may say; positions may then
+also stand under "xyz" for names that "no_vertex" lists.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from ...errors import FormatError
+
+#: Name ("8.4") -> vertex index, or position (3,) in the mesh's own coordinates.
+PointTable: TypeAlias = Mapping[str, int | tuple[float, float, float]]
+
+
+def read_points(path: str | Path) -> dict[str, int | tuple[float, float, float]]:
+    """Read feature points.
+
+    Raises
+    ------
+    FormatError : with the line of a JSON error, or the key of a wrong entry.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as problem:
+        raise FormatError(path, f"cannot be read ({problem}): choose a JSON file of feature points") from problem
+    try:
+        table = json.loads(text)
+    except json.JSONDecodeError as problem:
+        raise FormatError(path, f"is not JSON: {problem.msg}", line=problem.lineno) from problem
+    return points_of_table(table, path)
+
+
+def points_of_table(table: Any, path: str | Path) -> dict[str, int | tuple[float, float, float]]:
+    """Feature points of a decoded JSON object; `path` names it in errors.
+
+    Raises
+    ------
+    FormatError : with the key of a wrong entry.
+    """
+    if not isinstance(table, dict):
+        raise FormatError(path, 'must be an object such as {"8.4": 6207, ...}')
+    entries = table.get("points", table)
+    if not isinstance(entries, dict) or not entries:
+        raise FormatError(path, 'has no feature points: expected an object such as {"8.4": 6207, ...}', key="points")
+    points = {str(name): _point(entry, path, str(name)) for name, entry in entries.items() if entry is not None}
+    positions = table.get("xyz", {}) if "points" in table else {}
+    for name in table.get("no_vertex", ()) if "points" in table else ():
+        if name in positions:
+            points[str(name)] = _point(positions[name], path, str(name))
+    return points
+
+
+def _point(entry: Any, path: str | Path, name: str) -> int | tuple[float, float, float]:
+    """One entry, checked."""
+    if isinstance(entry, int) and not isinstance(entry, bool) and entry >= 0:
+        return entry
+    if isinstance(entry, list) and len(entry) == 3 and all(isinstance(x, int | float) for x in entry):
+        return float(entry[0]), float(entry[1]), float(entry[2])
+    raise FormatError(path, f"must be a vertex index or [x, y, z], not {entry!r}", key=name)

@@ -1,0 +1,97 @@
+"""Finding the feature points of an object's mesh, from its shape alone or with a few that are known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ...arrays import Floats
+from ...errors import ModelError, SceneError
+from .. import mesh as meshes
+from ..progress import Progress, Work
+from ..refusals import refuse_broken_vertices, refuse_unreadable
+from .bound import bind
+from .kept import KeptPoints, Origin, triple, write_kept
+from .presets import known_topologies
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What was found, and written with the mesh.
+
+    Attributes
+    ----------
+    kept : the points.
+    score : how little the mesh looks like a face, 0 at best.
+    topology : name of the known topology that it was recognised by, or None.
+    unreadable : what is wrong with users' topologies that were passed over.
+    """
+
+    kept: KeptPoints
+    score: float
+    topology: str | None
+    unreadable: tuple[str, ...] = ()
+
+    def summary(self, name: str) -> str:
+        """A sentence for people."""
+        how = f"known as {self.topology}" if self.topology else f"score {self.score:.2f}"
+        doubtful = self.kept.doubtful()
+        listed = ", ".join(doubtful[:6]) + (" ..." if len(doubtful) > 6 else "")
+        look = f"; look at {listed}" if doubtful else ""
+        return f"{name}: {len(self.kept.points)} feature points found ({how}){look}"
+
+
+def find_points(obj: Any, clicks: Mapping[str, Floats] | None = None, *, scene: Any | None = None) -> Work[Finding]:
+    """Find the feature points of `obj` and keep them with its mesh; nothing is written before they are found.
+
+    Parameters
+    ----------
+    clicks : name -> (3,) points that are known, in the mesh's own coordinates.
+    scene : whose unit scale counts; by default the current one.
+
+    Raises
+    ------
+    SceneError : see `refusals`; a mesh of another file.
+    ModelError : no face in it; states the score, the limit and the remedy.
+    """
+    from ... import api
+
+    yield Progress(0.0, "Reading the mesh")
+    refuse_unreadable(obj)
+    refuse_broken_vertices(obj)
+    stretch = meshes.metres_matrix(obj, scene)
+    vertices = meshes.rest_vertices(obj.data) @ stretch.T
+    polygons = meshes.polygon_sequence(*meshes.polygon_arrays(obj.data))
+    known = {name: stretch @ np.asarray(place, dtype=np.float64) for name, place in (clicks or {}).items()}
+    topologies, unreadable = known_topologies()
+    steps = api.find_points_steps(vertices, polygons, known or None, topologies=topologies)
+    try:
+        while True:
+            try:
+                step = next(steps)
+            except StopIteration as end:
+                found: api.FoundPoints = end.value
+                break
+            yield Progress(min(1.0, step.fraction), step.text.capitalize())
+    except ModelError as refusal:
+        raise _explained(obj, refusal) from refusal
+    finally:
+        steps.close()
+    back = np.linalg.inv(stretch)
+    table = {name: triple(back @ place) for name, place in found.positions.items()}
+    origin = Origin.FOUND if found.topology is None else Origin.TOPOLOGY
+    origins = {name: Origin.CLICKED if name in known else origin for name in table}
+    kept = bind(obj.data, table, origins=origins, confidence=found.confidence)
+    kept = replace(kept, score=0.0 if known else found.score)
+    write_kept(obj, kept, as_given=True)
+    return Finding(kept, found.score, found.topology, unreadable)
+
+
+def _explained(obj: Any, refusal: ModelError) -> ModelError | SceneError:
+    """The refusal, with what Blender knows of a mesh that is half a face."""
+    if any(modifier.type == "MIRROR" and modifier.show_viewport for modifier in obj.modifiers):
+        return SceneError(obj.name, "is half a face with a Mirror modifier: apply the modifier, then try again")
+    return ModelError(f"{obj.name}: {refusal}")

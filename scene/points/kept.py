@@ -1,0 +1,198 @@
+"""Feature points as they are kept with a mesh: bound to its vertices, with how sure each is and where it came from.
+
+They stand as JSON in a custom property of the mesh datablock. So they are saved, copied, appended and linked with the
+mesh, need no registered add-on, and are in the mesh's own coordinates.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ...arrays import Floats
+from ...errors import FormatError, ParameterError, SceneError
+from ...face.fit.doubt import DOUBTFUL, DOUBTFUL_SCORE
+from ...mpeg4 import FEATURE_POINTS
+
+#: The mesh's points, and the same as they were before anything was corrected by hand.
+POINTS, AS_GIVEN = "risorius_points", "risorius_points_as_given"
+
+
+class Origin(Enum):
+    """Where a point came from."""
+
+    FOUND = "found"
+    CLICKED = "clicked"
+    DRAGGED = "dragged"
+    FILE = "file"
+    TOPOLOGY = "topology"
+
+
+@dataclass(frozen=True)
+class KeptPoint:
+    """One feature point of a mesh, in the mesh's own coordinates.
+
+    Attributes
+    ----------
+    at : (3,) where it was put.
+    vertices, weights : the vertices that it moves with, and their shares; empty where it lies off the surface.
+    on : (3,) the mean of these vertices then, a hair's breadth from `at`.
+    confidence : 0 .. 1.
+    """
+
+    at: tuple[float, float, float]
+    vertices: tuple[int, ...] = ()
+    weights: tuple[float, ...] = ()
+    on: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    confidence: float = 1.0
+    origin: Origin = Origin.FILE
+
+    def __post_init__(self) -> None:
+        if len(self.at) != 3 or not np.isfinite(self.at).all():
+            raise ParameterError("at", "must be three finite numbers", self.at)
+        if len(self.vertices) != len(self.weights):
+            raise ParameterError("weights", "must be as many as there are vertices", self.weights)
+        if not 0.0 <= self.confidence <= 1.0:
+            raise ParameterError("confidence", "must lie in [0, 1]", self.confidence)
+
+    @property
+    def is_bound(self) -> bool:
+        """Whether it moves with the mesh."""
+        return len(self.vertices) > 0
+
+
+@dataclass(frozen=True)
+class KeptPoints:
+    """All feature points of a mesh.
+
+    Attributes
+    ----------
+    counts : vertices, corners and polygons of the mesh that they are bound to.
+    digest : of that mesh's polygons.
+    points : name ("8.4") -> point.
+    score : how little the mesh looked like a face when they were found in it; 0 once a person has said where it is.
+    """
+
+    counts: tuple[int, int, int]
+    digest: str
+    points: Mapping[str, KeptPoint] = field(default_factory=dict)
+    score: float = 0.0
+
+    @property
+    def is_questioned(self) -> bool:
+        """Whether the mesh is so unlike most faces that somebody should look whether these are its points."""
+        return self.score > DOUBTFUL_SCORE
+
+    def doubtful(self) -> list[str]:
+        """Names of the points that want to be looked at, the least sure first."""
+        names = [name for name, point in self.points.items() if point.confidence < DOUBTFUL]
+        return sorted(names, key=lambda name: self.points[name].confidence)
+
+
+def triple(place: Sequence[float] | Floats) -> tuple[float, float, float]:
+    """Three plain numbers."""
+    x, y, z = (float(number) for number in place)
+    return x, y, z
+
+
+def mesh_counts(mesh: Any) -> tuple[int, int, int]:
+    """Vertices, corners and polygons of a mesh: cheap to ask at every redraw."""
+    return len(mesh.vertices), len(mesh.loops), len(mesh.polygons)
+
+
+def has_points(obj: Any) -> bool:
+    """Whether points are kept with the mesh of `obj`."""
+    return obj.type == "MESH" and POINTS in obj.data
+
+
+def read_kept(obj: Any, *, as_given: bool = False) -> KeptPoints:
+    """The points kept with the mesh of `obj`, or as they were before they were corrected.
+
+    Raises
+    ------
+    SceneError : none there, or unreadable.
+    """
+    text = obj.data.get(AS_GIVEN if as_given else POINTS) if obj.type == "MESH" else None
+    if text is None:
+        raise SceneError(obj.name, "has no feature points: find the face, click them, or import them")
+    try:
+        return _decoded(str(text))
+    except (ValueError, KeyError, TypeError) as problem:
+        raise SceneError(obj.name, "has unreadable feature points: find or import them again") from problem
+
+
+def write_kept(obj: Any, kept: KeptPoints, *, as_given: bool = False) -> None:
+    """Keep points with the mesh of `obj`; `as_given`: they are also what a reset goes back to.
+
+    Raises
+    ------
+    SceneError : the mesh belongs to another file.
+    """
+    refuse_foreign_mesh(obj)
+    text = _encoded(kept)
+    obj.data[POINTS] = text
+    if as_given:
+        obj.data[AS_GIVEN] = text
+
+
+def refuse_foreign_mesh(obj: Any) -> None:
+    """Refuse a mesh that nothing can be kept with.
+
+    Raises
+    ------
+    SceneError : the mesh belongs to another file.
+    """
+    if obj.data.library is not None or obj.data.override_library is not None:
+        raise SceneError(
+            obj.name, "has a mesh of another file: make it local (Object > Relations > Make Local > All) first"
+        )
+
+
+def forget_points(obj: Any) -> None:
+    """Remove them."""
+    for key in (POINTS, AS_GIVEN):
+        if key in obj.data:
+            del obj.data[key]
+
+
+def _encoded(kept: KeptPoints) -> str:
+    """As JSON."""
+    points = {
+        name: {
+            "at": list(point.at),
+            "vertices": list(point.vertices),
+            "weights": list(point.weights),
+            "on": list(point.on),
+            "confidence": point.confidence,
+            "origin": point.origin.value,
+        }
+        for name, point in kept.points.items()
+    }
+    return json.dumps({"counts": list(kept.counts), "digest": kept.digest, "score": kept.score, "points": points})
+
+
+@lru_cache(maxsize=8)
+def _decoded(text: str) -> KeptPoints:
+    """From JSON; kept, because panels and overlays ask at every redraw."""
+    stored = json.loads(text)
+    points = {}
+    for name, entry in stored["points"].items():
+        if name not in FEATURE_POINTS:
+            raise FormatError("feature points", "is no name of the standard's", key=name)
+        points[name] = KeptPoint(
+            triple(entry["at"]),
+            tuple(int(vertex) for vertex in entry["vertices"]),
+            tuple(float(weight) for weight in entry["weights"]),
+            triple(entry["on"]),
+            float(entry["confidence"]),
+            Origin(entry["origin"]),
+        )
+    vertices, corners, polygons = stored["counts"]
+    counts = int(vertices), int(corners), int(polygons)
+    return KeptPoints(counts, str(stored["digest"]), points, float(stored.get("score", 0.0)))

@@ -1,0 +1,136 @@
+"""The command line's jobs, and that what they bake plays without Risorius."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+import risorius.api as api
+from risorius import cli
+from risorius.errors import FormatError, ModelError, ParameterError, RisoriusError
+from risorius.scene import mesh as meshes
+from risorius.scene.jobs import jobs
+from risorius.scene.jobs.subjects import subject
+from risorius.scene.pictures.studio import Engine, Look
+from risorius.scene.progress import run
+
+REPLAY = """
+    import sys
+    assert not [name for name in sys.modules if name.split(".")[0] == "risorius"]
+    import bpy, numpy as np
+    bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
+    obj = bpy.data.objects["Risorius Head"]
+    frames = []
+    for frame in map(int, sys.argv[3:]):
+        bpy.context.scene.frame_set(frame)
+        mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+        flat = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+        mesh.vertices.foreach_get("co", flat)
+        frames.append(flat)
+    np.save(sys.argv[2], np.array(frames))
+    assert not [name for name in sys.modules if name.split(".")[0] == "risorius"]
+"""
+
+
+def played(blend: Path, frames: list[int]) -> np.ndarray:
+    """(frames, V, 3) that a fresh Blender without Risorius shows."""
+    out = blend.with_suffix(".npy")
+    arguments = [sys.executable, "-c", textwrap.dedent(REPLAY), str(blend), str(out), *map(str, frames)]
+    done = subprocess.run(arguments, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return np.load(out).reshape(len(frames), -1, 3)
+
+
+@pytest.mark.smoke
+def test_a_baked_file_plays_without_risorius(tmp_path: Path) -> None:
+    blend = tmp_path / "faces.blend"
+    made = dict(jobs.bake_file(blend, words=["joy", "fear"], fps=25.0))
+    assert made["shape_keys"] == 2
+    cues = jobs.cues_of(["joy", "fear"])
+    between = int(25.0 * (cues[1].start - 0.5 * jobs.PAUSE)) + 1
+    shown = played(blend, [*(jobs.apex_frame(cue, 25.0) for cue in cues), 1, between, 500])
+    face = api.default_face()
+    for resting in shown[2:]:
+        np.testing.assert_allclose(resting, face.vertices, atol=1e-6)
+    for positions, cue in zip(shown[:2], cues, strict=True):
+        pose = face.pose(cue.profile.frame(), emotion=cue.profile.weights)
+        np.testing.assert_allclose(positions, pose.positions, atol=2e-6)
+
+
+def test_a_baked_motion_plays_without_risorius(tmp_path: Path) -> None:
+    blend = tmp_path / "motion.blend"
+    made = dict(jobs.bake_file(blend, words=["anger"], fps=12.0, dynamic=True))
+    assert made["error_mm"] <= 0.1
+    cues = jobs.cues_of(["anger"])
+    frames = api.sequence(cues, fps=12.0)
+    clip = api.default_face().simulate(frames, 12.0, emotions=api.emotion_weights(cues, fps=12.0))
+    numbers = [1, len(frames) // 3, len(frames) // 2, len(frames) - 3]
+    shown = played(blend, [1 + number for number in numbers])
+    assert np.linalg.norm(shown - clip.positions[numbers], axis=2).max() <= 1.01e-4
+
+
+def test_the_demo_leaves_film_file_and_sheet(tmp_path: Path) -> None:
+    steps: list[Any] = []
+    look = Look(Engine.WORKBENCH, 64, 64)
+    made = dict(run(jobs._demo(tmp_path / "out", None, None, ["joy", "sad"], look, 4.0), steps.append))
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"risorius.blend", "risorius.mp4", "risorius.png"}
+    assert made["frames"] == len(api.sequence(jobs.cues_of(["joy", "sad"]), fps=4.0)) + 1
+    fractions = [step.fraction for step in steps]
+    assert fractions == sorted(fractions)
+
+
+@pytest.mark.parametrize("name", ["ict", "makehuman"])
+def test_other_heads_from_files(shared: Path, tmp_path: Path, name: str) -> None:
+    mesh, points = shared / "heads" / f"{name}.npz", shared / "heads" / f"{name}.fp.json"
+    blend = tmp_path / "first.blend"
+    jobs.bake_file(blend, mesh=mesh, points=points, words=["joy"])
+    obj = bpy.data.objects[name]
+    block = obj.data.shape_keys.key_blocks["joy"]
+    moved = np.linalg.norm(meshes.key_vertices(block) - meshes.rest_vertices(obj.data), axis=1)
+    assert 0.002 < moved.max() < 0.03
+    again = tmp_path / "again.blend"
+    jobs.bake_file(again, mesh=blend, words=["joy"])
+    block = bpy.data.objects[name].data.shape_keys.key_blocks["joy"]
+    assert len(bpy.data.objects[name].data.shape_keys.key_blocks) == 2
+
+
+def test_wrong_requests_are_refused_and_nothing_is_written(tmp_path: Path) -> None:
+    out = tmp_path / "x.blend"
+    for options, error, match in (
+        ({"words": ["angryy"]}, ParameterError, "emotion word"),
+        ({"words": []}, ParameterError, "words"),
+        ({"words": ["joy"], "fps": 0.0}, ParameterError, "fps"),
+        ({"words": ["joy"], "mesh": tmp_path / "none.npz"}, FormatError, "none.npz"),
+        ({"words": ["joy"], "mesh": tmp_path / "none.blend"}, FormatError, "no such file"),
+        ({"words": ["joy"], "mesh": tmp_path / "none.fbx"}, FormatError, "none of .npz"),
+    ):
+        with pytest.raises(error, match=match):
+            jobs.bake_file(out, **options)
+        assert not out.exists()
+    with pytest.raises(ParameterError, match="engine"):
+        jobs.demo(tmp_path, engine="POVRAY")
+    with pytest.raises(RisoriusError):
+        jobs.render_film(tmp_path, words=["joy"])
+
+
+def test_a_mesh_without_points_and_without_a_face_is_refused(tmp_path: Path) -> None:
+    obj = tmp_path / "triangle.obj"
+    obj.write_text("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n")
+    with pytest.raises(ModelError, match=r"triangle: .*face"):
+        subject(obj)
+
+
+@pytest.mark.smoke
+def test_the_command_line_bakes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "faces.blend"
+    assert cli.main(["bake", "joy", "--out", str(out), "--json"]) == 0
+    printed = capsys.readouterr().out
+    assert json.loads(printed[printed.index("{") :])["shape_keys"] in (1, "1")
+    assert out.is_file()

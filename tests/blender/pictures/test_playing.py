@@ -1,0 +1,53 @@
+"""Playing a FAP stream on a face: what the .blend moves is what the API simulates."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+import risorius.api as api
+from risorius import cli
+from risorius.errors import SceneError
+from risorius.scene.jobs.playing import play_stream
+from risorius.scene.mesh import evaluated_vertices
+
+
+@pytest.fixture
+def stream() -> api.FapStream:
+    """Six frames at 12 per second: the jaw opens, then a viseme; brows rise."""
+    frames = np.full((6, 68), np.nan)
+    frames[:, 30] = frames[:, 31] = np.linspace(0.0, 120.0, 6)
+    frames[:3, 2] = np.linspace(0.0, 200.0, 3)
+    return api.FapStream(frames, fps=12.0, name="a test", visemes={4: api.VisemeField(10)})
+
+
+def test_a_stream_is_baked_as_the_api_simulates_it(stream: api.FapStream, tmp_path: Path) -> None:
+    made = play_stream(tmp_path / "face.blend", stream)
+    bpy.ops.wm.open_mainfile(filepath=str(made.blend))
+    scene = bpy.context.scene
+    assert scene.render.fps / scene.render.fps_base == pytest.approx(12.0)
+    assert scene.frame_end - scene.frame_start == 5
+    clip = api.default_face().simulate(stream.expanded(), fps=12.0)
+    obj = bpy.data.objects["Risorius Head"]
+    for index in (0, 2, 5):
+        scene.frame_set(scene.frame_start + index)
+        seen = evaluated_vertices(obj)
+        assert np.abs(seen - clip.positions[index]).max() < 2.0e-4
+    assert np.abs(clip.positions[5] - clip.positions[0]).max() > 1.0e-3
+
+
+def test_the_verb_plays_a_bitstream(stream: api.FapStream, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    api.write_fba(tmp_path / "a.fba", stream)
+    assert cli.main(["fap", "play", str(tmp_path / "a.fba"), str(tmp_path / "a.blend"), "--json"]) == 0
+    said = capsys.readouterr()
+    assert json.loads(said.out[said.out.index("{") :])["shape_keys"] > 0
+    assert (tmp_path / "a.blend").is_file()
+    assert "%" in said.err
+
+
+def test_an_unwritable_place_is_refused_before_the_work(stream: api.FapStream, tmp_path: Path) -> None:
+    with pytest.raises(SceneError):
+        play_stream(tmp_path, stream)

@@ -1,0 +1,97 @@
+"""The table of muscles: what is wrong with a copy that somebody edited is said by file and key."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from risorius.api import MUSCLE_GROUPS, Mechanism
+from risorius.errors import FormatError
+from risorius.face.mesh.template import ANATOMY
+from risorius.face.muscles.table import NEEDS, read_muscles
+
+TABLES = sorted((ANATOMY / "muscles").glob("*.toml"))
+HEADER = 'mechanism = "lips"\n'
+ROW = """
+[muscles.test]
+title = "test"
+kind = "linear"
+au = "12"
+sides = "pair"
+region = "all"
+attachment = { point = "5.1", offset = [0.1, 0.1, 0.0] }
+insertion = { point = "8.3", offset = [0.0, 0.0, 0.0] }
+angle_deg = 30
+exponent = 1.5
+reach = 1.5
+prior_mm = 4
+amplitude_mm = 4
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('kind = "linear"', 'kind = "spiral"', r"muscles\.test: kind, sides or region.*spiral"),
+        ('sides = "pair"', 'sides = "both"', r"muscles\.test: kind, sides or region.*both"),
+        ('region = "all"', 'region = "nowhere"', r"muscles\.test: kind, sides or region.*nowhere"),
+        ("exponent = 1.5\n", "", r"muscles\.test: a linear muscle needs exponent"),
+        ("exponent = 1.5", "exponent = 1.5\nexponnent = 2", r"muscles\.test: a linear muscle has no exponnent"),
+        ("prior_mm = 4", "prior_mm = 0", r"muscles\.test: prior_mm must be positive, not 0"),
+        ('"5.1"', '"5.99"', r"muscles\.test\.attachment: names feature point '5\.99'"),
+        ("[0.1, 0.1, 0.0]", "[0.1, 0.1]", r"muscles\.test\.attachment: needs an offset of three numbers"),
+        ("[muscles.test]", "[muscles.test", r"not a readable TOML table"),
+    ],
+)
+def test_a_wrong_row_is_refused_by_file_and_key(tmp_path: Path, old: str, new: str, said: str) -> None:
+    path = tmp_path / "mine.toml"
+    assert ROW.count(old) == 1
+    path.write_text(HEADER + ROW.replace(old, new), encoding="utf-8")
+    with pytest.raises(FormatError, match=rf"mine\.toml.*{said}"):
+        read_muscles(path)
+
+
+def test_a_missing_table_is_named(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match=r"gone\.toml"):
+        read_muscles(tmp_path / "gone.toml")
+
+
+def test_a_row_of_ones_own_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(HEADER + ROW, encoding="utf-8")
+    rows = read_muscles(path)
+    assert set(rows) == {"test"}
+    assert rows["test"].amplitude == pytest.approx(0.004)
+    assert rows["test"].mechanism is Mechanism.LIPS
+
+
+def test_a_table_of_no_group_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text('mechanism = "bending"\n' + ROW, encoding="utf-8")
+    with pytest.raises(FormatError, match=r"mine\.toml.*mechanism.*must be one of brow.*'bending'"):
+        read_muscles(path)
+
+
+def test_a_muscle_stands_in_one_table_only(tmp_path: Path) -> None:
+    for name in ("one.toml", "two.toml"):
+        (tmp_path / name).write_text(HEADER + ROW, encoding="utf-8")
+    with pytest.raises(FormatError, match=r"two\.toml.*muscles\.test.*also a muscle of the group lips"):
+        read_muscles(tmp_path)
+
+
+def test_every_group_has_a_table_of_its_name() -> None:
+    assert {path.stem for path in TABLES} == {str(group) for group in MUSCLE_GROUPS}
+    for path in TABLES:
+        assert {row.mechanism for row in read_muscles(path).values()} == {path.stem}
+
+
+def test_every_row_gives_what_its_kind_needs_and_says_where_it_is_from() -> None:
+    rows = read_muscles()
+    assert len(rows) >= 20
+    for path in TABLES:
+        assert "source = " in path.read_text(encoding="utf-8").split("[muscles.")[0], path
+    for row in rows.values():
+        assert row.prior > 0.0, row.name
+        assert 0.5e-3 <= row.amplitude <= 25e-3, row.name
+        for needed, present in (("centre", row.centre), ("attachment", row.attachment), ("direction", row.direction)):
+            assert (needed in NEEDS[row.kind]) == (present is not None), (row.name, needed)
