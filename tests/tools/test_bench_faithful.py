@@ -72,7 +72,7 @@ def test_the_fourteen_words_are_those_of_table_6(tool: Callable[[str], ModuleTyp
 
 
 def test_a_request_is_within_its_range_or_beyond(tool: Callable[[str], ModuleType]) -> None:
-    data = tool("risorius.face.synergies").load_synergies()
+    data = tool("risorius.face.drive.synergies").load_synergies()
     row = data.position[3]
     end, knee = data.high[row] / data.per_fap[row], data.high_linear[row]
     for share, expected in ((0.9 * knee, (True, True)), (1.1 * knee, (False, True)), (1.1, (False, False))):

@@ -14,7 +14,6 @@ from risorius.face.bodies.eyeball_surface import EyeballSurface
 from risorius.face.mechanisms.lids import LidMove
 from risorius.face.muscles.placement import place_muscles
 from risorius.face.muscles.table import Kind, Region, read_muscles
-from risorius.face.pose import Poser
 from risorius.face.response.fields import force_density
 from scipy.spatial.transform import Rotation
 
@@ -187,7 +186,7 @@ def test_closing_lids_stay_outside_the_eyeball(any_face: Callable[[str], Face], 
 
 
 def test_skin_pushed_into_the_eyeball_is_lifted_off_it_and_other_skin_is_not(face: Face) -> None:
-    contact, skin = Poser(face.anatomy).contact, face.anatomy.skin
+    contact, skin = face.anatomy.contact, face.anatomy.skin
     (ball,) = (
         body for body in contact.bodies if isinstance(body, EyeballSurface) and skin.positions[body.index, 0].mean() > 0
     )
