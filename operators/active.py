@@ -6,7 +6,7 @@ from typing import Any
 
 from ..face.mesh.parts import Part
 from ..scene import refusals
-from ..scene.baked.bake import Target
+from ..scene.bake.baking import Target
 from ..scene.points.kept import has_points
 
 

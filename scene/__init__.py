@@ -11,7 +11,8 @@ progress              long work as generators
 node_graph            node groups built in a few words
 gltf                  a face with its clips as glTF
 points                feature points on objects: found, kept, bound, shown
-baked                 shape keys, actions and strips
+bake                  shape keys, actions and strips
+blendshape_keys       shape keys that engines know by name
 live                  previews and readings while the user works
 creases               wrinkles as attributes and node groups
 pictures              films, contact sheets, studio, letters

@@ -14,8 +14,8 @@ from typing import Any
 import bpy
 
 from ..errors import SceneError
-from .baked import action as actions
-from .baked import shape_keys
+from .bake import action as actions
+from .bake import shape_keys
 from .pictures.film import refuse_unwritable_output
 
 

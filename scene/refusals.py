@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ..errors import SceneError
-from .baked.shape_keys import own_names_of
+from .bake.shape_keys import own_names_of
 from .mesh import rest_vertices
 from .points.bound import followed
 from .points.kept import has_points, read_kept

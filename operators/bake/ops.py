@@ -6,9 +6,10 @@ from typing import Any
 
 import bpy
 
-from ...scene.baked import bake, shape_keys
-from ...scene.baked.notes import BakeKind, Note
-from ...scene.baked.strips import ClipShape, bake_strips
+from ...scene.bake import baking as bake
+from ...scene.bake import shape_keys
+from ...scene.bake.notes import BakeKind, Note
+from ...scene.bake.strips import ClipShape, bake_strips
 from ...scene.points.found import Finding
 from ...scene.points.kept import has_points, read_kept
 from ...scene.progress import Work

@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from ...scene.baked import shape_keys
+from ...scene.bake import shape_keys
 from ...scene.points.kept import has_points
 from ..active import face_reason
 from ..sidebar import Sidebar

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.baked import shape_keys
-from ...scene.baked.action import Curve
-from ...scene.baked.bake import ClipTiming, scene_fps
-from ...scene.baked.motion import CueMotion
-from ...scene.baked.notes import BakeKind, read_notes
+from ...scene.bake import shape_keys
+from ...scene.bake.action import Curve
+from ...scene.bake.baking import ClipTiming, scene_fps
+from ...scene.bake.motion import CueMotion
+from ...scene.bake.notes import BakeKind, read_notes
 from ..emotion.performance import Performance, performance_of
 from ..emotion.profile import Wanted, title_of, wanted_of
 from ..tissue.props import tissue_of

@@ -6,7 +6,8 @@ from typing import Any
 
 import bpy
 
-from ...scene.baked import bake, performance, shape_keys
+from ...scene.bake import baking as bake
+from ...scene.bake import performance, shape_keys
 from ...scene.points.found import Finding
 from ...scene.points.kept import read_kept
 from ...scene.progress import Work

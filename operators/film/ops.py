@@ -9,7 +9,8 @@ import bpy
 
 from ...errors import SceneError
 from ...scene import gltf, refusals
-from ...scene.baked import action, bake, shape_keys
+from ...scene.bake import action, shape_keys
+from ...scene.bake import baking as bake
 from ...scene.pictures import film
 from ...scene.pictures.studio import Camera, Engine, Look
 from ...scene.points.found import Finding

@@ -15,7 +15,7 @@ from bpy.app.handlers import persistent
 
 from ...arrays import Floats
 from ...errors import RisoriusError
-from ...scene.baked import shape_keys
+from ...scene.bake import shape_keys
 from ...scene.live import preview
 from ...scene.live.live_face import LiveFace, uid_of
 from ...scene.points.kept import has_points

@@ -14,7 +14,7 @@ from ..points.first import with_points
 from ..points.show import show_finding
 
 if TYPE_CHECKING:
-    from ...scene.baked.blendshape_keys import WrittenKeys
+    from ...scene.blendshape_keys import WrittenKeys
 
 
 class RISORIUS_OT_make_shapes(WorkOperator, bpy.types.Operator):
@@ -32,7 +32,7 @@ class RISORIUS_OT_make_shapes(WorkOperator, bpy.types.Operator):
 
     def work(self, context: Any) -> Work[WrittenKeys | Finding]:
         """Find the face if need be, then pose and write."""
-        from ...scene.baked.blendshape_keys import write_blendshapes
+        from ...scene.blendshape_keys import write_blendshapes
 
         obj, chosen = context.object, context.scene.risorius.shapes
 

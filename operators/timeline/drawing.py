@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from ...scene.baked.bake import scene_fps
+from ...scene.bake.baking import scene_fps
 from ..changes import listen, listen_to_time, unlisten
 from ..points.canvas import Canvas, Colour, text_width
 from .bars import Bar, lay_out

@@ -17,9 +17,9 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ParameterError, SceneError
-from ..baked import bake
-from ..baked.motion import CueMotion
-from ..baked.performance import ARCHETYPES, FIRST_FRAME, PAUSE, cues_of, line_up, pose_all
+from ..bake import baking as bake
+from ..bake.motion import CueMotion
+from ..bake.performance import ARCHETYPES, FIRST_FRAME, PAUSE, cues_of, line_up, pose_all
 from ..faces import face_of, read_face
 from ..mesh import key_vertices
 from ..pictures import film

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ...errors import ParameterError
-from ..baked import bake
-from ..baked.motion import FapMotion
-from ..baked.performance import FIRST_FRAME
+from ..bake import baking as bake
+from ..bake.motion import FapMotion
+from ..bake.performance import FIRST_FRAME
 from ..pictures import film
 from ..pictures.framing import framing_of
 from ..pictures.studio import Engine, Look, furnish

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...arrays import Floats, Ints
-from ..baked.bake import Target
+from ..bake.baking import Target
 from ..faces import face_of
 from ..mesh import rest_vertices
 from ..points.kept import POINTS

@@ -22,7 +22,7 @@ import bpy
 import numpy as np
 import risorius.api as api
 from risorius.scene import mesh as meshes
-from risorius.scene.baked.bake import Target
+from risorius.scene.bake.baking import Target
 from risorius.scene.jobs.subjects import subject
 from risorius.scene.live.live_face import LiveFace
 from risorius.scene.progress import run

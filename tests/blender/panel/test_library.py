@@ -16,8 +16,8 @@ from risorius.operators.library import exchange
 from risorius.operators.library.exchange import BUNDLED, expression_of, preset_files, timeline_of
 from risorius.operators.library.panel import RISORIUS_FH_fap, RISORIUS_FH_preset
 from risorius.operators.muscles.props import by_hand_of, set_by_hand
-from risorius.scene.baked.motion import at_rate
-from risorius.scene.baked.shape_keys import read_own
+from risorius.scene.bake.motion import at_rate
+from risorius.scene.bake.shape_keys import read_own
 from risorius.scene.head import add_default_head
 
 

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from risorius.errors import FormatError, SceneError
 from risorius.scene import faces, refusals
-from risorius.scene.baked import bake, shape_keys
+from risorius.scene.bake import baking as bake
+from risorius.scene.bake import shape_keys
 from risorius.scene.points.file import read_points
 
 pytestmark = pytest.mark.smoke

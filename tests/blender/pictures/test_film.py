@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from risorius.errors import ParameterError, SceneError
 from risorius.scene import mesh as meshes
-from risorius.scene.baked import shape_keys
+from risorius.scene.bake import shape_keys
 from risorius.scene.pictures import film, gpu_probe
 from risorius.scene.pictures.contact_sheet import Exhibit, write_sheet
 from risorius.scene.pictures.framing import framing_of

@@ -13,8 +13,8 @@ from risorius.face.face import Face
 from risorius.operators.bake.settings import stale_clips
 from risorius.operators.emotion.performance import performance_of
 from risorius.operators.preview.live import object_of
-from risorius.scene.baked import shape_keys
-from risorius.scene.baked.notes import BakeKind
+from risorius.scene.bake import shape_keys
+from risorius.scene.bake.notes import BakeKind
 from risorius.scene.live.live_face import uid_of
 from risorius.scene.mesh import key_vertices
 

@@ -12,7 +12,7 @@ import risorius.api as api
 from risorius.face.face import Face
 from risorius.scene import faces
 from risorius.scene import mesh as meshes
-from risorius.scene.baked import bake
+from risorius.scene.bake import baking as bake
 from risorius.scene.creases import marks as creases
 from risorius.scene.creases import nodes as crease_nodes
 from risorius.scene.head import head_object
@@ -192,7 +192,7 @@ def test_a_failed_bake_writes_no_creases(plain: Any, monkeypatch: pytest.MonkeyP
 
 @pytest.mark.smoke
 def test_a_moving_face_creases_as_its_motion_does(head: Any) -> None:
-    from risorius.scene.baked.motion import CueMotion
+    from risorius.scene.bake.motion import CueMotion
     from risorius.scene.progress import run
 
     cue = api.Cue(api.expression("anger"), start=0.0, onset=0.3, apex=0.4, offset=0.2)

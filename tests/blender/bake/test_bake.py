@@ -15,8 +15,9 @@ from risorius.face.mesh.parts import Part
 from risorius.mpeg4 import VARIANTS, default_variant
 from risorius.scene import faces
 from risorius.scene import mesh as meshes
-from risorius.scene.baked import bake, shape_keys
-from risorius.scene.baked.motion import FapMotion
+from risorius.scene.bake import baking as bake
+from risorius.scene.bake import shape_keys
+from risorius.scene.bake.motion import FapMotion
 
 
 def key(obj: Any, name: str) -> np.ndarray:

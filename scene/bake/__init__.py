@@ -1,9 +1,12 @@
 """What a face's poses and motions become in Blender: shape keys, actions and strips.
 
-bake                        the way in: one expression or a motion
+baking                      the way in: one expression or a motion
 performance, strips         several expressions; a timeline
 motion                      what a motion bake simulates
 compress                    a motion as few shapes times weights
 shape_keys, action, notes   Risorius' own keys; clips as actions; what a bake notes on them
-blendshape_keys             shape keys that engines know by name
 """
+
+from .baking import BakeResult, ClipTiming, Target, bake_expression, bake_motion, clear
+
+__all__ = ["BakeResult", "ClipTiming", "Target", "bake_expression", "bake_motion", "clear"]

@@ -8,8 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from risorius.scene import mesh as meshes
-from risorius.scene.baked import action as actions
-from risorius.scene.baked import shape_keys
+from risorius.scene.bake import action as actions
+from risorius.scene.bake import shape_keys
 
 pytestmark = pytest.mark.smoke
 

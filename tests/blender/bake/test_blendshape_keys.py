@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.errors import ParameterError, SceneError
-from risorius.scene.baked import bake
-from risorius.scene.baked.blendshape_keys import blendshape_file, write_blendshapes
+from risorius.scene.bake import baking as bake
+from risorius.scene.blendshape_keys import blendshape_file, write_blendshapes
 from risorius.scene.mesh import key_vertices
 from risorius.scene.progress import run
 

@@ -10,15 +10,15 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...arrays import Floats
-from ...errors import ParameterError, SceneError
-from ..faces import FaceSource, face_of
-from ..jobs.jobs import empty_file, save
-from ..jobs.subjects import subject
-from ..pictures.film import refuse_unwritable_output
-from ..progress import Progress, Work, run
-from ..refusals import own_mesh
-from .bake import STILL, Target
+from ..arrays import Floats
+from ..errors import ParameterError, SceneError
+from .bake.baking import STILL, Target
+from .faces import FaceSource, face_of
+from .jobs.jobs import empty_file, save
+from .jobs.subjects import subject
+from .pictures.film import refuse_unwritable_output
+from .progress import Progress, Work, run
+from .refusals import own_mesh
 
 #: Files that a whole job writes.
 SUFFIXES = (".blend", ".glb")
@@ -47,8 +47,8 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
     ------
     SceneError, ModelError, FormatError : nothing has been changed then.
     """
-    from ...face.products.blendshapes import arkit_shape_steps
-    from ...mpeg4.streams.capture import load_key_names
+    from ..face.products.blendshapes import arkit_shape_steps
+    from ..mpeg4.streams.capture import load_key_names
 
     wanted = load_key_names(names)
     source = target.source()

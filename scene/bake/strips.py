@@ -19,7 +19,7 @@ from ..progress import Progress, Work
 from ..refusals import remarks
 from . import action as actions
 from . import shape_keys
-from .bake import BakeResult, Target, clear, write_baked
+from .baking import BakeResult, Target, clear, write_baked
 from .notes import BakeKind, Note, read_notes
 
 if TYPE_CHECKING:

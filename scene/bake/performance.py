@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import ParameterError
 from ..progress import Work, part_of
 from . import action as actions
-from . import bake
+from . import baking as bake
 
 if TYPE_CHECKING:
     from ...api import Cue

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from risorius.errors import ParameterError
-from risorius.scene.baked.compress import compress
+from risorius.scene.bake.compress import compress
 
 
 def motion(rank: int, frames: int = 40, vertices: int = 300) -> np.ndarray:
