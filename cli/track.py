@@ -11,12 +11,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..mpeg4.files import write_whole
 from .options import verb
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
-    from ..mpeg4.files import write_whole
-from ..track import Track
+    from ..track import Track
 
 SOURCES = 'a film; pictures, a folder or a pattern of them ("shots/*.png"); "camera", or "camera:1" for the second'
 NEUTRAL = 'seconds FROM:TO in which the face is neutral, or "generic" for a face of nobody (default: its usual shape)'
