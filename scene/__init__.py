@@ -4,6 +4,7 @@ Every function here is plain Python over bpy and can be called from scripts. Lon
 `Progress` and returns its result; `run` drives one to its end. Reading and computing come first and writing last,
 so that an error or a cancelled bake leaves the scene as it was.
 
+blender_types         what is used of Blender's types, for mypy
 mesh, head, faces     meshes to arrays and back; the default head; from objects to a face
 parts_found           parts of a face's mesh, told and corrected
 refusals              what Risorius refuses to touch, and the remedy
