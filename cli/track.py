@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..errors import RisoriusError
 from ..mpeg4.files import write_whole
 from .options import verb
 from .result import Result, UsageError
@@ -22,6 +23,9 @@ SOURCES = 'a film; pictures, a folder or a pattern of them ("shots/*.png"); "cam
 NEUTRAL = 'seconds FROM:TO in which the face is neutral, or "generic" for a face of nobody (default: its usual shape)'
 TIMES = re.compile(r"(\d+(?:\.\d+)?):(\d+(?:\.\d+)?)")
 WRITABLE = (".fap", ".json")
+
+#: The extension leaves the folder `track` out: it would need a camera's permission and packages from outside.
+OUTSIDE_BLENDER = "tracking runs outside Blender: install Risorius in a Python of its own (docs/tracking.md)"
 
 
 def add_track_verb(verbs: Any) -> None:
@@ -40,8 +44,12 @@ def add_track_verb(verbs: Any) -> None:
 
 def _track(arguments: argparse.Namespace) -> Result:
     """Read FAPs off a film, pictures or a camera (needs `pip install risorius[track]`)."""
-    from .. import api, track
+    from .. import api
 
+    try:
+        from .. import track
+    except ImportError as absent:
+        raise RisoriusError(OUTSIDE_BLENDER) from absent
     writers = {".fap": api.write_fap, ".json": api.write_fap_json}
     write = writers.get(arguments.out.suffix.lower())
     if write is None:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 import pytest
+import risorius.api as api
+import risorius.track
+from risorius.cli import main
 from risorius.errors import ModelError, ParameterError
 from risorius.mpeg4.streams.capture import Landmarks
 from risorius.track import GENERIC, camera_faps, generic_landmarks, track_landmarks
@@ -143,6 +148,21 @@ def test_the_generic_face_is_the_one_that_points_are_read_from() -> None:
     assert np.isfinite(face).all(axis=1).sum() >= 60
     with pytest.raises(ValueError, match="read-only"):
         face[0] = 0.0
+
+
+def test_the_command_writes_the_stream_and_how_sure_each_value_is(
+    smile: np.ndarray, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pictures = risorius.track.Pictures("smile", FPS, len(smile), False, iter(()))
+    monkeypatch.setattr(risorius.track, "open_pictures", lambda *_sources, **_options: pictures)
+    monkeypatch.setattr(risorius.track, "find_landmarks", lambda *_pictures, **_options: recording(smile))
+    stream, sure = tmp_path / "smile.fap", tmp_path / "sure.csv"
+    assert main(["track", "smile.mp4", "--neutral", "0:0.6", "--out", str(stream), "--confidence", str(sure)]) == 0
+    expected = track_landmarks(recording(smile), neutral=(0.0, 0.6), name="smile")
+    np.testing.assert_array_equal(api.read_fap(stream).mask, expected.stream.mask)
+    heading, *rows = csv.reader(sure.read_text(encoding="utf-8").splitlines())
+    assert heading == ["frame", *(f"F{number}" for number in api.FAPS)]
+    np.testing.assert_allclose(np.array(rows, dtype=float)[:, 1:], expected.confidence, atol=5.1e-4)
 
 
 @pytest.mark.parametrize(
