@@ -8,6 +8,7 @@ see both alike.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import ExitStack
 from typing import Any
 
 Listener = Callable[[Any], None]
@@ -16,29 +17,25 @@ _time_listeners: list[Listener] = []
 _followers: list[Listener] = []
 
 
-def listen(listener: Listener) -> None:
-    """Call `listener(obj)` after each change to what `obj` is to show."""
-    if listener not in _listeners:
-        _listeners.append(listener)
+def listen(listener: Listener, undo: ExitStack) -> None:
+    """Call `listener(obj)` after each change to what `obj` is to show, until undone."""
+    _tell(_listeners, listener, undo)
 
 
-def listen_to_time(listener: Listener) -> None:
-    """Call `listener(obj)` after each change to when `obj` is to show it."""
-    if listener not in _time_listeners:
-        _time_listeners.append(listener)
+def listen_to_time(listener: Listener, undo: ExitStack) -> None:
+    """Call `listener(obj)` after each change to when `obj` is to show it, until undone."""
+    _tell(_time_listeners, listener, undo)
 
 
-def follow(follower: Listener) -> None:
-    """Call `follower(owner)` with the very group that changed, before all listeners."""
-    if follower not in _followers:
-        _followers.append(follower)
+def follow(follower: Listener, undo: ExitStack) -> None:
+    """Call `follower(owner)` with the very group that changed, before all listeners, until undone."""
+    _tell(_followers, follower, undo)
 
 
-def unlisten(listener: Listener) -> None:
-    """Call it no more."""
-    for told in (_listeners, _time_listeners, _followers):
-        if listener in told:
-            told.remove(listener)
+def _tell(told: list[Listener], listener: Listener, undo: ExitStack) -> None:
+    """Put a listener on a list, and take it off when undone."""
+    told.append(listener)
+    undo.callback(told.remove, listener)
 
 
 def changed(owner: Any, context: Any) -> None:

@@ -1,5 +1,7 @@
 """The one property that Risorius adds to objects, the one it adds to scenes, and the one it adds to the window."""
 
+from contextlib import ExitStack
+
 import bpy
 
 from .bake.props import RISORIUS_PG_bake
@@ -48,18 +50,12 @@ class RISORIUS_PG_window(bpy.types.PropertyGroup):
     show: bpy.props.PointerProperty(type=RISORIUS_PG_show)  # type: ignore[valid-type]
 
 
-CLASSES = (RISORIUS_PG_object, RISORIUS_PG_scene, RISORIUS_PG_window)
-
-
-def attach() -> None:
-    """Give objects, scenes and the window their property."""
-    bpy.types.Object.risorius = bpy.props.PointerProperty(type=RISORIUS_PG_object)
-    bpy.types.Scene.risorius = bpy.props.PointerProperty(type=RISORIUS_PG_scene)
-    bpy.types.WindowManager.risorius = bpy.props.PointerProperty(type=RISORIUS_PG_window)
-
-
-def detach() -> None:
-    """Take it away again. What is saved in files stays there."""
-    del bpy.types.WindowManager.risorius
-    del bpy.types.Scene.risorius
-    del bpy.types.Object.risorius
+def attach(undo: ExitStack) -> None:
+    """Give objects, scenes and the window their property, until undone. What is saved in files stays there."""
+    for owner, group in (
+        (bpy.types.Object, RISORIUS_PG_object),
+        (bpy.types.Scene, RISORIUS_PG_scene),
+        (bpy.types.WindowManager, RISORIUS_PG_window),
+    ):
+        owner.risorius = bpy.props.PointerProperty(type=group)
+        undo.callback(delattr, owner, "risorius")

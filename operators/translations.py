@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping
+from contextlib import ExitStack
 from pathlib import Path
 
 import bpy
@@ -46,11 +47,7 @@ def _table(path: Path) -> dict[tuple[str, str], str]:
     return found
 
 
-def attach() -> None:
-    """Tell Blender."""
+def attach(undo: ExitStack) -> None:
+    """Tell Blender, until undone."""
     bpy.app.translations.register(OWNER, load())
-
-
-def detach() -> None:
-    """Take it back."""
-    bpy.app.translations.unregister(OWNER)
+    undo.callback(bpy.app.translations.unregister, OWNER)

@@ -243,12 +243,3 @@ class RISORIUS_OT_clear(RisoriusOperator, bpy.types.Operator):
         removed = bake.clear(target_of(context.object), clips=[self.clip] if self.clip else None)
         what = self.clip or "everything baked"
         return f"Cleared {what} on {context.object.name}: {len(removed)} shape key{'s' * (len(removed) != 1)}"
-
-
-CLASSES = (
-    RISORIUS_OT_bake_expression,
-    RISORIUS_OT_bake_motion,
-    RISORIUS_OT_bake_strips,
-    RISORIUS_OT_bake_again,
-    RISORIUS_OT_clear,
-)

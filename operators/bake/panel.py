@@ -73,6 +73,3 @@ class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
         if stale:
             layout.operator(RISORIUS_OT_bake_again.bl_idname, icon="FILE_REFRESH")
         layout.operator(RISORIUS_OT_clear.bl_idname, text="Clear All", icon="TRASH").clip = ""
-
-
-CLASSES = (RISORIUS_PT_bake,)

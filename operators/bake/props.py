@@ -37,6 +37,3 @@ class RISORIUS_PG_bake(bpy.types.PropertyGroup):
         "it. The default head's material has it. Off: the next bake takes all of that away",
         default=False,
     )
-
-
-CLASSES = (RISORIUS_PG_bake,)

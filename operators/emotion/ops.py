@@ -30,6 +30,3 @@ class RISORIUS_OT_reset_activation(RisoriusOperator, bpy.types.Operator):
         emotion = context.object.risorius.emotion
         emotion.activation = own_activation(emotion.word)
         return f"Activation {emotion.activation:.1f}"
-
-
-CLASSES = (RISORIUS_OT_reset_activation,)

@@ -67,6 +67,3 @@ class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
             row.label(text=between(math.degrees(emotion.angle)).capitalize())
         layout.prop(emotion, "seed")
         layout.prop(emotion, "drive")
-
-
-CLASSES = (RISORIUS_PT_emotion,)

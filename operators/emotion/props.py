@@ -160,6 +160,3 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
         default="natural",
         update=changed,
     )
-
-
-CLASSES = (RISORIUS_PG_emotion,)

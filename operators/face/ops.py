@@ -80,6 +80,3 @@ class RISORIUS_OT_forget_points(RisoriusOperator, bpy.types.Operator):
         """Forget them."""
         forget_points(context.object)
         return f"{context.object.name} has no feature points any more"
-
-
-CLASSES = (RISORIUS_OT_add_head, RISORIUS_OT_import_points, RISORIUS_OT_forget_points)

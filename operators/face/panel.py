@@ -103,6 +103,3 @@ class RISORIUS_PT_face(Sidebar, bpy.types.Panel):
             column.prop(face, name)
         if obj.data.users > 1 or refusals.reason(obj) is not None:
             layout.prop(face, "make_single_user")
-
-
-CLASSES = (RISORIUS_PT_main, RISORIUS_PT_face)

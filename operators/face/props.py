@@ -33,6 +33,3 @@ class RISORIUS_PG_face(bpy.types.PropertyGroup):
         description="Where other objects share this mesh, give this one a copy of its own to bake onto",
         default=False,
     )
-
-
-CLASSES = (RISORIUS_PG_face,)

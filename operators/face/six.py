@@ -63,6 +63,3 @@ The face is found first where its points are not known"""
             scene.frame_set(round(sum(apex) / 2.0))
             turn_to_face(context, read_kept(context.object))
         return f"{context.object.name}: six emotions, frames 1 to {last}; press the space bar over the face to play"
-
-
-CLASSES = (RISORIUS_OT_bake_six,)

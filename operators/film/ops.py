@@ -156,6 +156,3 @@ def frame_range(context: Any) -> tuple[int, int]:
     if scene.risorius.film.frames == "CLIP" and playing is not None and action.FACE_TAG in playing:
         return int(playing.frame_start), int(playing.frame_end)
     return int(scene.frame_start), int(scene.frame_end)
-
-
-CLASSES = (RISORIUS_OT_render_film, RISORIUS_OT_export_gltf)

@@ -44,6 +44,3 @@ class RISORIUS_PT_film(Sidebar, bpy.types.Panel):
         column.prop(shapes, "names")
         column.prop(shapes, "replace")
         column.operator(RISORIUS_OT_make_shapes.bl_idname, icon="SHAPEKEY_DATA")
-
-
-CLASSES = (RISORIUS_PT_film,)

@@ -69,6 +69,3 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
         subtype="FILE_PATH",
         options=_RELATIVE,
     )
-
-
-CLASSES = (RISORIUS_PG_film,)

@@ -145,6 +145,3 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
             drive=obj.risorius.emotion.drive,
             creases=creases_wanted(obj),
         )
-
-
-CLASSES = (RISORIUS_OT_save_preset, RISORIUS_OT_load_preset, RISORIUS_OT_import_fap)

@@ -66,6 +66,3 @@ class RISORIUS_FH_fap(bpy.types.FileHandler):
 def dropped_on_face(context: Any) -> bool:
     """Whether a file dropped here has a face to go to."""
     return context.area is not None and context.area.type == "VIEW_3D" and face_reason(context.object) is None
-
-
-CLASSES = (RISORIUS_MT_library, RISORIUS_FH_preset, RISORIUS_FH_fap)

@@ -40,6 +40,3 @@ class RISORIUS_OT_reset_muscles(RisoriusOperator, bpy.types.Operator):
         changed(obj.risorius.muscles, context)
         count = before - len(by_hand_of(obj))
         return f"{obj.name}: {count} muscle{'s' * (count != 1)} left to the emotion again"
-
-
-CLASSES = (RISORIUS_OT_reset_muscles,)

@@ -100,6 +100,3 @@ class RISORIUS_PT_muscles(Sidebar, bpy.types.Panel):
             text=f"Reset {count} Set by Hand" if count else "Reset All",
             icon="LOOP_BACK",
         ).muscle = ""
-
-
-CLASSES = (RISORIUS_UL_muscles, RISORIUS_PT_muscles)

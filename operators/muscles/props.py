@@ -125,6 +125,3 @@ def list_muscles() -> None:
 def list_muscles_soon() -> None:
     """Fill the list after drawing, where nothing may be written."""
     fill_soon(list_muscles)
-
-
-CLASSES = (RISORIUS_PG_by_hand, RISORIUS_PG_muscles, RISORIUS_PG_muscle_name, RISORIUS_PG_muscle_list)

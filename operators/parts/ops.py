@@ -85,6 +85,3 @@ class RISORIUS_OT_forget_parts(RisoriusOperator, bpy.types.Operator):
         """Forget them."""
         forget_parts(context.object)
         return f"{context.object.name}: parts are told from its shape again"
-
-
-CLASSES = (RISORIUS_OT_find_parts, RISORIUS_OT_set_part, RISORIUS_OT_forget_parts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
@@ -30,8 +31,6 @@ UNTOLD = (0.5, 0.5, 0.5)
 STRENGTH = 0.6
 #: How far the colours stand off the surface towards the viewer, as a share of the object's size.
 OFF = 8e-4
-
-_handler: Any = None
 
 
 def colours(parts: Ints) -> Any:
@@ -70,15 +69,7 @@ def _draw() -> None:
     gpu.state.blend_set("NONE")
 
 
-def attach() -> None:
-    """Begin to draw."""
-    global _handler
-    _handler = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
-
-
-def detach() -> None:
-    """Draw no more."""
-    global _handler
-    if _handler is not None:
-        bpy.types.SpaceView3D.draw_handler_remove(_handler, "WINDOW")
-        _handler = None
+def attach(undo: ExitStack) -> None:
+    """Draw until undone."""
+    handler = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handler, "WINDOW")

@@ -37,6 +37,3 @@ class RISORIUS_PT_parts(Sidebar, bpy.types.Panel):
         column.prop_search(chosen, "group", obj, "vertex_groups", text="")
         column.prop(chosen, "part", text="")
         column.operator(RISORIUS_OT_set_part.bl_idname, icon="CHECKMARK")
-
-
-CLASSES = (RISORIUS_PT_parts,)

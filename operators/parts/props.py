@@ -29,6 +29,3 @@ class RISORIUS_PG_parts(bpy.types.PropertyGroup):
     group: bpy.props.StringProperty(  # type: ignore[valid-type]
         name="Vertex Group", description="Whose vertices are set to that part"
     )
-
-
-CLASSES = (RISORIUS_PG_parts,)

@@ -282,6 +282,3 @@ def _over_another_region(context: Any, event: Any) -> bool:
         if region.type != "WINDOW" and inside and min(region.width, region.height) > 1:
             return True
     return False
-
-
-CLASSES = (RISORIUS_OT_click_points,)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
@@ -159,14 +160,7 @@ class DragTool(bpy.types.WorkSpaceTool):
         layout.prop(context.window_manager.risorius.points, "mirror")
 
 
-def attach() -> None:
-    """Put the tool into the toolbar."""
+def attach(undo: ExitStack) -> None:
+    """Put the tool into the toolbar, until undone."""
     bpy.utils.register_tool(DragTool, after={"builtin.transform"}, separator=True)
-
-
-def detach() -> None:
-    """Take it out again."""
-    bpy.utils.unregister_tool(DragTool)
-
-
-CLASSES = (RISORIUS_OT_drag_point, RISORIUS_OT_use_drag_tool)
+    undo.callback(bpy.utils.unregister_tool, DragTool)

@@ -6,11 +6,13 @@ draws the viewport again when that changes. Clicks go on to the tool in hand.
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
 
 from ...mpeg4 import FEATURE_POINTS
+from ..gizmo_keys import forget_keymap
 from .overlay import hover, point_at, shows_points
 
 NAMES = tuple(FEATURE_POINTS)
@@ -62,4 +64,6 @@ class RISORIUS_GGT_point_names(bpy.types.GizmoGroup):
         self.gizmos.new(RISORIUS_GT_point_names.bl_idname)
 
 
-CLASSES = (RISORIUS_GT_point_names, RISORIUS_GGT_point_names)
+def attach(undo: ExitStack) -> None:
+    """Blender puts the gizmo into every 3D viewport by itself; its keys go when that is undone."""
+    undo.callback(forget_keymap, _KEYMAP)

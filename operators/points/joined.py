@@ -34,6 +34,3 @@ still has its mesh"""
         name = take_over_points(context.object)
         show_points(context)
         return f"{context.object.name} has the feature points of {name}"
-
-
-CLASSES = (RISORIUS_OT_take_over_points,)

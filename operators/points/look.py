@@ -90,6 +90,3 @@ class RISORIUS_OT_look_at_face(RisoriusOperator, bpy.types.Operator):
         obj = context.object
         turn_to_face(context, followed(read_kept(obj), obj.data).kept, always=True)
         return f"The face of {obj.name} from its front"
-
-
-CLASSES = (RISORIUS_OT_look_at_face,)

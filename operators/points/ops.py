@@ -223,12 +223,3 @@ class RISORIUS_OT_export_points(RisoriusOperator, bpy.types.Operator, ExportHelp
         }
         write_whole(self.filepath, json.dumps(table, indent=1) + "\n")
         return f"Wrote {len(points)} feature points to {self.filepath}"
-
-
-CLASSES = (
-    RISORIUS_OT_find_points,
-    RISORIUS_OT_jump_to_point,
-    RISORIUS_OT_reset_points,
-    RISORIUS_OT_follow_mesh,
-    RISORIUS_OT_export_points,
-)

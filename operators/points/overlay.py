@@ -6,6 +6,7 @@ needs no cleaning up.
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
@@ -28,7 +29,6 @@ RIM, MARK = (0.05, 0.05, 0.05, 0.9), (1.0, 1.0, 1.0, 1.0)
 #: What is behind the words beside the mouse, and their second line.
 PAPER, GREY = (0.06, 0.06, 0.07, 0.94), (0.75, 0.75, 0.75, 1.0)
 
-_handler: Any = None
 _hovered: str | None = None
 
 
@@ -168,15 +168,7 @@ def label(name: str, kind: str) -> str:
     return name if kind == "NUMBERS" else f"{name}  {FEATURE_POINTS[name].location}"
 
 
-def attach() -> None:
-    """Begin to draw."""
-    global _handler
-    _handler = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_PIXEL")
-
-
-def detach() -> None:
-    """Draw no more."""
-    global _handler
-    if _handler is not None:
-        bpy.types.SpaceView3D.draw_handler_remove(_handler, "WINDOW")
-        _handler = None
+def attach(undo: ExitStack) -> None:
+    """Draw until undone."""
+    handler = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_PIXEL")
+    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handler, "WINDOW")

@@ -135,6 +135,3 @@ class RISORIUS_PT_points(Sidebar, bpy.types.Panel):
         row = layout.row(align=True)
         for which, text in (("LEFT", "Reset Left"), ("RIGHT", "Reset Right"), ("ALL", "Reset All")):
             row.operator(RISORIUS_OT_reset_points.bl_idname, text=text).which = which
-
-
-CLASSES = (RISORIUS_UL_points, RISORIUS_PT_points)

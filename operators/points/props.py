@@ -82,6 +82,3 @@ def list_names_soon() -> None:
     """Fill the list after drawing, where nothing may be written. (A load handler makes bpy 4.5 hang at exit.)"""
     if not bpy.app.background and not bpy.app.timers.is_registered(list_names):
         bpy.app.timers.register(list_names, first_interval=0.0)
-
-
-CLASSES = (RISORIUS_PG_point_name, RISORIUS_PG_points)

@@ -64,6 +64,3 @@ def ask_whether_right(context: Any, kept: KeptPoints) -> None:
     """Open the question beside the mouse where there is doubt and a window; the panel goes on asking."""
     if kept.is_questioned and not bpy.app.background and context.window is not None:
         bpy.ops.wm.call_menu(name=RISORIUS_MT_is_this_the_face.bl_idname)
-
-
-CLASSES = (RISORIUS_OT_accept_points, RISORIUS_MT_is_this_the_face)

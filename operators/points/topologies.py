@@ -65,6 +65,3 @@ class RISORIUS_OT_remove_topology(RisoriusOperator, bpy.types.Operator):
         """Remove it."""
         remove_preset(self.file)
         return f"Find Face does not know {self.file} any more"
-
-
-CLASSES = (RISORIUS_OT_save_topology, RISORIUS_OT_remove_topology)

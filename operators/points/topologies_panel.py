@@ -37,6 +37,3 @@ class RISORIUS_PT_topologies(Sidebar, bpy.types.Panel):
             row.operator(RISORIUS_OT_remove_topology.bl_idname, text="", icon="X").file = file
         for name in shipped_names():
             column.label(text=name, icon="MESH_GRID")
-
-
-CLASSES = (RISORIUS_PT_topologies,)

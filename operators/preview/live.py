@@ -7,6 +7,7 @@ dragging, and with the face in balance when the hand rests. Saving, undo and the
 from __future__ import annotations
 
 import time
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
@@ -21,7 +22,7 @@ from ...scene.live.live_face import LiveFace, uid_of
 from ...scene.points.kept import has_points
 from ...scene.progress import Progress, Work
 from ..active import ready_reason, target_of
-from ..changes import listen, listen_to_time, unlisten
+from ..changes import listen, listen_to_time
 from ..emotion.performance import performance_of
 from ..emotion.profile import Wanted, wanted_of
 from ..muscles.props import shown
@@ -339,22 +340,19 @@ def _handlers() -> tuple[tuple[Any, Any], ...]:
     )
 
 
-def attach() -> None:
-    """Begin to listen; a Blender without a window shows no preview."""
-    listen(ask)
-    listen_to_time(replay)
+def attach(undo: ExitStack) -> None:
+    """Listen until undone, which clears up; a Blender without a window shows no preview."""
+    undo.callback(_clear_up)
+    listen(ask, undo)
+    listen_to_time(replay, undo)
     if not bpy.app.background:
         for event, action in _handlers():
             event.append(persistent(action))
+            undo.callback(event.remove, action)
 
 
-def detach() -> None:
-    """Listen no more, and clear up."""
-    unlisten(ask)
-    unlisten(replay)
-    for event, action in _handlers():
-        if action in event:
-            event.remove(action)
+def _clear_up() -> None:
+    """Nothing is due any more, and nothing shows."""
     if bpy.app.timers.is_registered(_answer):
         bpy.app.timers.unregister(_answer)
     if hasattr(bpy.data, "objects"):

@@ -25,6 +25,3 @@ class RISORIUS_PG_preview(bpy.types.PropertyGroup):
         default=True,
         update=_switched,
     )
-
-
-CLASSES = (RISORIUS_PG_preview,)

@@ -7,6 +7,7 @@ second, and less often where reading takes long. A closed panel is not drawn, so
 from __future__ import annotations
 
 import time
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
@@ -142,17 +143,16 @@ def _handlers() -> tuple[tuple[Any, Any], ...]:
     )
 
 
-def attach() -> None:
-    """Begin to listen."""
+def attach(undo: ExitStack) -> None:
+    """Listen until undone, and keep nothing then."""
+    undo.callback(_clear_up)
     for event, action in _handlers():
         event.append(persistent(action))
+        undo.callback(event.remove, action)
 
 
-def detach() -> None:
-    """Listen no more."""
-    for event, action in _handlers():
-        if action in event:
-            event.remove(action)
+def _clear_up() -> None:
+    """Nothing is due any more, and nothing is known."""
     if bpy.app.timers.is_registered(_read):
         bpy.app.timers.unregister(_read)
     _live.__init__()  # type: ignore[misc]

@@ -140,6 +140,3 @@ class RISORIUS_OT_clear_reading(RisoriusOperator, bpy.types.Operator):
         if image is not None:
             bpy.data.images.remove(image)
         return f"Cleared the beliefs read on {obj.name}"
-
-
-CLASSES = (RISORIUS_OT_read_animation, RISORIUS_OT_show_beliefs, RISORIUS_OT_clear_reading)

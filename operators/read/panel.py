@@ -167,6 +167,3 @@ def _row(column: Any, name: str, value: str, beside: str) -> None:
         row = right.row()
         row.alignment = "RIGHT"
         row.label(text=text)
-
-
-CLASSES = (RISORIUS_PT_read, RISORIUS_PT_read_faps, RISORIUS_PT_read_features)

@@ -41,6 +41,3 @@ class RISORIUS_PG_read(bpy.types.PropertyGroup):
     stream: _file("FAP File", "A .fap file of the measured FAPs to write")  # type: ignore[valid-type]
     table: _file("Table", "A .csv table of beliefs and FAPs to write, a row per frame")  # type: ignore[valid-type]
     plot: _file("Plot", "A .png picture of the plot to write")  # type: ignore[valid-type]
-
-
-CLASSES = (RISORIUS_PG_read,)

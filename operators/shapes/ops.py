@@ -47,6 +47,3 @@ class RISORIUS_OT_make_shapes(WorkOperator, bpy.types.Operator):
             return show_finding(self, context, result)
         replaced = f", {len(result.replaced)} of them in place of older ones" if result.replaced else ""
         return f"{context.object.name}: {len(result.keys)} shape keys made{replaced}"
-
-
-CLASSES = (RISORIUS_OT_make_shapes,)

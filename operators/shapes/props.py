@@ -18,6 +18,3 @@ class RISORIUS_PG_shapes(bpy.types.PropertyGroup):
     replace: bpy.props.BoolProperty(  # type: ignore[valid-type]
         name="Replace", description="Write over shape keys of the same names; otherwise they are refused"
     )
-
-
-CLASSES = (RISORIUS_PG_shapes,)

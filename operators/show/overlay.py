@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 import bpy
@@ -28,8 +28,6 @@ ON_SKIN, IN_SKIN, UNDER_SKIN = 8e-4, 8e-3, 6e-2
 SLACK, CONTRACTED, PATH = 1.2, 5.5, 3.0
 #: Contractions are drawn in so many widths.
 LEVELS = 4
-
-_handler: Any = None
 
 
 def _draw() -> None:
@@ -122,15 +120,7 @@ def _draw_lines(lines: list[tuple[Floats, Floats]], width: float) -> None:
     batch.draw(shader)
 
 
-def attach() -> None:
-    """Begin to draw."""
-    global _handler
-    _handler = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
-
-
-def detach() -> None:
-    """Draw no more."""
-    global _handler
-    if _handler is not None:
-        bpy.types.SpaceView3D.draw_handler_remove(_handler, "WINDOW")
-        _handler = None
+def attach(undo: ExitStack) -> None:
+    """Draw until undone."""
+    handler = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handler, "WINDOW")

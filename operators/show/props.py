@@ -37,6 +37,3 @@ class RISORIUS_PG_show(bpy.types.PropertyGroup):
         "Needs Live Preview",
         update=_switched,
     )
-
-
-CLASSES = (RISORIUS_PG_show,)

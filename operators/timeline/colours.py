@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import ExitStack
 from functools import lru_cache
 from typing import Any
 
@@ -66,11 +67,12 @@ def _draw_icon(icon: Any, colour: tuple[float, float, float]) -> None:
     ]
 
 
-def attach() -> None:
-    """Icons are drawn when they are first wanted."""
+def attach(undo: ExitStack) -> None:
+    """Icons are drawn when they are first wanted, and kept until undone."""
+    undo.callback(_forget_icons)
 
 
-def detach() -> None:
+def _forget_icons() -> None:
     """Take the icons away."""
     global _icons
     if _icons is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
@@ -9,8 +10,6 @@ import bpy
 from ...scene.bake.baking import scene_fps
 from .bars import TOUCH, Bar, Grip, dragged
 from .drawing import bars_of, redraw
-
-_keymaps: list[tuple[Any, Any]] = []
 
 
 def grabbed(context: Any, event: Any) -> tuple[Bar, Grip] | None:
@@ -81,21 +80,11 @@ class RISORIUS_OT_drag_clip(bpy.types.Operator):
         return float(context.region.view2d.region_to_view(event.mouse_region_x, 0)[0])
 
 
-def attach() -> None:
-    """A press of the left button in timeline editors looks for a clip first."""
+def attach(undo: ExitStack) -> None:
+    """Until undone, a press of the left button in timeline editors looks for a clip first."""
     manager = bpy.context.window_manager
     configs = manager.keyconfigs.addon if manager is not None else None
     if configs is not None:
         keymap = configs.keymaps.new("Dopesheet", space_type="DOPESHEET_EDITOR")
         item = keymap.keymap_items.new(RISORIUS_OT_drag_clip.bl_idname, "LEFTMOUSE", "PRESS", head=True)
-        _keymaps.append((keymap, item))
-
-
-def detach() -> None:
-    """It does so no more."""
-    for keymap, item in _keymaps:
-        keymap.keymap_items.remove(item)
-    _keymaps.clear()
-
-
-CLASSES = (RISORIUS_OT_drag_clip,)
+        undo.callback(keymap.keymap_items.remove, item)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
 
 from ...scene.bake.baking import scene_fps
-from ..changes import listen, listen_to_time, unlisten
+from ..changes import listen, listen_to_time
 from ..points.canvas import Canvas, Colour, text_width
 from .bars import Bar, lay_out
 from .colours import colour_of
@@ -19,8 +20,6 @@ LETTERS, INDENT, RIM = 11.0, 5.0, 1.2
 #: How opaque bars are, and those of clips that do not play.
 OPAQUE, SILENT = 0.85, 0.25
 TEXT, UNSHADED, MARK = (0.05, 0.05, 0.05, 1.0), (0.0, 0.0, 0.0, 0.0), (1.0, 1.0, 1.0, 1.0)
-
-_handler: Any = None
 
 
 def bars_of(context: Any, region: Any) -> list[Bar]:
@@ -82,18 +81,9 @@ def _draw_bar(canvas: Canvas, bar: Bar, peak: float, colour: Colour, rim: Colour
         canvas.line(box, RIM * scale, rim)
 
 
-def attach() -> None:
-    """Begin to draw."""
-    global _handler
-    listen_to_time(redraw)
-    listen(redraw)
-    _handler = bpy.types.SpaceDopeSheetEditor.draw_handler_add(_draw, (), "WINDOW", "POST_PIXEL")
-
-
-def detach() -> None:
-    """Draw no more."""
-    global _handler
-    unlisten(redraw)
-    if _handler is not None:
-        bpy.types.SpaceDopeSheetEditor.draw_handler_remove(_handler, "WINDOW")
-        _handler = None
+def attach(undo: ExitStack) -> None:
+    """Draw until undone, anew whenever clips change."""
+    handler = bpy.types.SpaceDopeSheetEditor.draw_handler_add(_draw, (), "WINDOW", "POST_PIXEL")
+    undo.callback(bpy.types.SpaceDopeSheetEditor.draw_handler_remove, handler, "WINDOW")
+    listen(redraw, undo)
+    listen_to_time(redraw, undo)

@@ -5,9 +5,10 @@ The drive is the face's, not a clip's: one motion is driven in one way.
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any
 
-from ..changes import changed, follow, unlisten
+from ..changes import changed, follow
 from .props import active_clip
 
 #: Set first, for it brings its own place and strength; set last, for the others may switch it.
@@ -59,11 +60,6 @@ def _follow(owner: Any) -> None:
         copy_choice(clip.emotion, panel)
 
 
-def attach() -> None:
-    """Begin to keep them alike."""
-    follow(_follow)
-
-
-def detach() -> None:
-    """Keep them alike no more."""
-    unlisten(_follow)
+def attach(undo: ExitStack) -> None:
+    """Keep them alike until undone."""
+    follow(_follow, undo)

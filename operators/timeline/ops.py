@@ -230,16 +230,3 @@ class RISORIUS_MT_clips(bpy.types.Menu):
         self.layout.operator(RISORIUS_OT_sort_clips.bl_idname, icon="SORTTIME")
         self.layout.separator()
         self.layout.operator(RISORIUS_OT_clear_clips.bl_idname, icon="TRASH")
-
-
-CLASSES = (
-    RISORIUS_OT_add_clip,
-    RISORIUS_OT_duplicate_clip,
-    RISORIUS_OT_remove_clip,
-    RISORIUS_OT_move_clip,
-    RISORIUS_OT_sort_clips,
-    RISORIUS_OT_clear_clips,
-    RISORIUS_OT_time_clip,
-    RISORIUS_MT_clip_timing,
-    RISORIUS_MT_clips,
-)

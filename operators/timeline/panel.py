@@ -116,6 +116,3 @@ class RISORIUS_PT_variation(Sidebar, bpy.types.Panel):
             seed = row.row(align=True)
             seed.active = getattr(variation, name) > 0.0
             seed.prop(variation, f"{name}_seed")
-
-
-CLASSES = (RISORIUS_UL_clips, RISORIUS_PT_timeline, RISORIUS_PT_variation)

@@ -144,6 +144,3 @@ def sounding(timeline: Any) -> list[Any]:
     """The clips that play: those that are solo where any is, else those that are not muted."""
     solo = [clip for clip in timeline.clips if clip.solo]
     return solo or [clip for clip in timeline.clips if not clip.mute]
-
-
-CLASSES = (RISORIUS_PG_clip, RISORIUS_PG_variation, RISORIUS_PG_timeline)

@@ -20,6 +20,3 @@ class RISORIUS_OT_add_tissue_preset(AddPresetBase, bpy.types.Operator):
     preset_subdir = FOLDER
     preset_defines = ["tissue = bpy.context.object.risorius.tissue"]
     preset_values = [f"tissue.{name}" for name in FIGURES]
-
-
-CLASSES = (RISORIUS_OT_add_tissue_preset,)

@@ -46,6 +46,3 @@ class RISORIUS_PT_tissue(Sidebar, bpy.types.Panel):
             column = layout.column(align=True)
             for name in FIGURES:
                 column.prop(tissue, name)
-
-
-CLASSES = (RISORIUS_PT_tissue_presets, RISORIUS_PT_tissue)

@@ -146,6 +146,3 @@ def tissue_of(obj: Any) -> str | Tissue:
         return str(chosen.kind)
     figures: dict[str, Any] = {name: float(getattr(chosen, name)) for name in FIGURES}
     return Tissue(**figures)
-
-
-CLASSES = (RISORIUS_PG_tissue,)

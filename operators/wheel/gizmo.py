@@ -5,10 +5,12 @@ The gizmo only shows and answers; clicks and keys over it run the operators of t
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any, ClassVar
 
 import bpy
 
+from ..gizmo_keys import forget_keymap
 from .caption import caption, caption_at
 from .choice import REACH, Choice
 from .geometry import Pixel
@@ -90,17 +92,7 @@ class RISORIUS_GGT_wheel(bpy.types.GizmoGroup):
         self.gizmos.new(RISORIUS_GT_wheel.bl_idname)
 
 
-def attach() -> None:
-    """Nothing to do: Blender puts the gizmo into every 3D viewport."""
-
-
-def detach() -> None:
-    """Let go of pictures and keys; Blender keeps the keys of a gizmo otherwise, and those that the user has."""
-    forget_pictures()
-    manager = bpy.context.window_manager
-    for config in () if manager is None else (manager.keyconfigs.user, manager.keyconfigs.default):
-        if config is not None and KEYMAP in config.keymaps:
-            config.keymaps.remove(config.keymaps[KEYMAP])
-
-
-CLASSES = (RISORIUS_GT_wheel, RISORIUS_GGT_wheel)
+def attach(undo: ExitStack) -> None:
+    """Blender puts the gizmo into every 3D viewport by itself; pictures and keys go when that is undone."""
+    undo.callback(forget_pictures)
+    undo.callback(forget_keymap, KEYMAP)

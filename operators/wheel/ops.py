@@ -81,6 +81,3 @@ class RISORIUS_OT_nudge_emotion(RisoriusOperator, bpy.types.Operator):
             strengthen(emotion, self.strengthen)
         redraw()
         return title_of(emotion)
-
-
-CLASSES = (RISORIUS_OT_drag_emotion, RISORIUS_OT_nudge_emotion)

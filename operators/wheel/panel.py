@@ -29,6 +29,3 @@ class RISORIUS_PT_wheel(bpy.types.Panel):
         column.enabled = wheel.show
         column.prop(wheel, "corner")
         column.prop(wheel, "size")
-
-
-CLASSES = (RISORIUS_PT_wheel,)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any, ClassVar, NamedTuple
 
 import bpy
@@ -91,15 +92,11 @@ def _menu(menu: Any, context: Any) -> None:
         menu.layout.operator(RISORIUS_OT_pick_emotion.bl_idname)
 
 
-def attach() -> None:
-    """Enter the menu."""
+def attach(undo: ExitStack) -> None:
+    """Be in the menu until undone, and draw no longer than that."""
+    undo.callback(_hide)
     bpy.types.VIEW3D_MT_object.append(_menu)
-
-
-def detach() -> None:
-    """Leave the menu, and draw no more."""
-    bpy.types.VIEW3D_MT_object.remove(_menu)
-    _hide()
+    undo.callback(bpy.types.VIEW3D_MT_object.remove, _menu)
 
 
 def _hide() -> None:
@@ -108,6 +105,3 @@ def _hide() -> None:
     if _shown is not None:
         bpy.types.SpaceView3D.draw_handler_remove(_shown.handle, "WINDOW")
         _shown = None
-
-
-CLASSES = (RISORIUS_OT_pick_emotion,)

@@ -39,6 +39,3 @@ class RISORIUS_PG_wheel(bpy.types.PropertyGroup):
         subtype="PIXEL",
         update=_shown_otherwise,
     )
-
-
-CLASSES = (RISORIUS_PG_wheel,)

@@ -59,9 +59,7 @@ def test_clips_come_back_with_names_lengths_and_apexes(joy_and_fear: Any, tmp_pa
             track.mute = track.name != name
         apex = round(strip.frame_start + 0.5 * lengths[name])
         bpy.context.scene.frame_set(apex)
-        moved = sum(
-            key.value * (meshes.key_vertices(key) - rest) for key in face.data.shape_keys.key_blocks[1:]
-        )
+        moved = sum(key.value * (meshes.key_vertices(key) - rest) for key in face.data.shape_keys.key_blocks[1:])
         np.testing.assert_allclose(moved[nearest], apexes[name][::40], atol=1e-4, err_msg=name)
 
 

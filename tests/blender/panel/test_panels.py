@@ -7,8 +7,8 @@ from typing import Any
 
 import bpy
 import pytest
-from risorius import operators
 from risorius.operators import requirements
+from risorius.operators.classes import CLASSES
 from risorius.operators.sidebar import Sidebar
 
 pytestmark = pytest.mark.smoke
@@ -67,7 +67,7 @@ def drawn() -> dict[str, list[tuple[str, str]]]:
     """What each panel shows now; panels that do not show are missing."""
     context = bpy.context
     shown = {}
-    for cls in operators._classes():
+    for cls in CLASSES:
         if not issubclass(cls, bpy.types.Panel) or not issubclass(cls, Sidebar):
             continue  # Blender itself draws the popovers of presets
         if not getattr(cls, "poll", lambda _: True)(context):

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import bpy
 import pytest
-from risorius import operators
 from risorius.errors import FormatError
 from risorius.operators import translations
+from risorius.operators.classes import CLASSES
 
 
 def names() -> set[tuple[str, str]]:
     """Context and text of every panel, button and setting."""
     found = set()
-    for cls in operators._classes():
+    for cls in CLASSES:
         if getattr(cls, "bl_label", None):
             found.add(("Operator" if issubclass(cls, bpy.types.Operator) else "*", cls.bl_label))
         own = getattr(cls, "__annotations__", {})

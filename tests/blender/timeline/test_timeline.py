@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
 import numpy as np
 import pytest
 import risorius.api as api
-from risorius.operators.changes import listen, listen_to_time, unlisten
+from risorius.operators.changes import listen, listen_to_time
 from risorius.operators.emotion.performance import performance_of
 from risorius.operators.timeline.titles import clip_title
 
@@ -132,13 +133,10 @@ def test_a_timing_preset_sets_all_times(head: Any) -> None:
 def test_retiming_a_clip_tells_the_preview(head: Any) -> None:
     clip = add(head, "joy", 1)
     heard: list[Any] = []
-    listener = heard.append
-    listen_to_time(listener)
-    try:
+    with ExitStack() as undo:
+        listen_to_time(heard.append, undo)
         clip.start = 20
         clip.mute = True
-    finally:
-        unlisten(listener)
     assert heard == [head, head]
 
 
@@ -152,14 +150,12 @@ def test_the_face_is_asked_to_show_the_clip_that_is_added_or_selected(head: Any)
     def listener(obj: Any) -> None:
         heard.append((obj, obj.risorius.emotion.word))
 
-    listen(listener)
-    try:
+    with ExitStack() as undo:
+        listen(listener, undo)
         timeline.active = 0
         assert heard[-1] == (head, "joy")
         heard.clear()
         bpy.ops.risorius.add_clip()
-    finally:
-        unlisten(listener)
     assert heard[-1] == (head, "joy")
     assert titles(head) == ["joy", "fear", "joy"]
 

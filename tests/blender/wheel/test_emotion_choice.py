@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from contextlib import ExitStack
 from typing import Any
 
 import numpy as np
 import pytest
 import risorius.api as api
-from risorius.operators.changes import listen, unlisten
+from risorius.operators.changes import listen
 from risorius.operators.emotion.profile import title_of, wanted_of
 
 
@@ -41,10 +42,7 @@ def test_the_wheel_goes_round(head: Any, turned: float, kept: float) -> None:
 )
 def test_every_choice_tells_the_listeners(head: Any, name: str, value: Any) -> None:
     heard: list[Any] = []
-    listener = heard.append
-    listen(listener)
-    try:
+    with ExitStack() as undo:
+        listen(heard.append, undo)
         setattr(head.risorius.emotion, name, value)
-    finally:
-        unlisten(listener)
     assert head in heard

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import ExitStack
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,8 +11,9 @@ import bpy
 import numpy as np
 import pytest
 import risorius.api as api
-from risorius.operators.changes import listen, unlisten
+from risorius.operators.changes import listen
 from risorius.operators.emotion.profile import profile_of, wanted_of
+from risorius.operators.gizmo_keys import forget_keymap
 from risorius.operators.wheel import gizmo, ops, pick
 from risorius.operators.wheel.caption import caption, caption_at
 from risorius.operators.wheel.choice import Choice, Hand, choose_pixel, choose_point, choose_word, strengthen, turn
@@ -163,13 +165,10 @@ def test_choosing_what_is_chosen_keeps_its_variant_and_tells_nobody(head: Any) -
     emotion = head.risorius.emotion
     emotion.variant = "1"
     heard: list[Any] = []
-    listener = heard.append
-    listen(listener)
-    try:
+    with ExitStack() as undo:
+        listen(heard.append, undo)
         choose_word(emotion, "joy")
         Choice.of(emotion).write(emotion)
-    finally:
-        unlisten(listener)
     assert emotion.variant == "1"
     assert not heard
 
@@ -223,5 +222,5 @@ def test_the_wheel_has_its_keys_while_it_is_registered() -> None:
     config = configs.default
     keys = gizmo.RISORIUS_GGT_wheel.setup_keymap(config).keymap_items
     assert {item.idname for item in keys} == {"risorius.drag_emotion", "risorius.nudge_emotion"}
-    gizmo.detach()
+    forget_keymap(gizmo.KEYMAP)
     assert not [one.name for one in configs if gizmo.KEYMAP in one.keymaps]
