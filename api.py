@@ -24,7 +24,7 @@ from .face.fit.topologies import (
     write_topology,
 )
 from .face.mechanism import ADDITIONS, MUSCLE_GROUPS, Mechanism
-from .face.mesh.head_frame import Fapu
+from .face.mesh.fap_units import Fapu
 from .face.mesh.parts import Part
 from .face.mesh.points import REQUIRED as REQUIRED_POINTS
 from .face.pose import Pose

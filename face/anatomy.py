@@ -9,10 +9,11 @@ from scipy import sparse
 
 from ..arrays import Bools, Ints
 from ..errors import ModelError
+from ..mpeg4 import FAPS
 from ..physics import mesh
 from ..physics.elastic import laplacian
 from .bodies.contact import Contact, build_contact
-from .bodies.eyeball import PUPIL_SHARE, Eyeball
+from .bodies.eyeball import Eyeball, build_eyeball
 from .bodies.head_turn import HeadTurn, build_head_turn
 from .bodies.tongue import Tongue, build_tongue
 from .drive.inverse import Inverse, Kernel, kernel_of
@@ -21,6 +22,7 @@ from .mechanisms.jaw import Jaw, build_jaw
 from .mechanisms.lids import Eye, build_eye
 from .mesh.face_mesh import FaceMesh
 from .mesh.fap_rows import FapRows, displacement_rows
+from .mesh.fap_units import unit_length
 from .mesh.openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, edge_graph, find_opening, outer_faces
 from .mesh.parts import Part
 from .mesh.points import FeaturePoints
@@ -212,6 +214,10 @@ class Anatomy:
         carriers = np.union1d(self.skin.index, np.union1d(self._part(Part.TEETH_UPPER), self._part(Part.TEETH_LOWER)))
         return LooseParts(self.mesh.positions, self._part(Part.OTHER), carriers)
 
+    def _fap_unit(self, number: int) -> float:
+        """One unit of a FAP that is a length, metres of head space."""
+        return unit_length(FAPS[number].unit, self.mesh.units) / self.mesh.frame.scale
+
     @cached_property
     def lower_teeth(self) -> Ints:
         """Vertices that go with the mandible: lower teeth and tongue."""
@@ -220,8 +226,6 @@ class Anatomy:
     @cached_property
     def eyeballs(self) -> list[Eyeball]:
         """The eyeballs that the mesh has."""
-        units, scale = self.mesh.units, self.mesh.frame.scale
-        lengths = (units.es0 / 1024.0 / scale, units.irisd0 / 1024.0 / scale)
         found = []
         for side, part, pupil, faps in (
             ("l", Part.EYEBALL_L, "3.5", (23, 25, 27, 29)),
@@ -230,13 +234,10 @@ class Anatomy:
             index = self._part(part)
             if len(index) == 0:
                 continue
-            eye = self.eyes[side]
-            gaze = self.mesh.landmarks[pupil] - eye.centre
-            gaze = gaze / np.linalg.norm(gaze)
-            iris = float(np.arcsin(min(0.5 * units.irisd0 / scale / eye.radius, 0.9)))
-            found.append(
-                Eyeball(index, self.mesh.positions[index], eye.centre, gaze, iris * PUPIL_SHARE, iris, faps, lengths)
-            )
+            ball, pupil_at = self.mesh.positions[index], self.mesh.landmarks[pupil]
+            iris = self.mesh.units.irisd0 / self.mesh.frame.scale / 2.0
+            units = (self._fap_unit(faps[2]), self._fap_unit(faps[3]))
+            found.append(build_eyeball(self.eyes[side], index, ball, pupil_at, iris, faps, units))
         return found
 
     @cached_property
@@ -245,8 +246,7 @@ class Anatomy:
         index = self._part(Part.TONGUE)
         if len(index) == 0:
             return None
-        units, scale = self.mesh.units, self.mesh.frame.scale
-        lengths = (units.mw0 / 1024.0 / scale, units.mns0 / 1024.0 / scale)
+        lengths = (self._fap_unit(43), self._fap_unit(44))
         tip, body = (self.mesh.landmarks.get(name) for name in ("6.1", "6.2"))
         return build_tongue(index, self.mesh.positions[index], lengths, tip, body)
 

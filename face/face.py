@@ -21,7 +21,8 @@ from .measure import features, measure
 from .mechanism import Mechanism, named
 from .mesh.checks import checked_axes, checked_parts, checked_polygons, checked_vertices, with_pupils
 from .mesh.face_mesh import FaceMesh
-from .mesh.head_frame import Fapu, fapu, head_frame
+from .mesh.fap_units import Fapu, fapu
+from .mesh.head_frame import head_frame
 from .mesh.parts import Part
 from .mesh.points import FeaturePoints, PointSource, bind_points, check_sides
 from .muscles.placement import PlacedMuscle
@@ -103,7 +104,7 @@ class Face:
         frame = head_frame(positions, None if axes is None else checked_axes(axes))
         landmarks = {name: frame.to_head(position) for name, position in positions.items()}
         check_sides(landmarks)
-        units = fapu(positions, frame)
+        units = fapu(positions, frame.axes)
         head = frame.to_head(array)
         given = checked_parts(parts, head, faces, landmarks, bound)
         if parts is None:

@@ -9,7 +9,7 @@ from ..errors import ModelError, ParameterError
 from ..mpeg4 import FAP_COUNT, FEATURES
 from .anatomy import Anatomy
 from .bodies.direct_faps import ANGLE_UNIT
-from .mesh.fap_rows import unit_length
+from .mesh.fap_units import unit_length
 
 
 def _checked(anatomy: Anatomy, positions: Floats) -> Floats:

@@ -137,7 +137,8 @@ class FapuDefinition:
     ----------
     unit, symbol, name : as IRISD, "IRISD0", words.
     axis : "vertical" (up) or "lateral" (towards the subject's left); None for the angle unit.
-    point_a, point_b : the distance is the coordinate of a minus that of b; None for the angle unit.
+    pairs : the points (a, b): the unit is the coordinate of a minus that of b, of several pairs their mean; none for
+        the angle unit.
     divisor : one unit is the distance divided by this; None for the angle unit.
     radians : one unit of the angle unit in rad; None for the distances.
     """
@@ -146,8 +147,7 @@ class FapuDefinition:
     symbol: str
     name: str
     axis: str | None
-    point_a: str | None
-    point_b: str | None
+    pairs: tuple[tuple[str, str], ...]
     divisor: int | None
     radians: float | None
 
@@ -255,6 +255,9 @@ def _read_feature_points() -> dict[str, FeaturePoint]:
 FEATURE_POINTS: Mapping[str, FeaturePoint] = MappingProxyType(_read_feature_points())
 """The 84 feature points by name."""
 
+FAPU_PAIRS = (("point_a", "point_b"), ("other_a", "other_b"))
+"""Columns of fapu.csv that hold a pair of points each."""
+
 FAPU: Mapping[Unit, FapuDefinition] = MappingProxyType(
     {
         Unit(row["unit"]): FapuDefinition(
@@ -262,8 +265,7 @@ FAPU: Mapping[Unit, FapuDefinition] = MappingProxyType(
             symbol=row["symbol"],
             name=row["name"],
             axis=row["axis"] or None,
-            point_a=row["point_a"] or None,
-            point_b=row["point_b"] or None,
+            pairs=tuple((row[a], row[b]) for a, b in FAPU_PAIRS if row[a]),
             divisor=_number(row["divisor"]),
             radians=float(row["radians"]) if row["radians"] else None,
         )

@@ -18,7 +18,7 @@ import numpy as np
 import risorius.api as api
 from risorius.arrays import Floats
 from risorius.face.drive.synergies import load_synergies
-from risorius.face.mesh.fap_rows import unit_length
+from risorius.face.mesh.fap_units import unit_length
 from risorius.face.pose import Poser
 from risorius.face.response.actuators import LID_NAMES
 

@@ -8,12 +8,16 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...arrays import Floats, Ints
+from ..mechanisms.lids import Eye
 from ..skin.outer import smoothstep
 from .direct_faps import ANGLE_UNIT, value_of
 from .surroundings import Look
 
 #: The neutral pupil is a third of the iris, and the iris as wide as the neutral lid gap (ISO/IEC 14496-2 neutral face).
 PUPIL_SHARE = 1.0 / 3.0
+
+#: An iris is taken for no wider than this share of its eyeball, whatever the lids' gap says.
+WIDEST_IRIS = 0.9
 
 
 @dataclass(frozen=True)
@@ -102,3 +106,19 @@ class Eyeball:
         growth = float(np.mean(now[pupil] / angle[pupil])) - 1.0
         radius = float(np.median(np.linalg.norm(away, axis=1)))
         return 2.0 * growth * self.pupil * radius / self.units[1]
+
+
+def build_eyeball(
+    eye: Eye,
+    index: Ints,
+    positions: Floats,
+    pupil: Floats,
+    iris_radius: float,
+    faps: tuple[int, int, int, int],
+    units: tuple[float, float],
+) -> Eyeball:
+    """An eyeball from its vertices (k,), (k, 3), the pupil's middle (3,) and the iris' radius, all in head space."""
+    gaze = pupil - eye.centre
+    gaze = gaze / np.linalg.norm(gaze)
+    iris = float(np.arcsin(min(iris_radius / eye.radius, WIDEST_IRIS)))
+    return Eyeball(index, positions, eye.centre, gaze, iris * PUPIL_SHARE, iris, faps, units)

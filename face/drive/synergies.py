@@ -16,19 +16,11 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Floats, Ints
-from ...errors import FormatError, ParameterError
-from ...mpeg4 import FAPS, Unit
+from ...errors import FormatError
+from ...mpeg4 import FAPS
+from ..mesh.fap_units import TEMPLATE_FAPU, unit_length
 from ..mesh.template import ANATOMY, MM
 from ..tables import read_toml
-
-#: Millimetres per FAP unit on the template face.
-TEMPLATE_UNITS: Mapping[Unit, float] = {
-    Unit.IRISD: 9.997 / 1024,
-    Unit.ES: 65.634 / 1024,
-    Unit.ENS: 48.015 / 1024,
-    Unit.MNS: 21.202 / 1024,
-    Unit.MW: 50.698 / 1024,
-}
 
 RANGE_COLUMNS = ("fap", "low_mm", "high_mm", "low_linear", "high_linear")
 
@@ -42,10 +34,7 @@ UNIT_PRIORS = {"AU9": 0.24}
 
 def template_millimetres(number: int) -> float:
     """Millimetres on the template per unit of a displacement FAP."""
-    unit = FAPS[number].unit
-    if unit is None or unit not in TEMPLATE_UNITS:
-        raise ParameterError("FAP", "must be one that moves a point by a length", number)
-    return TEMPLATE_UNITS[unit]
+    return unit_length(FAPS[number].unit, TEMPLATE_FAPU) / MM
 
 
 def mirror_fap(number: int) -> int:

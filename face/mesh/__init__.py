@@ -2,7 +2,8 @@
 
 checks                    vertices, polygons, parts and axes of a caller, checked
 face_mesh                 all of it, checked and turned into head space
-head_frame                where the head is, which way it looks, its FAP units
+head_frame                where the head is, which way it looks
+fap_units                 its FAP units
 points, own_lip           feature points bound to the mesh
 fap_rows                  which point each FAP reads, along which direction, in which unit
 parts, segmentation,      which vertex is skin, eyeball, tooth or tongue, and how that is told

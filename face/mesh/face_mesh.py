@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ...arrays import Floats, Ints
-from .head_frame import Fapu, HeadFrame
+from .fap_units import Fapu
+from .head_frame import HeadFrame
 from .points import FeaturePoints
 
 

@@ -10,26 +10,11 @@ import numpy as np
 from scipy import sparse
 
 from ...arrays import Floats, Ints
-from ...errors import ParameterError
-from ...mpeg4 import FAPS, Unit
+from ...mpeg4 import FAPS
 from ...physics.mesh import Sparse
-from .head_frame import Fapu, HeadFrame
+from .fap_units import Fapu, unit_length
+from .head_frame import HeadFrame
 from .points import FeaturePoints
-
-
-def unit_length(unit: Unit | None, units: Fapu) -> float:
-    """One FAP unit of length (FAPU / 1024) in metres of the face; a ParameterError for a unit that is none."""
-    lengths = {
-        Unit.IRISD: units.irisd0,
-        Unit.ES: units.es0,
-        Unit.ENS: units.ens0,
-        Unit.MNS: units.mns0,
-        Unit.MW: units.mw0,
-    }
-    if unit is None or unit not in lengths:
-        raise ParameterError("unit", f"must be one of the lengths {', '.join(lengths)}", unit)
-    return lengths[unit] / 1024.0
-
 
 #: Middles of the inner and outer lips; FAPs move them up, down and forward only.
 LIP_MIDDLES = ("2.2", "2.3", "8.1", "8.2")

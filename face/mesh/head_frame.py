@@ -15,10 +15,8 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ModelError
+from .fap_units import TEMPLATE_FAPU
 from .template import TEMPLATE_POINTS
-
-TEMPLATE_ES0 = 0.06563
-TEMPLATE_ENS0 = 0.04801
 
 #: A face is modelled along its mesh's axes, Z up in Blender and Y up elsewhere. Within this angle it is measured along
 #: them: whoever made it decided what is upright, and no points tell it so well.
@@ -29,37 +27,6 @@ FRAME_POINTS = (
     "3.7", "3.11", "3.8", "3.12", "9.15", "9.3", "9.12", "4.3", "4.4", "8.3", "8.4", "2.10", "10.9", "10.10",
     "2.13", "2.14",
 )  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Fapu:
-    """The five FAP units of length of one neutral face, in metres of its own coordinates.
-
-    Source: ISO/IEC 14496-2 as in the facts of `mpeg4/data`; differences per head axis, not Euclidean distances.
-    """
-
-    irisd0: float
-    es0: float
-    ens0: float
-    mns0: float
-    mw0: float
-
-    def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            if not value > 0.0:
-                raise ModelError(
-                    f"FAP unit {name.upper()} is {value * 1000:.2f} mm but must be positive: "
-                    f"check the feature points {FAPU_POINTS[name]}"
-                )
-
-
-FAPU_POINTS: Mapping[str, str] = {
-    "irisd0": "3.1 and 3.3 (upper and lower lid)",
-    "es0": "3.5 and 3.6 (left and right pupil)",
-    "ens0": "3.5 and 9.15 (pupil and nose base)",
-    "mns0": "9.15 and 2.2 (nose base and upper lip)",
-    "mw0": "8.3 and 8.4 (left and right lip corner)",
-}
 
 
 @dataclass(frozen=True)
@@ -111,7 +78,7 @@ def head_frame(points: Mapping[str, Floats], axes: Floats | None = None) -> Head
     eyes = (np.array([points["3.5"], points["3.6"]]) - origin) @ axes.T
     es0 = eyes[0, 0] - eyes[1, 0]
     ens0 = eyes[:, 1].mean()
-    scale = (es0 / TEMPLATE_ES0 + ens0 / TEMPLATE_ENS0) / 2.0
+    scale = (es0 / TEMPLATE_FAPU.es0 + ens0 / TEMPLATE_FAPU.ens0) / 2.0
     if not scale > 0.0:
         raise ModelError("the pupils 3.5 and 3.6 lie below the nose or are swapped: 3.5 is the subject's left eye")
     return HeadFrame(axes=axes, origin=origin, scale=float(scale))
@@ -135,15 +102,3 @@ def _axes(points: Mapping[str, Floats]) -> Floats:
         return fitted
     cosine = (np.trace(fitted @ modelled.T) - 1.0) / 2.0
     return modelled if np.arccos(np.clip(cosine, -1.0, 1.0)) < MODELLED_TOLERANCE else fitted
-
-
-def fapu(points: Mapping[str, Floats], frame: HeadFrame) -> Fapu:
-    """The FAP units of a neutral face in its own units of length (points as in `head_frame`)."""
-    p = {name: frame.axes @ np.asarray(position) for name, position in points.items()}
-    return Fapu(
-        irisd0=float(p["3.1"][1] - p["3.3"][1]),
-        es0=float(p["3.5"][0] - p["3.6"][0]),
-        ens0=float(p["3.5"][1] - p["9.15"][1]),
-        mns0=float(p["9.15"][1] - p["2.2"][1]),
-        mw0=float(p["8.3"][0] - p["8.4"][0]),
-    )

@@ -13,11 +13,12 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import FormatError
 from ..mechanism import MUSCLE_GROUPS, Mechanism
+from ..mesh.fap_units import TEMPLATE_FAPU
 from ..mesh.template import ANATOMY, MM, TEMPLATE_POINTS
 from ..tables import read_toml
 
 #: Offsets in the table are given in these units of the template: ES0, ENS0, ENS0 (metres).
-OFFSET_UNITS: Floats = np.array([65.634, 48.015, 48.015]) * MM
+OFFSET_UNITS: Floats = np.array([TEMPLATE_FAPU.es0, TEMPLATE_FAPU.ens0, TEMPLATE_FAPU.ens0])
 
 
 class Kind(StrEnum):

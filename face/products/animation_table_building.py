@@ -18,7 +18,7 @@ from ..bodies.direct_faps import ANGLE_UNIT
 from ..drive.synergies import load_synergies, template_millimetres
 from ..drive.wishes import Drive
 from ..face import Face
-from ..mesh.fap_rows import unit_length
+from ..mesh.fap_units import unit_length
 from ..mesh.parts import Part
 from ..mesh.template import ANATOMY
 from .animation_tables import AnimationTable, AnimationTables, TableError, slopes_of

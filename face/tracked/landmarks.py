@@ -15,8 +15,7 @@ from ...arrays import Bools, Floats, Ints
 from ...errors import ModelError, ParameterError
 from ...mpeg4 import FAP_COUNT, FAPS
 from ...mpeg4.streams.capture.rotation import ANGLE_UNIT, head_faps
-from ..mesh.fap_rows import unit_length
-from ..mesh.head_frame import Fapu, HeadFrame, fapu
+from ..mesh.fap_units import Fapu, fapu, unit_length
 from ..mesh.template import TEMPLATE_POINTS
 
 #: The face's usual shape is that which so large a share of the frames comes closest to, of so many that are compared;
@@ -113,7 +112,7 @@ def read_points(
     still = pose.undone(points)
     rest = np.nanmean(still[chosen], axis=0)
     at_rest = _with_pupils({name: rest[index] for name, index in place.items()})
-    units = fapu(at_rest, HeadFrame(np.eye(3), at_rest["9.15"], 1.0))
+    units = fapu(at_rest, np.eye(3))
     frames = np.full((len(points), FAP_COUNT), np.nan)
     _read_shifts(frames, still - rest, place, units)
     _read_eyes(frames, still, place, eye_radius * units.es0, rest)

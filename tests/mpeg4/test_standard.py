@@ -132,10 +132,11 @@ def test_units_are_measured_between_existing_points() -> None:
     for unit, definition in FAPU.items():
         if unit is Unit.AU:
             assert definition.radians == 1e-5
-            assert definition.point_a is None
+            assert definition.pairs == ()
         else:
             assert definition.divisor == 1024
-            assert {definition.point_a, definition.point_b} <= set(FEATURE_POINTS)
+            assert {point for pair in definition.pairs for point in pair} <= set(FEATURE_POINTS)
+            assert len(definition.pairs) == (2 if unit is Unit.IRISD else 1)
             assert definition.axis in ("vertical", "lateral")
 
 
