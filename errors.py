@@ -22,7 +22,8 @@ class FormatError(RisoriusError):
     problem : what is wrong, and the remedy.
     line : 1-based line number, where the file is text.
     offset : byte offset, where the file is binary.
-    key : dotted key, where the file is a table (TOML).
+    column : name of a column, where the file is a table of rows (CSV).
+    key : dotted key, where the file is a table of keys (TOML, JSON).
     """
 
     def __init__(
@@ -32,14 +33,18 @@ class FormatError(RisoriusError):
         *,
         line: int | None = None,
         offset: int | None = None,
+        column: str | None = None,
         key: str | None = None,
     ) -> None:
-        self.path, self.problem, self.line, self.offset, self.key = path, problem, line, offset, key
+        self.path, self.problem, self.line, self.offset = path, problem, line, offset
+        self.column, self.key = column, key
         where = str(path)
         if line is not None:
             where += f", line {line}"
         if offset is not None:
             where += f", byte {offset}"
+        if column is not None:
+            where += f", column {column}"
         if key is not None:
             where += f", key {key}"
         super().__init__(f"{where}: {problem}")

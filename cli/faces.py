@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import ModelError
 from ..face.fit.doubt import DOUBTFUL
-from ..mpeg4.files import write_whole
+from ..files import write_whole
 from .options import add_face, face_of, verb, vertices_of
 from .result import Result, UsageError
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import RisoriusError
-from ..mpeg4.files import write_whole
+from ..files import write_whole
 from .options import verb
 from .result import Result, UsageError
 

@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ..errors import FormatError, ParameterError
+from ..files import write_whole
 from .emotions.expressions import expression, find_word
 from .emotions.profile import Profile
-from .files import write_whole
 from .timing import Ramp
 
 

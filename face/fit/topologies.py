@@ -19,8 +19,8 @@ import numpy as np
 
 from ...arrays import Floats, Ints
 from ...errors import FormatError, ModelError
+from ...files import write_whole
 from ...mpeg4 import FEATURE_POINTS
-from ...mpeg4.files import write_whole
 from ...physics.mesh import Polygons, unique_edges
 from ...resources import PRESETS
 

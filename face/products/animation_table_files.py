@@ -11,8 +11,8 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import FormatError, ParameterError
+from ...files import read_document, write_whole
 from ...mpeg4 import FAPS
-from ...mpeg4.files import read_document, write_whole
 from .animation_tables import AnimationTable, AnimationTables, TableError
 
 FORMAT, VERSION = "risorius face animation tables", 1

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Floats
 from ...errors import ParameterError
-from ..files import write_whole
+from ...files import write_whole
 from ..standard import FAP_COUNT, FAPS
 from .profile import ARCHETYPES, Archetype
 from .recognition import Rule, recognise, shown_strength

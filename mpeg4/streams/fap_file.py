@@ -15,7 +15,7 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from ...errors import FormatError, ParameterError
-from ..files import write_whole
+from ...files import write_whole
 from ..high_level import ExpressionField, VisemeField
 from ..standard import FAP_COUNT
 from .fap_stream import FapStream

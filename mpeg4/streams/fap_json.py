@@ -18,7 +18,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import FormatError, ParameterError
-from ..files import read_document, write_whole
+from ...files import read_document, write_whole
 from ..high_level import ExpressionField, VisemeField
 from ..standard import FAP_COUNT, FAPS
 from .fap_stream import FapStream

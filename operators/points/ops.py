@@ -12,8 +12,8 @@ from bpy_extras.io_utils import ExportHelper
 from mathutils import Vector
 
 from ...errors import RisoriusError, SceneError
+from ...files import write_whole
 from ...mpeg4 import FAPS, FEATURE_POINTS
-from ...mpeg4.files import write_whole
 from ...scene.faces import stored_points
 from ...scene.points.bound import followed
 from ...scene.points.found import Finding, find_points

@@ -15,7 +15,7 @@ from types import ModuleType
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("cli", "mpeg4", "physics", "face", "scene", "operators", "presets", "track")
+FOLDERS = ("cli", "tables", "mpeg4", "physics", "face", "scene", "operators", "presets", "track")
 SKIPPED_AT_ROOT = {"tests", "tools", "docs", "build", "dist", "out"}
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ....errors import FormatError
-from ...files import write_whole
+from ....files import write_whole
 from ...standard import FAP_COUNT, FAPS
 from ..fap_stream import FapStream
 from .samples import Samples

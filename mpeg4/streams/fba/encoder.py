@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ....errors import ParameterError
-from ...files import write_whole
+from ....files import write_whole
 from ...standard import GROUPS
 from ..fap_stream import FapStream
 from .arithmetic import Model, SegmentWriter

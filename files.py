@@ -1,4 +1,4 @@
-"""Files written whole or not at all, and JSON documents read with errors that name the file."""
+"""Files written whole or not at all, and read with errors that name the file and the remedy."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ import os
 from pathlib import Path
 from typing import Any
 
-from ..errors import FormatError
+from .errors import FormatError
+from .resources import PACKAGE
 
 
 def write_whole(path: str | Path, content: str | bytes) -> None:
@@ -29,6 +30,21 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
         raise FormatError(file, f"cannot be written ({error.strerror}): choose a folder you may write to") from error
 
 
+def read_bytes(path: str | Path) -> bytes:
+    """The bytes of a file.
+
+    Raises
+    ------
+    FormatError : it cannot be read.
+    """
+    file = Path(path)
+    try:
+        return file.read_bytes()
+    except OSError as error:
+        remedy = "install Risorius again" if file.resolve().is_relative_to(PACKAGE) else "give a file that you may read"
+        raise FormatError(file, f"cannot be read ({error.strerror}): {remedy}") from error
+
+
 def read_document(path: str | Path, *, kind: str, version: int) -> dict[str, Any]:
     """A JSON object that says what it is: "format": `kind`, "version": `version`.
 
@@ -37,9 +53,7 @@ def read_document(path: str | Path, *, kind: str, version: int) -> dict[str, Any
     FormatError : unreadable, no JSON, or another kind or version of document.
     """
     try:
-        document = json.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FormatError(path, f"cannot be read ({error.strerror})") from error
+        document = json.loads(read_bytes(path).decode("utf-8"))
     except (ValueError, RecursionError) as error:  # UnicodeDecodeError is a ValueError
         raise FormatError(path, f"is not valid JSON: {error}") from error
     if not isinstance(document, dict) or (document.get("format"), document.get("version")) != (kind, version):

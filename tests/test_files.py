@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from risorius.errors import FormatError
-from risorius.mpeg4.files import read_document, write_whole
+from risorius.files import read_document, write_whole
 
 
 def test_text_and_bytes_stand_as_they_are_and_nothing_else_is_left(tmp_path: Path) -> None:

@@ -1,0 +1,33 @@
+"""Tables on disk, TOML and CSV, and the one set of readers for what stands in them.
+
+cells         named cells of one place in a file, each read by the rule that it must keep
+toml_table    TOML: tables by dotted keys
+csv_table     CSV: rows by the names of their columns
+
+    for row in read_csv(path, "fap", "low_mm", "source"):
+        number, low = row.integer("fap", least=1, most=68), row.number("low_mm")
+
+    for name, muscle in read_toml(path).tables("muscles").items():
+        kind, prior = muscle.choice("kind", Kind), muscle.number("prior_mm", above=0.0)
+
+A cell that breaks its rule raises a `FormatError` that names the file, the key (TOML) or the line and column (CSV), the
+rule, and what stands there instead.
+"""
+
+from .cells import Cells
+from .csv_table import CsvRow, named_cells, numbered_lines, parsed_number, read_csv, split_cells
+from .toml_table import TomlTable, read_toml, toml_number, toml_text
+
+__all__ = [
+    "Cells",
+    "CsvRow",
+    "TomlTable",
+    "named_cells",
+    "numbered_lines",
+    "parsed_number",
+    "read_csv",
+    "read_toml",
+    "split_cells",
+    "toml_number",
+    "toml_text",
+]

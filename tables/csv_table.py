@@ -1,0 +1,110 @@
+"""CSV files as rows of checked cells.
+
+Lines that begin with # say what a table is, its units and where it is from; blank lines say nothing. One line is one
+row: a cell holds no line break.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from ..errors import FormatError
+from ..files import read_bytes
+from .cells import Cells
+
+
+class CsvRow(Cells):
+    """One row of a CSV file; `line` is its 1-based line."""
+
+    cells: Mapping[str, str]
+
+    def __init__(self, path: Path, cells: Mapping[str, str], line: int) -> None:
+        super().__init__(path, cells)
+        self.line = line
+
+    def refuse(self, problem: str, name: str | None = None) -> FormatError:
+        """The error for one cell, or for the whole row."""
+        return FormatError(self.path, problem, line=self.line, column=name)
+
+    def _number(self, name: str) -> object:
+        return parsed_number(self.cells.get(name, ""))
+
+    def _numbers(self, name: str) -> object:
+        return [parsed_number(word) for word in self.cells.get(name, "").split()]
+
+    def _texts(self, name: str) -> object:
+        return self.cells.get(name, "").split()
+
+
+def read_csv(path: str | Path, *columns: str) -> list[CsvRow]:
+    """The rows of a CSV file, whose heading must have the named columns.
+
+    Raises
+    ------
+    FormatError : it cannot be read, lacks a column, or a row has a cell too many or too few; names the line.
+    """
+    file = Path(path)
+    try:
+        text = read_bytes(file).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
+    lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith("#")]
+    if not lines:
+        raise FormatError(file, "is empty: it must begin with a line of column names")
+    heading = split_cells(file, *lines[0])
+    for column in columns:
+        if column not in heading:
+            raise FormatError(
+                file, f"lacks a column: it must have {', '.join(columns)}", line=lines[0][0], column=column
+            )
+    return [CsvRow(file, named_cells(file, heading, number, line), number) for number, line in lines[1:]]
+
+
+def numbered_lines(text: str) -> list[tuple[int, str]]:
+    """Lines that say something, with their 1-based numbers."""
+    return [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
+
+
+def split_cells(path: Path, number: int, line: str, *, separator: str = ",") -> list[str]:
+    """The cells of one line of CSV, without blanks around them.
+
+    Raises
+    ------
+    FormatError : it is not a line of CSV.
+    """
+    try:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
+    except csv.Error as error:
+        raise FormatError(path, f"is not a row of a table ({error}): mend or remove it", line=number) from error
+
+
+def named_cells(path: Path, columns: Sequence[str], number: int, line: str, *, separator: str = ",") -> dict[str, str]:
+    """The cells of one line by column; a separator at its end parts nothing.
+
+    Raises
+    ------
+    FormatError : a cell too many or too few.
+    """
+    cells = split_cells(path, number, line, separator=separator)
+    if len(cells) == len(columns) + 1 and cells[-1] == "":
+        cells.pop()
+    if len(cells) != len(columns):
+        problem = f"has {len(cells)} cells where the heading has {len(columns)}: is the file cut off here?"
+        raise FormatError(path, problem, line=number)
+    return dict(zip(columns, cells, strict=True))
+
+
+def parsed_number(text: str) -> int | float | None:
+    """The number that a text is; None where it is none."""
+    if "_" in text:  # Python takes 1_000
+        return None
+    try:
+        return int(text)
+    except ValueError:
+        pass
+    try:
+        return float(text)
+    except ValueError:
+        return None
