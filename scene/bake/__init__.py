@@ -5,6 +5,7 @@ performance, strips         several expressions; a timeline
 motion                      what a motion bake simulates
 compress                    a motion as few shapes times weights
 shape_keys, action, notes   Risorius' own keys; clips as actions; what a bake notes on them
+remarks                     what an animator should know about a bake
 """
 
 from .baking import BakeResult, ClipTiming, Target, bake_expression, bake_motion, clear

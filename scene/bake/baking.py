@@ -18,12 +18,13 @@ from ...face.mesh.parts import Part
 from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of, read_face
 from ..progress import Progress, Work
-from ..refusals import own_mesh, refuse_unwritable, remarks
+from ..refusals import own_mesh, refuse_unwritable
 from . import action as actions
 from . import shape_keys
 from .compress import TOLERANCE, compress
 from .motion import Motion
 from .notes import Note, write_note
+from .remarks import remarks
 
 if TYPE_CHECKING:
     from ...face.drive.natural import EmotionShares

@@ -91,7 +91,5 @@ def at_rate(frames: Floats, fps: float, wanted: float) -> Floats:
     share = (places - below)[:, None]
     first, second = frames[below], frames[below + 1]
     nearer = np.where(share < 0.5, first, second)
-    mixed = (1.0 - share) * np.where(np.isnan(first), second, first) + share * np.where(
-        np.isnan(second), first, second
-    )
+    mixed = (1.0 - share) * np.where(np.isnan(first), second, first) + share * np.where(np.isnan(second), first, second)
     return np.where(np.isnan(nearer), np.nan, mixed)

@@ -16,11 +16,11 @@ from ...arrays import Floats
 from ..creases import marks as crease_marks
 from ..faces import face_of
 from ..progress import Progress, Work
-from ..refusals import remarks
 from . import action as actions
 from . import shape_keys
 from .baking import BakeResult, Target, clear, write_baked
 from .notes import BakeKind, Note, read_notes
+from .remarks import remarks
 
 if TYPE_CHECKING:
     from ...face.drive.natural import EmotionShares

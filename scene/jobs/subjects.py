@@ -50,9 +50,7 @@ _MOUTH = list(PLAIN_COLOURS).index("Mouth")
 MANY_TEETH = 8
 
 
-def subject(
-    mesh: str | Path | None = None, points: str | Path | None = None, *, creases: bool = False
-) -> Any:
+def subject(mesh: str | Path | None = None, points: str | Path | None = None, *, creases: bool = False) -> Any:
     """Put the face of a job into the current scene.
 
     Parameters

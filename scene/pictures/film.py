@@ -91,9 +91,7 @@ def render_film(
     return FilmResult(film, len(pictures), kept, (remark,) if remark else ())
 
 
-def render_frames(
-    objects: Sequence[Any], folder: Path, *, start: int, end: int, look: Look
-) -> Work[list[Path]]:
+def render_frames(objects: Sequence[Any], folder: Path, *, start: int, end: int, look: Look) -> Work[list[Path]]:
     """Render frames `start` to `end` as numbered PNGs into `folder`."""
     pictures = []
     count = end - start + 1

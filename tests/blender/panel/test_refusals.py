@@ -10,9 +10,10 @@ import bpy
 import numpy as np
 import pytest
 from risorius.errors import FormatError, SceneError
-from risorius.scene import faces, refusals
+from risorius.scene import faces
 from risorius.scene.bake import baking as bake
 from risorius.scene.bake import shape_keys
+from risorius.scene.bake.remarks import remarks
 from risorius.scene.points.file import read_points
 
 pytestmark = pytest.mark.smoke
@@ -153,12 +154,12 @@ def test_an_object_named_as_two_parts(head: Any, cube: Any) -> None:
 
 
 def test_what_is_fine_is_remarked_on(head: Any) -> None:
-    assert refusals.remarks(head) == ()
+    assert remarks(head) == ()
     head.modifiers.new("Subdivision", "SUBSURF").levels = 1
     head.shape_key_add(name="Basis")
     head.shape_key_add(name="mine", from_mix=False).value = 0.5
     bpy.context.view_layer.update()
-    said = " ".join(refusals.remarks(head))
+    said = " ".join(remarks(head))
     assert "modifiers change the number of vertices" in said
     assert "1 active shape keys" in said
 

@@ -1,0 +1,39 @@
+"""What an animator should know about a bake that is nevertheless fine."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..points.bound import followed
+from ..points.kept import has_points, read_kept
+from .shape_keys import own_names_of
+
+
+def _active_user_keys(keys: Any | None) -> list[str]:
+    """Names of shape keys that are not ours and move the face now."""
+    if keys is None:
+        return []
+    own = own_names_of(keys)
+    return [k.name for k in keys.key_blocks[1:] if k.value != 0.0 and not k.mute and k.name not in own]
+
+
+def remarks(obj: Any) -> tuple[str, ...]:
+    """What an animator should know about a bake on this object that is nevertheless fine."""
+    found = []
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    if evaluated.type == "MESH" and len(evaluated.data.vertices) != len(obj.data.vertices):
+        found.append(f"{obj.name}: its modifiers change the number of vertices; the bake shapes the mesh below them")
+    if has_points(obj):
+        now = followed(read_kept(obj), obj.data)
+        lost = f"; {', '.join(now.lost)} were lost" if now.lost else ""
+        if now.moved_on:
+            found.append(f"{obj.name}: was edited; its feature points went to the nearest surface{lost}: look at them")
+    keys = obj.data.shape_keys
+    active = _active_user_keys(keys)
+    if active:
+        found.append(f"{obj.name}: the resting face is the Basis; {len(active)} active shape keys add to the bake")
+    if obj.show_only_shape_key:
+        found.append(f"{obj.name}: Shape Key Lock shows one key only; switch it off to see the animation")
+    return tuple(found)
