@@ -135,11 +135,10 @@ def encode(pictures: Sequence[Path], path: Path, *, look: Look, fps: tuple[int, 
 
 
 def _sequence(scene: Any, pictures: Sequence[Path]) -> None:
-    """Put the pictures on the scene's timeline as one strip."""
+    """Put the pictures on the scene's timeline as one strip, which grows with every picture."""
     editor = scene.sequence_editor_create()
     strips = editor.strips if hasattr(editor, "strips") else editor.sequences
     strip = strips.new_image("Film", str(pictures[0]), 1, 1)
     for picture in pictures[1:]:
         strip.elements.append(picture.name)
-    strip.frame_final_duration = len(pictures)
     scene.frame_start, scene.frame_end = 1, len(pictures)

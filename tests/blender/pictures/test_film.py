@@ -62,6 +62,29 @@ def test_a_film_is_written_and_the_scene_is_as_it_was(nodding: Any, tmp_path: Pa
     assert (tuple(movie.size), movie.frame_duration) == ((96, 96), 5)
 
 
+def greys_of(path: Path, frames: int, folder: Path) -> list[float]:
+    """The mean grey of each frame of a film, as Blender's sequencer shows it."""
+    scene = bpy.data.scenes.new("Player")
+    editor = scene.sequence_editor_create()
+    (editor.strips if hasattr(editor, "strips") else editor.sequences).new_movie("Film", str(path), 1, 1)
+    scene.render.resolution_x = scene.render.resolution_y = 64
+    scene.render.resolution_percentage, scene.view_settings.view_transform = 100, "Standard"
+    scene.frame_start, scene.frame_end, scene.render.filepath = 1, frames, str(folder / "shown")
+    bpy.ops.render.render(animation=True, scene=scene.name)
+    return [float(read_picture(folder / f"shown{frame:04d}.png").mean()) for frame in range(1, frames + 1)]
+
+
+@pytest.mark.smoke
+@pytest.mark.parametrize("greys", [[0.6], [0.2, 0.5, 0.8]], ids=["one", "three"])
+def test_every_picture_is_in_the_film(greys: list[float], tmp_path: Path) -> None:
+    """Frame n of the film shows picture n, to the last: however a Blender counts the length of a strip."""
+    pictures = [tmp_path / f"{number:04d}.png" for number in range(1, len(greys) + 1)]
+    for picture, grey in zip(pictures, greys, strict=True):
+        write_picture(np.full((64, 64, 3), grey), picture)
+    path = film.encode(pictures, tmp_path / "film.mp4", look=Look(width=64, height=64))
+    assert greys_of(path, len(greys), tmp_path) == pytest.approx(greys, abs=0.03)
+
+
 @pytest.mark.smoke
 def test_the_operator_films_the_clip(nodding: Any, tmp_path: Path) -> None:
     bpy.context.scene.frame_end = 2
