@@ -29,59 +29,61 @@ HEADING = """# How well emotions are recognised
 Written by `make evidence` (`tools/evidence.py`); do not edit.
 
 `api.recognise` turns FAPs into beliefs in the six archetypes by section 5 of the first paper: a membership per FAP,
-their product per profile (8), the best variant of an emotion (9), the most believed emotion (11). The *paper* rule is
-that; the *robust* rule takes the geometric mean and skips unseen FAPs. `api.recognise_features` sees only what the 15
-distances of Table 3 show. One part of the method is ours: figure 6, the shape of the membership, is lost in print, so
-it was chosen on faces (below).
+their product per profile (8), the best variant of an emotion (9), the most believed emotion (11). This is the *paper*
+rule. The *robust* rule takes the geometric mean and skips FAPs that are not measured. `api.recognise_features` uses
+only the 15 distances of Table 3. One part of the method is ours: figure 6, the shape of the membership, is illegible in
+the paper, so it was chosen on faces (below).
 
-Per cent of right verdicts among the six, chance being 17 %. *Least* is the emotion that fares worst.
+Figures are per cent of correct results among the six emotions; chance is 17 %. *Least* is the emotion with the lowest
+figure.
 
-**Read these figures as a round trip.** The faces are posed from the profiles that are looked for, by the muscles of
-Risorius, on meshes without noise, and measured with known feature points against a known neutral. They say how much of
-a profile survives anatomy, not how well people's emotions are read; the scans below are nearer to that.
+**These figures are a round trip.** The faces are posed by Risorius from the same profiles that are then recognised, on
+meshes without noise, and measured with known feature points against a known neutral face. The figures show how much of
+a profile survives anatomy, not how well the emotions of people are recognised. The scans below are closer to that.
 """
 
 POSED = """
 ## Posed faces
 
-Each of the 25 profiles of Table 5 at {shares} of its archetype's own activation (held to 1..7), drawn inside
-its ranges anew on each of {faces} faces: the default head, ICT, MakeHuman and six identities
-({counts}).
-*Natural* and *exact* are the drives, told the word; *untold* is the natural drive given the FAPs without the word.
+Each of the 25 profiles of Table 5 at {shares} of its archetype's own activation (limited to 1..7), with new draws
+within its ranges on each of {faces} faces: the default head, ICT, MakeHuman and six identities ({counts}). *Natural*
+and *exact* are the drives with the word known; *untold* is the natural drive with the FAPs only, without the word.
 """
 
 FEATURES = """
-Features see distances alone. Fear on a face that obeys anatomy parts the mouth's corners and opens the eyes wide, which
-is all that joy's variant 2 shows there: nothing in it speaks against the open jaw and the raised brows of fear.
+Features are distances only. On an anatomical face, fear moves the mouth corners apart and opens the eyes wide. Variant
+2 of joy asks for the same distances and nothing else, so the open jaw and the raised brows of fear do not count against
+it.
 """
 
 SHAPES = """
 ## The shape of the membership
 
-Triangle, trapezoid, normal curve and bell, with and without a flat top over the printed range; each falls to 1/2 within
-one width: the larger of half the range, a share of its centre, and a least width. {count} choices, on the natural poses
-above.
+Triangle, trapezoid, normal curve and bell, with and without a flat top over the printed range. Each falls to 1/2 within
+one width: the largest of half the range, a share of its centre, and a least width. {count} choices were compared on the
+natural poses above.
 
 ![Shapes](pictures/evidence-shapes.png)
 
-The widths of each shape were picked on all these poses, *least* deciding between equals; nothing was picked on the
-scans.
+The widths of each shape were chosen on all these poses, with *least* as tie-breaker. Nothing was chosen on the scans.
 
-*In use* is the normal curve with widths 1 and 80. It was taken for the paper's rule, where a wider bell is right
-slightly more often on the whole, and clearly less often on the emotion that fares worst. Narrower shapes would gain the
-robust rule about a point and cost the paper's several; one curve serves both, so that their memberships are the same.
+*In use* is the normal curve with widths 1 and 80. It was chosen for the paper's rule. There, a wider bell is correct
+slightly more often overall, but clearly less often for the worst emotion. Narrower shapes would gain about one point
+for the robust rule and lose several for the paper's. One curve is used for both rules, so that their memberships are
+the same.
 
 | rule | shape | best share of the centre | least width | right | least | scans right |
 |---|---|---|---|---|---|---|
 """
 
 HELD_OUT = """
-Those figures flatter, being picked on the poses they are reported on. So here shape and widths are chosen on one half
-and judged on the other: on other faces, or on other variants (even ones and odd ones; each emotion's classes are all
-still there, and sadness and disgust have an even variant alone). *Risorius* is the choice in use on that same half,
-which is no stranger to it: it was chosen on other draws of the same profiles on the same faces.
+These figures are optimistic, because shape and widths were chosen on the poses that they are reported on. So in the
+next table, shape and widths are chosen on one half and tested on the other: on other faces, or on other variants (even
+and odd; all emotions remain as classes, but sadness and disgust have only an even variant). *Risorius* is the choice in
+use, tested on that same half. It is not independent of it: it was chosen on other draws of the same profiles on the
+same faces.
 
-| rule | halves of | chosen | there | on the other half | Risorius there |
+| rule | halves of | chosen | on that half | on the other half | Risorius, other half |
 |---|---|---|---|---|---|
 """
 
@@ -89,34 +91,33 @@ WORDS = """
 ## Words
 
 `api.recognise_words` (robust rule) on the natural poses of every word that has a profile, one draw on each face, among
-all {count} words whose profiles differ. Words of one category are the same profile at another strength, and a face
-that cannot show the strength shows the other word: *kind* asks only for the archetype, or the two archetypes, of the
-word.
+all {count} words whose profiles differ. Words of one category are the same profile at different strengths; a face that
+cannot show the strength shows the other word. *kind* counts the archetype, or the two archetypes, of the word only.
 
 """
 
 SCANS = """
 ## Scanned expressions
 
-Scanned shapes of one person (ICT FaceKit), laid on that head and on six identities, combined as FACS goes from
-emotions to action units, at {strengths} of full strength, {people} faces per combination. No scan shows AU {missing}:
-such combinations are shown without them, and are not what FACS asks for.{unshown} AU 25 is a slightly open jaw here,
-AU 23 and 24 share a scan.
+Scanned shapes of one person (ICT FaceKit), transferred to that head and to six identities, combined into the action
+units that FACS lists for each emotion, at {strengths} of full strength, {people} faces per combination. No scan shows
+AU {missing}. Combinations with these action units are shown without them, so they are not what FACS lists.{unshown} AU
+25 is a slightly open jaw here. AU 23 and 24 share a scan.
 
-Sources: *FACS table* is Ekman and Friesen 1978 as quoted by mpr-online 4, 3; *EMFACS-like*
-open_dbm's list; *prototype* the Investigator's Guide quoted in slides; *library* Greta's facelibrary. The right
-verdicts out of {people}, and what else the paper's and the robust rule say most often.
+Sources: *FACS table* is Ekman and Friesen 1978 as quoted by mpr-online 4, 3; *EMFACS-like* is the list of open_dbm;
+*prototype* is the Investigator's Guide as quoted in slides; *library* is Greta's facelibrary. The table gives the
+correct results out of {people}, and the most frequent other result of the paper's and the robust rule.
 
-| emotion | source | AUs | no scan for | {ways} | paper else | robust else |
+| emotion | source | AUs | no scan for | {ways} | paper, other | robust, other |
 |---|---|---|---|{dashes}|---|---|
 """
 
 SAMPLES = """
 ## Sample streams
 
-FAP files of other programs that are named after an emotion: their makers' idea of it, for other faces. The verdict on
-the frame of the largest FAPs, and on the mean belief over all frames, with that belief. Masked-off FAPs are unknown;
-*at rest* takes them for 0.
+FAP files of other programs that are named after an emotion. They show their authors' idea of it, on other faces. The
+table gives the result for the frame with the largest FAPs and for the mean belief over all frames, with that belief.
+Masked FAPs are unknown; in the columns *at rest* they are 0.
 
 ![Beliefs over time](pictures/evidence-samples.png)
 
@@ -188,7 +189,7 @@ def _posed(posed: Mapping[Series, Measured], said: Mapping[Series, Mapping[Way, 
         lines.append(_row([series, *(f"{percent(right)} / {percent(least)}" for right, least in pairs)]))
     lines += [FEATURES, "![Confusions](pictures/evidence-confusion.png)", ""]
     for way in (Way.FAPS_PAPER, Way.FAPS_ROBUST):
-        lines += ["", f"Natural drive, {way} rule: rows are posed, columns recognised, per cent.", ""]
+        lines += ["", f"Natural drive, {way} rule, per cent: rows are posed, columns are recognised.", ""]
         lines += _head("", *EMOTIONS, NOTHING)
         shares = confusion(natural.asked, said[Series.NATURAL][way])
         lines += [_row([name, *map(percent, row)]) for name, row in zip(EMOTIONS, shares, strict=True)]
@@ -213,8 +214,9 @@ def _by(name: str, measured: Measured, said: Mapping[Way, np.ndarray], chosen: B
 
 def _confused(posed: Mapping[Series, Measured], said: Mapping[Series, Mapping[Way, np.ndarray]]) -> Table:
     """Profiles that are often missed, and for what they are taken."""
-    lines = ["", "### What is taken for what", "", f"Profiles recognised in less than {percent(NAMED_BELOW)} %.", ""]
-    lines += _head("drive", "rule", "profile", "right", "taken for")
+    lines = ["", "### Confusions", ""]
+    lines += [f"Profiles that are recognised in less than {percent(NAMED_BELOW)} % of the poses.", ""]
+    lines += _head("drive", "rule", "profile", "right", "confused with")
     for series, measured in posed.items():
         for way in (Way.FAPS_PAPER, Way.FAPS_ROBUST):
             for name in EMOTIONS:
@@ -259,7 +261,7 @@ def _words(measured: Measured) -> Table:
     """Words among words."""
     same, ranked = meanings(), rankings(measured)
     lines = [WORDS.format(count=len(set(same.values()))).rstrip("\n"), ""]
-    lines += _head("word", "first", "among three", "kind first", "else taken for")
+    lines += _head("word", "first", "in first three", "kind first", "confused with")
     every = np.array([_word_scores(same[word], ranks) for word, ranks in zip(measured.asked, ranked, strict=True)])
     lines.append(_row(["**all**", *map(percent, every.mean(axis=0)), ""]))
     for word in dict.fromkeys(measured.asked.tolist()):
@@ -285,7 +287,7 @@ def _scans(scans: Measured) -> Table:
             strengths=", ".join(f"{strength:g}" for strength in STRENGTHS),
             people=int((scans.variants == 0).sum()),
             missing=", ".join(map(str, missing)),
-            unshown=f"\nOf AU {', '.join(unshown)} alone nothing is left to show." if unshown else "",
+            unshown=f"\nA combination of AU {', '.join(unshown)} alone is left out." if unshown else "",
             ways=" | ".join(Way),
             dashes="|".join(["---"] * len(Way)),
         ).rstrip("\n")
@@ -306,7 +308,7 @@ def _scans(scans: Measured) -> Table:
 
 def _neutral() -> Table:
     """What is believed of a face at rest."""
-    lines = ["", "## A face at rest", "", "There is no class for it. Beliefs in the six of a frame of zeros:", ""]
+    lines = ["", "## The neutral face", "", "There is no class for it. These are the beliefs for a frame of zeros:", ""]
     lines += _head("rule", *EMOTIONS)
     for rule in Rule:
         beliefs = api.recognise(np.zeros(68), rule=rule)

@@ -35,19 +35,19 @@ HEADING = """# What each FAP moves
 
 Written by `make docs-faps` (`tools/fap_table.py`) from the faces themselves; do not edit.
 
-Each low-level FAP is asked for alone, left and right together, from a face at rest: 100 units (0.1 rad for angles), or
-{share} of its anatomical range (`presets/anatomy/ranges.csv`) where that is less. The exact drive shows what is
-asked within {exact} on every head here.
+Each low-level FAP is requested alone, left and right together, from the neutral face: 100 units (0.1 rad for angles),
+or {share} of its anatomical range (`presets/anatomy/ranges.csv`) if that is less. The exact drive reaches the request
+within {exact} on every head in the table.
 
-- **by**: what the natural drive moves it with, the three largest in per cent of the motion, for the positive (+) and
-  the negative (−) direction; *skin* is the elastic correction of what muscles leave.
-- **shown**: what the natural drive shows per unit asked, + / −. Below 1 a face resists: neighbours that the request
-  does not name hold it back. Requests beyond the range show less ([muscles](muscles.md)).
-- **moves along**: the FAP of another point that moves most in the natural drive, in millimetres per 100 mm asked (+);
-  units of different FAPs differ. Most of it is anatomy, no error: an opening jaw takes the lower lip along.
+- **by**: how the natural drive produces the motion. The three largest contributions in per cent, for the positive (+)
+  and the negative (−) direction. *skin* is the elastic correction of what muscles leave.
+- **shown**: motion in the natural drive per unit requested, + / −. Below 1, the face resists: neighbouring points
+  without a request hold it back. Requests beyond the range show less ([muscles](muscles.md)).
+- **moves along**: the FAP of another point that moves most in the natural drive, in millimetres per 100 mm requested
+  (+). The units of different FAPs differ. Most of this is anatomy, not an error: an opening jaw carries the lower lip.
 
-FAP 1 (viseme) expands to the rows of `mpeg4/data/viseme_shapes.csv`, FAP 2 (expression) to the default variant of its
-archetype times intensity / 63; see [file formats](formats.md).
+FAP 1 (viseme) is expanded to the rows of `mpeg4/data/viseme_shapes.csv`, FAP 2 (expression) to the default variant of
+its archetype times intensity / 63; see [file formats](formats.md).
 """
 
 

@@ -95,9 +95,9 @@ def _sides_told(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
         f"On {len(rows) - len(wrong) - len(none)} of the {len(rows)} heads here and below, every point of a lip or lid,"
     ]
     lines += [
-        "once bound to the mesh, lies on its own lip or lid." + (f" Not so: {'; '.join(wrong)}." if wrong else "")
+        "once bound to the mesh, lies on its own lip or lid." + (f" Exceptions: {'; '.join(wrong)}." if wrong else "")
     ]
-    lines += [f"No face came of {', '.join(none)}."] if none else []
+    lines += [f"No face was found on {', '.join(none)}."] if none else []
     return [*lines, ""]
 
 
@@ -112,7 +112,7 @@ def _head_row(row: Mapping[str, Any]) -> str:
 def _heads_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
     """Errors by head."""
     lines = ["## By head, each in a random pose", ""]
-    lines += ["The last column is the FAP unit that is farthest off.", ""]
+    lines += ["The last column is the largest error of a FAP unit.", ""]
     for part, title in (("known", "tuned on"), ("second", "second set"), ("reserved", "reserved")):
         lines += [f"| {title} | score | core points, mm | FAP units, % |", "|---|---|---|---|"]
         lines += [*map(_head_row, read[part]), ""]
@@ -123,7 +123,7 @@ def _poses_told(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
     """In how many poses the frame was right."""
     poses = read["poses"]
     right = sum(row["right"] for row in poses)
-    said = f"In {len(poses)} further random poses of these heads the frame was right in {right}."
+    said = f"In {len(poses)} more random poses of these heads, the head frame was right in {right}."
     wrong = sorted({row["name"] for row in poses if not row["right"]})
     return [said + (f" Wrong: {', '.join(wrong)}." if wrong else ""), ""]
 
@@ -131,10 +131,10 @@ def _poses_told(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
 def _effect_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
     """What misplaced points cost."""
     lines = [
-        "## What misplaced points cost",
+        "## The effect of misplaced points",
         "",
         EFFECT,
-        "| points | off, mm (mean) | FAP error, %: median / 95 % | explained: median | least |",
+        "| points | error, mm (mean) | FAP error, %: median / 95 % | explained: median | least |",
         "|---|---|---|---|---|",
     ]
     for name in dict.fromkeys(row["name"] for row in read["effect"]):
@@ -157,7 +157,7 @@ def _hard_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
         "## Hard heads",
         "",
         HARD,
-        "| head | score | core points, mm | farthest off |",
+        "| head | score | core points, mm | worst point |",
         "|---|---|---|---|",
     ]
     for row in read["hard"]:
@@ -174,9 +174,9 @@ def _clicks_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
     """What six clicks do for doubtful heads."""
     lines = ["## With six clicks", ""]
     lines += [
-        "Heads of the second and the reserved set that are doubtful or refused, clicked with an error of 1.5 mm per"
+        "Heads of the second and the reserved set that are doubtful or refused, with six clicks of 1.5 mm error per"
     ]
-    lines += ["axis; points not clicked, mm.", ""]
+    lines += ["axis. Errors of the points that were not clicked, mm.", ""]
     lines += ["| head | without | with clicks |", "|---|---|---|"]
     for row in read["clicks"]:
         before = _triple(_pooled([{"errors": row["before"]}], _core())) if row["before"] else "refused"
@@ -187,9 +187,9 @@ def _clicks_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
 def _confidence_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
     """What the confidences are worth."""
     lines = [
-        "## What a confidence means",
+        "## The meaning of confidence",
         "",
-        "| confidence | points | error, mm | farther off than 5 mm |",
+        "| confidence | points | error, mm | error above 5 mm |",
         "|---|---|---|---|",
     ]
     pairs = np.array(
@@ -202,7 +202,8 @@ def _confidence_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
                 f"| {low:.1f} – {min(high, 1.0):.1f} | {len(errors)} | {_triple(errors)} | "
                 f"{100.0 * (errors > 5.0).mean():.0f} % |"
             )
-    return [*lines, "", "On the reserved heads; the usual errors behind it are from the known ones.", ""]
+    note = "Measured on the reserved heads. Confidences are derived from the usual errors on the known heads."
+    return [*lines, "", note, ""]
 
 
 def _gate_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
@@ -210,9 +211,9 @@ def _gate_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
     scores = [row["score"] for part in ("known", "second", "reserved", "hard") for row in read[part] if "score" in row]
     scores += [row["score"] for row in read["poses"] if "score" in row]
     lines = [
-        "## The gate",
+        "## The acceptance test",
         "",
-        f"Faces ({len(scores)}): score {min(scores):.2f} to {max(scores):.2f}. What is none:",
+        f"Faces ({len(scores)}): score {min(scores):.2f} to {max(scores):.2f}. Shapes that are not faces:",
         "",
     ]
     lines += ["| | score | agreement of relief | s |", "|---|---|---|---|"]
@@ -226,7 +227,8 @@ def _gate_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
 
 def _time_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
     """Seconds against vertices: the heads of each size, coarse to fine."""
-    lines = ["## Time", "", "Processor time on one core, frame and fit; the median of the heads of a size.", ""]
+    lines = ["## Time", ""]
+    lines += ["Processor time on one core for locating and fitting; the median of the heads of a size.", ""]
     lines += ["| vertices | heads | s |", "|---|---|---|"]
     seconds: dict[int, list[float]] = {}
     for row in (row for part in ("known", "second", "reserved", "hard") for row in read[part] if "seconds" in row):
@@ -239,46 +241,50 @@ HEADING = """# How well feature points are found
 
 Written by `make fit-report` (`tools/fit_report.py`, `tools/fit_page.py`); do not edit.
 
-`api.find_points` lays the default head onto a mesh: planes of symmetry, a search over pictures of depth, alignment,
-a gate (score at most {limit}, agreement of eyes, nose and mouth at least {relief}), then a smooth bend in four stages,
-with ears sought by their relief from the side and lids and lips by the rims of the skin that faces the viewer
-([muscles](muscles.md)). Known topologies are not searched at all (`presets/topologies`); here they are switched off.
+`api.find_points` fits the default head to a mesh. It uses planes of symmetry, a search over depth maps, alignment and
+an acceptance test (score at most {limit}, agreement of eyes, nose and mouth at least {relief}). Then it bends the head
+smoothly in four stages. Ears are found by their relief from the side, lids and lips by the rims of the skin that faces
+the viewer ([muscles](muscles.md)). Known topologies need no search (`presets/topologies`); they are switched off here.
 
-Every head is given in a random direction, place and size (a thousandth to a thousandfold); errors are in millimetres
-of the head as it was. *Tuned on* are the heads that method and figures were chosen on, the *second set* came later and
-was used for that, too. The *reserved* heads were measured by this report alone: nothing was ever chosen by them. (Their
-sheets were looked at once, and showed a lower lip's point bound to the upper lip; that was cured in
-`face/mesh/own_lip.py` and does not change where points are found.) Both
-sets are mixtures of the shared people that exaggerate their differences, and the default head bent by smooth random
-fields. They share the others' meshes, and the bent heads are kin to the template: a stranger's mesh may fare worse.
+Every head is given in a random direction, place and size (a thousandth to a thousandfold). Errors are in millimetres at
+the original size. The method and its parameters were chosen on the heads called *tuned on*; the *second set* came later
+and was used for this as well. The *reserved* heads were only measured for this report: nothing was chosen with them.
+(Their sheets were inspected once. They showed a point of the lower lip bound to the upper lip. `face/mesh/own_lip.py`
+corrects this; it does not change where points are found.) Both sets are mixtures of the shared people that exaggerate
+their differences, and the default head bent by smooth random fields. They share the meshes of the other heads, and the
+bent heads are related to the template. On an unrelated mesh the errors may be larger.
 
-The sets of points differ in convention by several millimetres in places (jaw angle, side of the nose, brow tail, lid
-folds, top of the head on MakeHuman), which no fit can make good: the bent heads, whose points follow the template's
-convention, show what is left without that.
+The conventions of the point sets differ by several millimetres in places (jaw angle, side of the nose, brow tail, lid
+folds, top of the head on MakeHuman). No fit can remove this. The points of the bent heads follow the template's
+convention, so they show the error without it.
 """
 
-EFFECT = """The scanned head is posed (exact drive) from the FAPs of its 15 scanned expressions, as its exact points
-measure them. Its points are exact, found, or jittered along the skin; FAPs on the result are read by the exact points,
-and errors are shares of the request (of 100 units where less is asked; from 20 units on). *Explained* is the share of
-the scans' variance that the pose explains, as in [how faithful the faces are](faithful.md).
+EFFECT = """The scanned head is posed (exact drive) from the FAPs of its 15 scanned expressions, measured with its exact
+points. It is posed with exact points, found points, and points jittered along the skin. FAPs of the result are measured
+with the exact points. Errors are shares of the request (of 100 units if the request is smaller; requests below 20 units
+are left out). *Explained* is the share of the scans' variance that the pose explains, as in
+[how faithful the faces are](faithful.md).
 """
 
-HARD = """Made by code from the heads named, each in a random pose: hair, beards and bumps displace the same surface,
-glasses, shirts and collars are further pieces, coarse heads are decimated. Points buried in hair are left out.
+HARD = """These heads were generated from the named heads, each in a random pose. Hair, beards and bumps displace the
+surface. Glasses, shirts and collars are separate pieces. Coarse heads are decimated. Points hidden in hair are left
+out.
 """
 
-ENDING = """## What is still weak
+ENDING = """## Limitations
 
-- Crooked or extreme faces: points may be centimetres off. They are called doubtful, and six clicks bring them most of
-  the way.
-- Jaw angles, brow tails and the top of the head lie on smooth skin: little there tells their place.
-- A thick beard hides chin and jaw; with hair all round, the lower lip's edge is taken for the beard's.
-- Below about a thousand vertices lips and lids are a few polygons: points are 3 to 4 mm off.
-- Eyes drawn much larger than a person's pull the brows' points along.
-- Masks without ears get estimated jaw angles and cheeks (MediaPipe; its topology is known).
-- A lid's point and the eye's inner corner, both half a millimetre behind the lid's rim, can make a lid that does not
-  close (the jittered points above, least of the explained shares). Found points lie on the rim; look at dragged ones.
-- Real scans, sculpts, hair of strands or cards, and animals were not measured.
+- Crooked or extreme faces: points may be wrong by centimetres. The face is marked as doubtful, and six clicks correct
+  most of the error.
+- Jaw angles, brow tails and the top of the head are on smooth skin with few landmarks.
+- A thick beard hides chin and jaw. With hair all round, the edge of the beard is mistaken for the edge of the lower
+  lip.
+- Below about a thousand vertices, lips and lids are a few polygons: the error is 3 to 4 mm.
+- Eyes drawn much larger than a person's shift the points of the brows.
+- On masks without ears, jaw angles and cheeks are estimated (MediaPipe; its topology is known).
+- If a point of a lid and the inner corner of the eye are both half a millimetre behind the rim of the lid, the lid may
+  not close (see the smallest explained share of the jittered points above). Found points are on the rim; check dragged
+  ones.
+- Real scans, sculpts, hair made of strands or cards, and animals were not measured.
 
-Sheets with the points and six emotions of every head: `make fit-sheets`.
+`make fit-sheets` makes contact sheets with the points and six emotions of every head.
 """

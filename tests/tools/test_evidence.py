@@ -243,7 +243,7 @@ def test_the_page_says_what_was_measured(tool: Callable[[str], ModuleType], monk
     assert cells(page, "default")[1] == "96"
     assert cells(page, "joy", "prototype", "6+12")[:2] == ["–", "1"]
     assert cells(page, "disgust", "FACS table", "4+10+17")[0] == "17"
-    assert "Of AU 9 alone nothing is left to show." in page
+    assert "A combination of AU 9 alone is left out." in page
     assert "(natural: 100 poses, 1 draws each; exact: 100" in page
     assert cells(page, "loud.fap")[:6] == ["40", "2", "joy", "paper", "**joy** 0.75", "**joy** 0.19"]
     assert cells(page, "guilty")[0] == "100"

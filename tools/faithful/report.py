@@ -17,25 +17,26 @@ FALL = 0.01
 
 PICTURES = """## Pictures
 
-The command leaves contact sheets in `out/faithful/`: HEAD-emotions.png and HEAD-words.png are the six emotions and the
-fourteen words of the first paper's Table 6 at their apex, front and three-quarter, as the natural drive shows them;
-HEAD-scans-1.png and so on are the expressions beside what the exact drive makes of their FAPs, and the distance
-between both in colour.
+The command writes contact sheets to `out/faithful/`. HEAD-emotions.png and HEAD-words.png show the six emotions and the
+fourteen words of the first paper's Table 6 at their apex, in front and three-quarter view, with the natural drive.
+HEAD-scans-1.png and so on show the expressions beside the result of the exact drive, and the distance between both in
+colour.
 """
 
 HEADING = f"""# How faithful the faces are
 
 Written by `make bench-faithful ARGS="--page docs/faithful.md"` (`tools/bench_faithful.py`); do not edit.
 
-**Explained variance**: the FAPs of an expression are measured on it, the neutral face is posed from these alone (exact
-drive), and 1 − Σ|posed − expression|² / Σ|expression|² over the skin says what came back. The expressions are the
-scanned shapes of the ICT FaceKit that FAPs speak of, one of each mirrored pair; other identities bear the same motions.
-The muscle table was calibrated on these very shapes, so new actions fare worse ([muscles](muscles.md)).
+**Explained variance**: the FAPs of an expression are measured, the neutral face is posed from these alone (exact
+drive), and 1 − Σ|posed − expression|² / Σ|expression|² over the skin is the share that is reproduced. The expressions
+are the scanned shapes of the ICT FaceKit that FAPs can describe, one of each mirrored pair. Other identities use the
+same motions. The muscle table was calibrated on these same shapes, so new actions are reproduced less well
+([muscles](muscles.md)).
 
-Beside it stand ways of moving a face that know its feature points only: *zones*, raised-cosine zones of
-{ZONE_RADIUS * 1e3:.0f} mm round each point, overlaps shared, as players of FAP streams have them; *spline*, the
-biharmonic (thin-plate) spline through all points, those without FAP at rest; *points*, this skin without muscles, jaw
-and lids (`drive="points"`).
+For comparison, the last columns show methods that use feature points only. *zones*: raised-cosine zones of
+{ZONE_RADIUS * 1e3:.0f} mm round each point with shared overlaps, as in players of FAP streams. *spline*: the
+biharmonic (thin-plate) spline through all points; points without FAP stay at rest. *points*: this skin without
+muscles, jaw and lids (`drive="points"`).
 """
 
 
@@ -100,7 +101,7 @@ def _mechanisms(results: Results) -> str:
         changes = sorted((explained[shape] - whole[shape], shape) for shape in whole)
         falls = ", ".join(f"{shape} {_number(change)}" for change, shape in changes[:3] if change <= -FALL)
         rows.append([name, _number(median, 3), _number(mean, 3), _number(least), falls])
-    introduction = "## Per mechanism left out\n\nOn the scanned head; nothing is refitted in a row.\n\n"
+    introduction = "## Per mechanism left out\n\nOn the scanned head. The other mechanisms are not fitted again.\n\n"
     return introduction + _table(["left out", "median", "mean", "least", "falls most"], rows)
 
 
@@ -109,8 +110,9 @@ def _drawings(explained: Explained) -> str:
     median, mean, _ = summary(explained)
     rows = [[name, _number(value)] for name, value in explained.items()]
     introduction = (
-        "## MakeHuman's face units\n\nDrawn by hand, without the neighbours that scans show going along (lids, inner"
-        " brow): a check of\ntransfer, not of truth. One of each mirrored pair, those that move a feature point.\n"
+        "## MakeHuman's face units\n\nThese are drawn by hand and lack the motion of neighbouring parts that scans show"
+        " (lids, inner brow). So they\ncheck transfer to another head, not correctness. One of each mirrored pair, if"
+        " it moves a feature point.\n"
         f"Median {median:.3f}, mean {mean:.3f}.\n\n"
     )
     return introduction + _table(["unit", "explained"], rows)
@@ -125,9 +127,11 @@ def _requests(requests: Mapping[str, Requests]) -> str:
         for head, found in requests.items()
     ]
     return (
-        "## Requests\n\nErrors are shares of the request, or of 100 units where less is asked. Exact drive, the 25"
-        " profiles of Table 5:\n\n" + _table(["head", "median", "95 %", "largest"], exact) + "\nNatural drive, the 25"
-        " profiles of Table 5 and the fourteen words of Table 6 (their emotion is known): median error,\nand the share"
-        " of requests met within 10 %. *In the range*: inside the FAP's anatomical range (`ranges.csv`); *its\n"
-        "unchanged part*: where the range lets a request pass as it is.\n\n" + _table(["head", *kinds], natural)
+        "## Requests\n\nErrors are shares of the request, or of 100 units if the request is smaller. Exact drive,"
+        " the 25 profiles of Table 5:\n\n"
+        + _table(["head", "median", "95 %", "largest"], exact)
+        + "\nNatural drive, the 25"
+        " profiles of Table 5 and the fourteen words of Table 6 (with known emotion): median error, and the\nshare of"
+        " requests met within 10 %. *In the range*: inside the FAP's anatomical range (`ranges.csv`). *In its\n"
+        "unchanged part*: where requests pass unchanged.\n\n" + _table(["head", *kinds], natural)
     )

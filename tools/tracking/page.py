@@ -39,8 +39,8 @@ def write_tables(
 def _films(films: Sequence[FilmFigures], trust: Sequence[CameraFap]) -> list[str]:
     """A row per film: the median over the FAPs that are not masked."""
     rows = [
-        "| film | pictures | face lost | median correlation | median slope | median error, share of range "
-        "| frames rightly taken for neutral |",
+        "| video | frames | face lost | median correlation | median slope | median error, share of range "
+        "| neutral frames found correctly |",
         "|---|---|---|---|---|---|---|",
     ]
     kept = [row.number - 1 for row in trust if row.trust >= LEAST]
@@ -57,7 +57,7 @@ def _faps(films: Sequence[FilmFigures], trust: Sequence[CameraFap]) -> list[str]
     """A row per FAP: correlation in each film, error, and what the camera can tell."""
     names = [_title(film.name) for film in films]
     rows = [
-        f"| FAP | {' | '.join(names)} | slope | error | range | trembling | trust | |",
+        f"| FAP | {' | '.join(names)} | slope | error | range | jitter | trust | |",
         "|---|" + "---|" * (len(films) + 6),
     ]
     for row in trust:
@@ -76,7 +76,7 @@ def _faps(films: Sequence[FilmFigures], trust: Sequence[CameraFap]) -> list[str]
 
 def _emotions(films: Sequence[Recognised]) -> list[str]:
     """What each emotion was taken for, a row per film and rule: the camera's verdict, the mesh's where it differs."""
-    rows = ["| film | rule | " + " | ".join(EMOTIONS) + " | right: camera, mesh |", "|---|---|" + "---|" * 7]
+    rows = ["| video | rule | " + " | ".join(EMOTIONS) + " | correct: camera, mesh |", "|---|---|" + "---|" * 7]
     for film in films:
         for rule in RULES:
             camera, mesh = film.camera[rule], film.mesh[rule]
