@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import os
 from pathlib import Path
-from typing import Any
 
 from .errors import FormatError
 from .resources import PACKAGE
@@ -43,19 +41,3 @@ def read_bytes(path: str | Path) -> bytes:
     except OSError as error:
         remedy = "install Risorius again" if file.resolve().is_relative_to(PACKAGE) else "give a file that you may read"
         raise FormatError(file, f"cannot be read ({error.strerror}): {remedy}") from error
-
-
-def read_document(path: str | Path, *, kind: str, version: int) -> dict[str, Any]:
-    """A JSON object that says what it is: "format": `kind`, "version": `version`.
-
-    Raises
-    ------
-    FormatError : unreadable, no JSON, or another kind or version of document.
-    """
-    try:
-        document = json.loads(read_bytes(path).decode("utf-8"))
-    except (ValueError, RecursionError) as error:  # UnicodeDecodeError is a ValueError
-        raise FormatError(path, f"is not valid JSON: {error}") from error
-    if not isinstance(document, dict) or (document.get("format"), document.get("version")) != (kind, version):
-        raise FormatError(path, f'must be an object with "format": "{kind}", "version": {version}', key="format")
-    return document

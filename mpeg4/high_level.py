@@ -17,11 +17,12 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError
+from ..resources import STANDARD
+from ..tables import read_csv
 from .emotions.archetypes import archetype
 from .emotions.expressions import default_variant
 from .emotions.profile import ARCHETYPES, Archetype
 from .standard import FAP_COUNT
-from .tables import read_table
 
 FULL = 63
 """Blend and intensity at full strength."""
@@ -47,18 +48,20 @@ class Expression:
 
 VISEMES: Mapping[int, Viseme] = MappingProxyType(
     {
-        int(row["number"]): Viseme(int(row["number"]), tuple(row["phonemes"].split()), tuple(row["examples"].split()))
-        for row in read_table("visemes")
+        row.integer("number"): Viseme(row.integer("number"), row.texts("phonemes"), row.texts("examples"))
+        for row in read_csv(STANDARD / "visemes.csv")
     }
 )
 """Visemes by number: 0 for none and the standard's 14."""
 
 EXPRESSIONS: Mapping[int, Expression] = MappingProxyType(
     {
-        int(row["code"]): Expression(
-            int(row["code"]), Archetype(row["name"]) if row["name"] in ARCHETYPES else None, row["description"]
+        row.integer("code"): Expression(
+            row.integer("code"),
+            None if row.text("name") == "none" else row.choice("name", ARCHETYPES),
+            row.text("description"),
         )
-        for row in read_table("expressions")
+        for row in read_csv(STANDARD / "expressions.csv")
     }
 )
 """Expressions by code: 0 for none and the standard's 6."""
@@ -67,13 +70,13 @@ EXPRESSIONS: Mapping[int, Expression] = MappingProxyType(
 def _viseme_shapes() -> Mapping[int, Floats]:
     """The rows of viseme_shapes.csv as frames; a heading of two numbers gives both FAPs the same value."""
     shapes = {}
-    for row in read_table("viseme_shapes"):
+    for row in read_csv(STANDARD / "viseme_shapes.csv"):
         frame = np.full(FAP_COUNT, np.nan)
-        for heading, value in row.items():
-            if heading not in ("viseme", "reason") and value:
-                frame[[int(number) - 1 for number in heading.split()]] = float(value)
+        for heading in row:
+            if heading not in ("viseme", "reason") and heading in row:
+                frame[[int(number) - 1 for number in heading.split()]] = row.number(heading)
         frame.flags.writeable = False
-        shapes[int(row["viseme"])] = frame
+        shapes[row.integer("viseme")] = frame
     return MappingProxyType(shapes)
 
 

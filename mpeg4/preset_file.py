@@ -5,17 +5,15 @@ A preset says what is meant and holds no vertices, so it fits every face. The fo
 
 from __future__ import annotations
 
-import json
 import math
-import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, TypeVar
 
-from ..errors import FormatError, ParameterError
+from ..errors import ParameterError
 from ..files import write_whole
+from ..tables import TomlTable, read_toml, toml_number, toml_text
 from .emotions.expressions import expression, find_word
 from .emotions.profile import Profile
 from .timing import Ramp
@@ -123,43 +121,33 @@ def write_preset(path: str | Path, preset: Preset) -> None:
     ------
     FormatError : it cannot be written.
     """
-    lines = [f"risorius = {_text(preset.kind.value)}"]
+    lines = [f"risorius = {toml_text(preset.kind.value)}"]
     if preset.emotion is not None:
         lines += ["", "[emotion]", *_choice_lines(preset.emotion)]
     for clip in preset.clips:
-        lines += ["", "[[clips]]", *([f"name = {_text(clip.name)}"] if clip.name else [])]
+        lines += ["", "[[clips]]", *([f"name = {toml_text(clip.name)}"] if clip.name else [])]
         lines += _choice_lines(clip.emotion)
-        lines += [f"{key} = {_number(getattr(clip, key))}" for key in ("start", "onset", "apex", "offset", "peak")]
-        lines += [f"ramp = {_text(clip.ramp.value)}", *(["mute = true"] if clip.mute else [])]
+        lines += [f"{key} = {toml_number(getattr(clip, key))}" for key in ("start", "onset", "apex", "offset", "peak")]
+        lines += [f"ramp = {toml_text(clip.ramp.value)}", *(["mute = true"] if clip.mute else [])]
     if preset.variation:
         lines += ["", "[variation]"]
         lines += [
-            f"{name} = {{ amount = {_number(amount)}, seed = {seed} }}"
+            f"{name} = {{ amount = {toml_number(amount)}, seed = {seed} }}"
             for name, (amount, seed) in preset.variation.items()
         ]
     if preset.contractions:
         lines += ["", "[contractions]"]
-        lines += [f"{_text(name)} = {_number(value)}" for name, value in preset.contractions.items()]
+        lines += [f"{toml_text(name)} = {toml_number(value)}" for name, value in preset.contractions.items()]
     write_whole(path, "\n".join(lines) + "\n")
 
 
 def _choice_lines(choice: Choice) -> list[str]:
     """An emotion's own keys."""
     by_word = choice.angle is None
-    lines = [f"word = {_text(choice.word or '')}" if by_word else f"angle = {_number(choice.angle or 0.0)}"]
-    lines += [f"activation = {_number(choice.activation)}"]
+    lines = [f"word = {toml_text(choice.word or '')}" if by_word else f"angle = {toml_number(choice.angle or 0.0)}"]
+    lines += [f"activation = {toml_number(choice.activation)}"]
     lines += [f"variant = {choice.variant}"] if choice.variant is not None else []
     return lines + ([f"seed = {choice.seed}"] if choice.seed else [])
-
-
-def _text(words: str) -> str:
-    """A text as TOML has it."""
-    return json.dumps(words, ensure_ascii=False)
-
-
-def _number(value: float) -> str:
-    """A float as TOML has it, without the noise of single precision."""
-    return repr(round(float(value), 6))
 
 
 def read_preset(path: str | Path) -> Preset:
@@ -169,105 +157,53 @@ def read_preset(path: str | Path) -> Preset:
     ------
     FormatError : names the file, the key and the rule it breaks.
     """
-    file = Path(path)
-    try:
-        document = tomllib.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FormatError(file, f"cannot be read ({error.strerror})") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FormatError(file, f"is not valid TOML: {error}") from error
-    if document.get("risorius") not in list(PresetKind):
+    document = read_toml(path)
+    if document.cells.get("risorius") not in list(PresetKind):
         kinds = " or ".join(f'"{kind}"' for kind in PresetKind)
-        raise FormatError(file, f"is no Risorius preset: it must say risorius = {kinds}", key="risorius")
-    return _Reader(file).preset(document)
+        raise document.refuse(f"is not a Risorius preset: it must say risorius = {kinds}", "risorius")
+    kind = PresetKind(document.text("risorius"))
+    held = "emotion" if kind is PresetKind.EXPRESSION else "clips"
+    document.only("risorius", held, "contractions", "variation")
+    emotion = _choice(document.table("emotion")) if kind is PresetKind.EXPRESSION else None
+    clips = () if kind is PresetKind.EXPRESSION else tuple(_clip(table) for table in document.listed("clips"))
+    contractions = document.table("contractions", optional=True)
+    strengths = {name: contractions.number(name, least=0.0, most=1.0) for name in contractions}
+    variation = _variation(document.table("variation", optional=True))
+    return document.made(lambda: Preset(kind, emotion, clips, strengths, variation))
 
 
-M = TypeVar("M")
+#: Keys of an emotion, and of a clip besides.
+EMOTION_KEYS = ("word", "angle", "activation", "variant", "seed")
+CLIP_KEYS = ("start", "onset", "apex", "offset", "peak", "ramp", "name", "mute")
 
 
-class _Reader:
-    """Checks tables while they are read; every refusal names file and key."""
+def _choice(table: TomlTable, *others: str) -> Choice:
+    """An emotion, in a table that may have other keys."""
+    table.only(*EMOTION_KEYS, *others)
+    return table.made(
+        lambda: Choice(
+            table.number("activation"),
+            word=table.text("word") if "word" in table else None,
+            angle=table.number("angle") if "angle" in table else None,
+            variant=table.integer("variant") if "variant" in table else None,
+            seed=table.integer("seed", 0),
+        )
+    )
 
-    def __init__(self, file: Path) -> None:
-        self.file = file
 
-    def preset(self, document: Mapping[str, Any]) -> Preset:
-        """The whole file."""
-        kind = PresetKind(document["risorius"])
-        held = "emotion" if kind is PresetKind.EXPRESSION else "clips"
-        self._only(document, "", {"risorius", held, "contractions", "variation"})
-        emotion: Choice | None = None
-        clips: tuple[Clip, ...] = ()
-        if kind is PresetKind.EXPRESSION:
-            emotion = self._choice(self._table(document.get("emotion"), "emotion"), "emotion")
-        elif isinstance(document.get("clips"), list):
-            clips = tuple(self._clip(self._table(c, "clips"), f"clips.{k}") for k, c in enumerate(document["clips"]))
-        contractions = self._table(document.get("contractions", {}), "contractions")
-        strengths = {name: self._real(contractions, name, "contractions") for name in contractions}
-        variation = self._variation(self._table(document.get("variation", {}), "variation"))
-        return self._made(held, lambda: Preset(kind, emotion, clips, strengths, variation))
+def _clip(table: TomlTable) -> Clip:
+    """One clip."""
+    emotion = _choice(table, *CLIP_KEYS)
+    start, onset, apex, offset = (table.number(key) for key in ("start", "onset", "apex", "offset"))
+    peak, ramp = table.number("peak", 1.0), table.choice("ramp", Ramp, Ramp.MINIMUM_JERK)
+    name, mute = table.text("name", ""), table.flag("mute", False)
+    return table.made(lambda: Clip(emotion, start, onset, apex, offset, peak=peak, ramp=ramp, name=name, mute=mute))
 
-    def _choice(self, table: Mapping[str, Any], key: str) -> Choice:
-        """An emotion."""
-        self._only(table, key, {"word", "angle", "activation", "variant", "seed"})
-        word, variant, seed = table.get("word"), table.get("variant"), table.get("seed", 0)
-        if word is not None and not isinstance(word, str):
-            raise FormatError(self.file, "must be a text", key=f"{key}.word")
-        for name, value in (("variant", variant), ("seed", seed)):
-            if value is not None and (isinstance(value, bool) or not isinstance(value, int)):
-                raise FormatError(self.file, "must be a whole number", key=f"{key}.{name}")
-        angle = self._real(table, "angle", key) if "angle" in table else None
-        activation = self._real(table, "activation", key)
-        return self._made(key, lambda: Choice(activation, word, angle, variant, seed))
 
-    def _clip(self, table: Mapping[str, Any], key: str) -> Clip:
-        """One clip."""
-        times, others = ("start", "onset", "apex", "offset"), ("peak", "ramp", "name", "mute")
-        emotion = self._choice({k: v for k, v in table.items() if k not in (*times, *others)}, key)
-        ramp = table.get("ramp", Ramp.MINIMUM_JERK.value)
-        if ramp not in list(Ramp):
-            raise FormatError(self.file, f"must be one of {', '.join(Ramp)}", key=f"{key}.ramp")
-        values = [self._real(table, name, key) for name in times]
-        peak = self._real(table, "peak", key) if "peak" in table else 1.0
-        name, mute = str(table.get("name", "")), bool(table.get("mute", False))
-        return self._made(key, lambda: Clip(emotion, *values, peak=peak, ramp=Ramp(ramp), name=name, mute=mute))
-
-    def _variation(self, table: Mapping[str, Any]) -> dict[str, tuple[float, int]]:
-        """Amounts and seeds."""
-        self._only(table, "variation", set(VARIATIONS))
-        result = {}
-        for name, entry in table.items():
-            key = f"variation.{name}"
-            drawn = self._table(entry, key)
-            self._only(drawn, key, {"amount", "seed"})
-            result[name] = (self._real(drawn, "amount", key), int(self._real(drawn, "seed", key)))
-            if min(result[name]) < 0:
-                raise FormatError(self.file, "must be 0 or more", key=key)
-        return result
-
-    def _table(self, value: object, key: str) -> Mapping[str, Any]:
-        """A table."""
-        if not isinstance(value, dict):
-            raise FormatError(self.file, "must be a table", key=key)
-        return value
-
-    def _only(self, table: Mapping[str, Any], key: str, known: set[str] | frozenset[str]) -> None:
-        """No key that means nothing."""
-        for name in table:
-            if name not in known:
-                where = f"{key}.{name}" if key else name
-                raise FormatError(self.file, f"is not known here: known are {', '.join(sorted(known))}", key=where)
-
-    def _real(self, table: Mapping[str, Any], name: str, key: str) -> float:
-        """A finite number."""
-        value = table.get(name)
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            raise FormatError(self.file, f"must be a number, but it is {value!r}", key=f"{key}.{name}")
-        return float(value)
-
-    def _made(self, key: str, make: Callable[[], M]) -> M:
-        """What `make` makes; its refusal with the file and the key."""
-        try:
-            return make()
-        except ParameterError as error:
-            raise FormatError(self.file, f"{error.name} {error.rule}, but it is {error.value!r}", key=key) from error
+def _variation(table: TomlTable) -> dict[str, tuple[float, int]]:
+    """Amounts and seeds."""
+    table.only(*VARIATIONS)
+    drawn = {name: table.table(name) for name in table}
+    for entry in drawn.values():
+        entry.only("amount", "seed")
+    return {name: (entry.number("amount", least=0.0), entry.integer("seed", least=0)) for name, entry in drawn.items()}

@@ -14,7 +14,8 @@ from types import MappingProxyType
 from typing import SupportsIndex
 
 from ..errors import ParameterError
-from .tables import read_table
+from ..resources import STANDARD
+from ..tables import CsvRow, read_csv
 
 FAP_COUNT = 68
 
@@ -152,35 +153,37 @@ class FapuDefinition:
     radians: float | None
 
 
-def _number(cell: str) -> int | None:
-    return int(cell) if cell else None
+def _whole(row: CsvRow, name: str) -> int | None:
+    """A whole number, where the row has one."""
+    return row.integer(name) if name in row else None
 
 
-def _limits(low: str, high: str) -> tuple[int, int] | None:
-    return (int(low), int(high)) if low else None
+def _limits(row: CsvRow, low: str, high: str) -> tuple[int, int] | None:
+    """A smallest and a largest value, where the row has them."""
+    return (row.integer(low), row.integer(high)) if low in row else None
 
 
 def _read_faps() -> dict[int, Fap]:
     """All rows of faps.csv by number."""
     return {
-        int(row["number"]): Fap(
-            number=int(row["number"]),
-            name=row["name"],
-            unit=Unit(row["unit"]) if row["unit"] else None,
-            bidirectional=row["bidirectional"] == "yes",
-            motion=Motion(row["motion"]) if row["motion"] else None,
-            group=int(row["group"]),
-            subgroup=_number(row["subgroup"]),
-            feature_point=row["feature_point"] or None,
-            mirror=_number(row["mirror"]),
-            lip_twin=_number(row["lip_twin"]),
-            quant_step=_number(row["quant_step"]),
-            intra_limits=_limits(row["intra_min"], row["intra_max"]),
-            inter_limits=_limits(row["inter_min"], row["inter_max"]),
-            confidence=row["confidence"],
-            note=row["note"],
+        row.integer("number", least=1, most=FAP_COUNT): Fap(
+            number=row.integer("number"),
+            name=row.text("name"),
+            unit=row.choice("unit", Unit) if "unit" in row else None,
+            bidirectional=row.choice("bidirectional", ("yes", "no"), "no") == "yes",
+            motion=row.choice("motion", Motion) if "motion" in row else None,
+            group=row.integer("group"),
+            subgroup=_whole(row, "subgroup"),
+            feature_point=row.text("feature_point", "") or None,
+            mirror=_whole(row, "mirror"),
+            lip_twin=_whole(row, "lip_twin"),
+            quant_step=_whole(row, "quant_step"),
+            intra_limits=_limits(row, "intra_min", "intra_max"),
+            inter_limits=_limits(row, "inter_min", "inter_max"),
+            confidence=row.text("confidence"),
+            note=row.text("note", ""),
         )
-        for row in read_table("faps")
+        for row in read_csv(STANDARD / "faps.csv")
     }
 
 
@@ -238,17 +241,17 @@ LIP_TWINS: tuple[tuple[int, int], ...] = tuple(
 def _read_feature_points() -> dict[str, FeaturePoint]:
     """All rows of feature_points.csv by name."""
     return {
-        row["point"]: FeaturePoint(
-            name=row["point"],
-            group=int(row["group"]),
-            number=int(row["number"]),
-            side=Side(row["side"]),
-            mirror=row["mirror"] or None,
-            location=row["location"],
-            faps=tuple(number for number, entry in FAPS.items() if entry.feature_point == row["point"]),
-            confidence=row["confidence"],
+        row.text("point"): FeaturePoint(
+            name=row.text("point"),
+            group=row.integer("group"),
+            number=row.integer("number"),
+            side=row.choice("side", Side),
+            mirror=row.text("mirror", "") or None,
+            location=row.text("location"),
+            faps=tuple(number for number, entry in FAPS.items() if entry.feature_point == row.text("point")),
+            confidence=row.text("confidence"),
         )
-        for row in read_table("feature_points")
+        for row in read_csv(STANDARD / "feature_points.csv")
     }
 
 
@@ -260,16 +263,16 @@ FAPU_PAIRS = (("point_a", "point_b"), ("other_a", "other_b"))
 
 FAPU: Mapping[Unit, FapuDefinition] = MappingProxyType(
     {
-        Unit(row["unit"]): FapuDefinition(
-            unit=Unit(row["unit"]),
-            symbol=row["symbol"],
-            name=row["name"],
-            axis=row["axis"] or None,
-            pairs=tuple((row[a], row[b]) for a, b in FAPU_PAIRS if row[a]),
-            divisor=_number(row["divisor"]),
-            radians=float(row["radians"]) if row["radians"] else None,
+        row.choice("unit", Unit): FapuDefinition(
+            unit=row.choice("unit", Unit),
+            symbol=row.text("symbol"),
+            name=row.text("name"),
+            axis=row.text("axis", "") or None,
+            pairs=tuple((row.text(a), row.text(b)) for a, b in FAPU_PAIRS if a in row),
+            divisor=_whole(row, "divisor"),
+            radians=row.number("radians") if "radians" in row else None,
         )
-        for row in read_table("fapu")
+        for row in read_csv(STANDARD / "fapu.csv")
     }
 )
 """How each FAP unit is measured."""

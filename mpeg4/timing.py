@@ -6,7 +6,6 @@ How fast, how strongly and along which ramp the kinds of expressions come and go
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from enum import StrEnum
@@ -16,8 +15,9 @@ from types import MappingProxyType
 import numpy as np
 
 from ..arrays import Floats
-from ..errors import FormatError, ParameterError
+from ..errors import ParameterError
 from ..resources import PRESETS
+from ..tables import TomlTable, read_toml
 from .emotions.profile import ARCHETYPES, Profile
 
 TIMINGS = PRESETS / "timing.toml"
@@ -272,36 +272,20 @@ def load_timings(path: str | Path = TIMINGS) -> Mapping[str, Timing]:
     FormatError
         Names the file, the key and the rule it breaks.
     """
-    file = Path(path)
-    try:
-        document = tomllib.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FormatError(file, f"cannot be read ({error.strerror})") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FormatError(file, f"is not valid TOML: {error}") from error
-    return MappingProxyType({name: _timing(file, name, table) for name, table in document.items()})
+    document = read_toml(path)
+    return MappingProxyType({name: _timing(name, document.table(name)) for name in document})
 
 
-_NEEDED, _OPTIONAL = {"onset", "apex", "offset", "reason"}, {"peak", "ramp", "source"}
-
-
-def _timing(file: Path, name: str, table: object) -> Timing:
-    """One preset, checked."""
-    if not isinstance(table, dict) or not _NEEDED <= set(table) <= _NEEDED | _OPTIONAL:
-        rule = f"must be a table with {', '.join(sorted(_NEEDED))}, and {', '.join(sorted(_OPTIONAL))} if wanted"
-        raise FormatError(file, rule, key=name)
-    for key in ("onset", "apex", "offset", "peak"):
-        value = table.get(key, 1.0)
-        if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 <= value < math.inf:
-            raise FormatError(file, f"must be a number, 0 or more, but it is {value!r}", key=f"{name}.{key}")
-    if not isinstance(table["reason"], str) or not table["reason"].strip():
-        raise FormatError(file, "must be a text that gives the reason", key=f"{name}.reason")
-    ramp = table.get("ramp", Ramp.MINIMUM_JERK.value)
-    if ramp not in list(Ramp):
-        raise FormatError(file, f"must be one of {', '.join(Ramp)}", key=f"{name}.ramp")
-    onset, apex, offset = (float(table[key]) for key in ("onset", "apex", "offset"))
-    peak, source = float(table.get("peak", 1.0)), str(table.get("source", ""))
-    try:
-        return Timing(name, onset, apex, offset, table["reason"], peak=peak, ramp=Ramp(ramp), source=source)
-    except ParameterError as error:
-        raise FormatError(file, f"{error.rule}, but it is {error.value!r}", key=f"{name}.{error.name}") from error
+def _timing(name: str, table: TomlTable) -> Timing:
+    """One preset."""
+    table.only("onset", "apex", "offset", "reason", "peak", "ramp", "source")
+    return Timing(
+        name,
+        onset=table.number("onset", least=0.0),
+        apex=table.number("apex", least=0.0),
+        offset=table.number("offset", least=0.0),
+        reason=table.text("reason"),
+        peak=table.number("peak", 1.0, least=0.0, most=1.0),
+        ramp=table.choice("ramp", Ramp, Ramp.MINIMUM_JERK),
+        source=table.text("source", ""),
+    )

@@ -7,18 +7,17 @@ shorter one. Figures and their sources stand in presets/variation.toml.
 from __future__ import annotations
 
 import math
-import tomllib
-from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
 from ..arrays import Floats
-from ..errors import FormatError, ParameterError
+from ..errors import ParameterError
 from ..resources import PRESETS
+from ..tables import TomlTable, read_toml
 from .emotions.profile import Profile
 from .standard import FAP_COUNT, FAPU, Unit
 from .timing import Ramp
@@ -91,34 +90,28 @@ def load_habits(path: str | Path = HABITS) -> Habits:
     ------
     FormatError : names the file, the key and what is wrong.
     """
-    file = Path(path)
-    try:
-        document = tomllib.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FormatError(file, f"cannot be read ({error.strerror})") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FormatError(file, f"is not valid TOML: {error}") from error
+    document = read_toml(path)
     return Habits(
-        _habit(file, document, "blink", BlinkHabit),
-        _habit(file, document, "head", HeadHabit),
-        _habit(file, document, "eyes", EyesHabit),
+        _habit(document.table("blink"), BlinkHabit),
+        _habit(document.table("head"), HeadHabit),
+        _habit(document.table("eyes"), EyesHabit),
     )
 
 
 H = TypeVar("H")
 
 
-def _habit(file: Path, document: Mapping[str, Any], name: str, kind: type[H]) -> H:
-    """One table, checked: positive numbers and nothing else besides a source."""
-    table = document.get(name)
-    wanted = {field.name for field in fields(kind)}  # type: ignore[arg-type]
-    if not isinstance(table, dict) or set(table) != wanted | {"source"}:
-        raise FormatError(file, f"must be a table with {', '.join(sorted(wanted))} and source", key=name)
-    for key in sorted(wanted):
-        value = table[key]
-        if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value < math.inf:
-            raise FormatError(file, f"must be a number above 0, but it is {value!r}", key=f"{name}.{key}")
-    return kind(**{key: table[key] for key in wanted})
+def _habit(table: TomlTable, kind: type[H]) -> H:
+    """One table: positive numbers and nothing else besides a source."""
+    types = {field.name: field.type for field in fields(kind)}  # type: ignore[arg-type]
+    table.only(*types, "source")
+    table.text("source")
+    return kind(
+        **{
+            name: table.integer(name, least=1) if of == "int" else table.number(name, above=0.0)
+            for name, of in types.items()
+        }
+    )
 
 
 @dataclass(frozen=True)

@@ -7,18 +7,17 @@ English.
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
 import bpy
 
-from ..errors import FormatError
 from ..resources import PRESETS
+from ..tables import read_csv
 
 FOLDER = PRESETS / "translations"
-COLUMNS = ["context", "text", "translation"]
+COLUMNS = ("context", "text", "translation")
 #: What Blender knows our translations by.
 OWNER = __name__
 
@@ -35,16 +34,8 @@ def load(folder: Path = FOLDER) -> dict[str, Mapping[tuple[str, str], str]]:
 
 def _table(path: Path) -> dict[tuple[str, str], str]:
     """One table."""
-    found: dict[tuple[str, str], str] = {}
-    with path.open(encoding="utf-8", newline="") as file:
-        rows = csv.DictReader(file)
-        if rows.fieldnames != COLUMNS:
-            raise FormatError(path, f"must have the columns {', '.join(COLUMNS)}", line=1)
-        for row in rows:
-            if not all(row[name] for name in COLUMNS):
-                raise FormatError(path, "must have something in every column", line=rows.line_num)
-            found[row["context"], row["text"]] = row["translation"]
-    return found
+    rows = [tuple(row.text(name) for name in COLUMNS) for row in read_csv(path, *COLUMNS)]
+    return {(context, text): translation for context, text, translation in rows}
 
 
 def attach(undo: ExitStack) -> None:

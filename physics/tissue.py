@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
-from ..errors import FormatError, ParameterError
+from ..errors import ParameterError
 from ..resources import PRESETS
+from ..tables import TomlTable, read_toml
 
 PRESET = PRESETS / "tissue.toml"
 """The tissues that come with Risorius."""
@@ -111,20 +110,12 @@ def load_tissues(path: str | Path = PRESET) -> Mapping[str, Tissue]:
     ------
     FormatError : unreadable file, unknown, missing or wrong key; names file, key and rule.
     """
-    try:
-        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FormatError(path, f"cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FormatError(path, f"is not TOML: {error}") from error
-    for name, figure in _tables(path, table, "figures", required=False).items():
-        if name not in _figures():
-            raise FormatError(path, f"no such figure; known are {', '.join(_figures())}", key=f"figures.{name}")
-        for key in ("unit", "source"):
-            if not figure.get(key):
-                raise FormatError(path, "must not be empty", key=f"figures.{name}.{key}")
-    tissues = {name: _tissue(path, name, row) for name, row in _tables(path, table, "tissues", required=True).items()}
-    return MappingProxyType(tissues)
+    document = read_toml(path)
+    document.table("figures", optional=True).only(*_figures())
+    for figure in document.tables("figures", optional=True).values():
+        figure.text("unit")
+        figure.text("source")
+    return MappingProxyType({name: _tissue(row) for name, row in document.tables("tissues").items()})
 
 
 @cache
@@ -151,27 +142,8 @@ def _figures() -> tuple[str, ...]:
     return tuple(field.name for field in fields(Tissue) if field.name != "description")
 
 
-def _tables(path: str | Path, table: dict[str, Any], key: str, *, required: bool) -> dict[str, dict[str, Any]]:
-    """The sub-tables under a key, checked to be tables."""
-    found = table.get(key, {})
-    if not isinstance(found, dict) or (required and not found):
-        raise FormatError(path, f"needs at least one table [{key}.NAME]", key=key)
-    for name, row in found.items():
-        if not isinstance(row, dict):
-            raise FormatError(path, "must be a table of figures", key=f"{key}.{name}")
-    return found
-
-
-def _tissue(path: str | Path, name: str, row: dict[str, Any]) -> Tissue:
-    """One tissue, its errors turned to the file's."""
-    for key in row:
-        if key not in (*_figures(), "description"):
-            raise FormatError(path, f"no such figure; known are {', '.join(_figures())}", key=f"tissues.{name}.{key}")
-    for key in _figures():
-        if key not in row:
-            raise FormatError(path, "is missing", key=f"tissues.{name}.{key}")
-    try:
-        return Tissue(**row)
-    except ParameterError as error:
-        problem = f"{error.rule}, but it is {error.value!r}"
-        raise FormatError(path, problem, key=f"tissues.{name}.{error.name}") from error
+def _tissue(row: TomlTable) -> Tissue:
+    """One tissue."""
+    row.only(*_figures(), "description")
+    figures = {name: row.number(name) for name in _figures()}
+    return row.made(lambda: Tissue(**figures, description=row.text("description", "")))

@@ -1,7 +1,9 @@
-"""Tables on disk, TOML and CSV, and the one set of readers for what stands in them.
+"""Tables on disk, TOML, JSON and CSV, and the one set of readers for what stands in them.
 
 cells         named cells of one place in a file, each read by the rule that it must keep
-toml_table    TOML: tables by dotted keys
+keyed_table   tables inside tables, under dotted keys: what TOML and JSON have in common
+toml_table    TOML, and how texts and numbers are written in it
+json_table    JSON documents that say what they are
 csv_table     CSV: rows by the names of their columns
 
     for row in read_csv(path, "fap", "low_mm", "source"):
@@ -10,23 +12,27 @@ csv_table     CSV: rows by the names of their columns
     for name, muscle in read_toml(path).tables("muscles").items():
         kind, prior = muscle.choice("kind", Kind), muscle.number("prior_mm", above=0.0)
 
-A cell that breaks its rule raises a `FormatError` that names the file, the key (TOML) or the line and column (CSV), the
-rule, and what stands there instead.
+A cell that breaks its rule raises a `FormatError` that names the file, the key (TOML, JSON) or the line and column
+(CSV), the rule, and what stands there instead.
 """
 
 from .cells import Cells
-from .csv_table import CsvRow, named_cells, numbered_lines, parsed_number, read_csv, split_cells
+from .csv_table import CsvRow, numbered_lines, parsed_number, read_csv, row_cells, split_cells
+from .json_table import read_json
+from .keyed_table import KeyedTable
 from .toml_table import TomlTable, read_toml, toml_number, toml_text
 
 __all__ = [
     "Cells",
     "CsvRow",
+    "KeyedTable",
     "TomlTable",
-    "named_cells",
     "numbered_lines",
     "parsed_number",
     "read_csv",
+    "read_json",
     "read_toml",
+    "row_cells",
     "split_cells",
     "toml_number",
     "toml_text",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import sys
 from abc import ABC, abstractmethod
@@ -22,7 +23,7 @@ SHOWN = 40
 
 
 class Cells(ABC):
-    """The cells of a TOML table or of a row of CSV.
+    """The cells of a table of TOML or JSON, or of a row of CSV.
 
     Every reader takes the cell's name. A cell that is absent, or empty in CSV, gives the reader's default; without a
     default it is refused.
@@ -89,7 +90,7 @@ class Cells(ABC):
         if default is not None and name not in self:
             return default
         value = self.cells.get(name)
-        if not isinstance(value, str) or not value:
+        if not isinstance(value, str) or not value.strip():
             raise self._broken(name, "a text")
         return value
 
@@ -110,8 +111,10 @@ class Cells(ABC):
             found = np.array(self._numbers(name))
         except ValueError:  # a ragged list
             found = np.array(None)
+        if found.shape == (0,) and wanted[0] in (None, 0):  # an empty list has no inner lists to count
+            return np.zeros([size or 0 for size in wanted])
         fits = found.ndim == len(wanted) and all(n in (None, m) for n, m in zip(wanted, found.shape, strict=True))
-        if not fits or not (found.size == 0 or found.dtype.kind in "if") or not np.isfinite(found).all():
+        if not fits or found.dtype.kind not in "if" or not np.isfinite(found).all():
             raise self._broken(name, " x ".join("N" if n is None else str(n) for n in wanted) + " finite numbers")
         return found.astype(np.float64)
 
@@ -126,17 +129,22 @@ class Cells(ABC):
         """Refuse cells of any other name: a misspelt one would say nothing."""
         for name in self:
             if name not in names:
-                raise self.refuse(f"is not known here: known are {', '.join(names)}", name)
+                near = difflib.get_close_matches(name, names, n=1)
+                hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}"
+                raise self.refuse(f"is not known here: {hint}", name)
 
-    def made(self, make: Callable[[], T]) -> T:
-        """What `make` makes of the cells; where it refuses a parameter, the error says where in the file it stands."""
+    def made(self, make: Callable[[], T], name: str | None = None) -> T:
+        """What `make` makes of the cells; where it refuses a parameter, the error says where in the file it stands.
+
+        That is the cell of the parameter's name, or else the cell `name`, or the whole place.
+        """
         try:
             return make()
         except ParameterError as error:
             told = f"{error.rule}, but it is {error.value!r}"
             if error.name in self:
                 raise self.refuse(told, error.name) from error
-            raise self.refuse(f"{error.name} {told}") from error
+            raise self.refuse(f"{error.name} {told}", name) from error
 
     def _broken(self, name: str, rule: str) -> FormatError:
         """The error for a cell that is absent or is not what it must be."""
@@ -160,7 +168,7 @@ def _within(value: float, above: float | None, least: float | None, most: float 
 def _bounds(above: float | None, least: float | None, most: float | None) -> str:
     """The bounds of a number, in words."""
     if least is not None and most is not None:
-        return f" in {least:g}..{most:g}"
+        return f" from {least:g} to {most:g}"
     told = [f"above {above:g}"] if above is not None else []
     told += [f"{least:g} or more"] if least is not None else []
     told += [f"{most:g} or less"] if most is not None else []

@@ -7,7 +7,7 @@ row: a cell holds no line break.
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from ..errors import FormatError
@@ -59,7 +59,8 @@ def read_csv(path: str | Path, *columns: str) -> list[CsvRow]:
             raise FormatError(
                 file, f"lacks a column: it must have {', '.join(columns)}", line=lines[0][0], column=column
             )
-    return [CsvRow(file, named_cells(file, heading, number, line), number) for number, line in lines[1:]]
+    rows = [(number, row_cells(file, len(heading), number, line)) for number, line in lines[1:]]
+    return [CsvRow(file, dict(zip(heading, cells, strict=True)), number) for number, cells in rows]
 
 
 def numbered_lines(text: str) -> list[tuple[int, str]]:
@@ -80,20 +81,20 @@ def split_cells(path: Path, number: int, line: str, *, separator: str = ",") -> 
         raise FormatError(path, f"is not a row of a table ({error}): mend or remove it", line=number) from error
 
 
-def named_cells(path: Path, columns: Sequence[str], number: int, line: str, *, separator: str = ",") -> dict[str, str]:
-    """The cells of one line by column; a separator at its end parts nothing.
+def row_cells(path: Path, count: int, number: int, line: str, *, separator: str = ",") -> tuple[str, ...]:
+    """The cells of one line, as many as there are columns; a separator at its end parts nothing.
 
     Raises
     ------
     FormatError : a cell too many or too few.
     """
     cells = split_cells(path, number, line, separator=separator)
-    if len(cells) == len(columns) + 1 and cells[-1] == "":
+    if len(cells) == count + 1 and cells[-1] == "":
         cells.pop()
-    if len(cells) != len(columns):
-        problem = f"has {len(cells)} cells where the heading has {len(columns)}: is the file cut off here?"
+    if len(cells) != count:
+        problem = f"has {len(cells)} cells where the heading has {count}: is the file cut off here?"
         raise FormatError(path, problem, line=number)
-    return dict(zip(columns, cells, strict=True))
+    return tuple(cells)
 
 
 def parsed_number(text: str) -> int | float | None:

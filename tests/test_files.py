@@ -1,14 +1,14 @@
-"""Files are written whole or not at all, and documents say what they are."""
+"""Files are written whole or not at all; what cannot be read is named with the remedy."""
 
 from __future__ import annotations
 
-import json
 import os
 from pathlib import Path
 
 import pytest
 from risorius.errors import FormatError
-from risorius.files import read_document, write_whole
+from risorius.files import read_bytes, write_whole
+from risorius.resources import PRESETS
 
 
 def test_text_and_bytes_stand_as_they_are_and_nothing_else_is_left(tmp_path: Path) -> None:
@@ -37,13 +37,10 @@ def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
         write_whole(tmp_path / "nowhere" / "a", "new")
 
 
-@pytest.mark.parametrize("text", ["", "[1]", '{"format": "tea"}', '{"format": "soup", "version": 2}', "[" * 100_000])
-def test_other_documents_are_refused(text: str, tmp_path: Path) -> None:
-    (tmp_path / "a").write_text(text)
-    with pytest.raises(FormatError):
-        read_document(tmp_path / "a", kind="soup", version=1)
-
-
-def test_a_document_is_read(tmp_path: Path) -> None:
-    (tmp_path / "a").write_text(json.dumps({"format": "soup", "version": 1, "hot": True}))
-    assert read_document(tmp_path / "a", kind="soup", version=1)["hot"] is True
+def test_a_file_that_cannot_be_read_is_named_with_the_remedy(tmp_path: Path) -> None:
+    (tmp_path / "a").write_bytes(b"\x00")
+    assert read_bytes(tmp_path / "a") == b"\x00"
+    with pytest.raises(FormatError, match=r"absent: cannot be read \(No such file or directory\): give a file"):
+        read_bytes(tmp_path / "absent")
+    with pytest.raises(FormatError, match=r"cannot be read .*: install Risorius again"):
+        read_bytes(PRESETS / "absent.toml")

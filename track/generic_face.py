@@ -5,15 +5,14 @@ It stands in where no picture shows the person's own neutral face, and tells whe
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
 
 from ..arrays import Floats
-from ..errors import FormatError
 from ..mpeg4.streams.capture import CAPTURE_PRESETS
+from ..tables import read_csv
 from .face_mesh import LANDMARKS
 
 TABLE = CAPTURE_PRESETS / "generic_face.csv"
@@ -35,13 +34,9 @@ def _rows() -> Mapping[str, Mapping[str, float]]:
     ------
     FormatError : the table is damaged.
     """
-    with TABLE.open(encoding="utf-8") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
     columns = ("landmark", *AXES, "spread_mm")
-    try:
-        return {row["point"]: {column: float(row[column]) for column in columns} for row in rows}
-    except (KeyError, TypeError, ValueError) as error:
-        raise FormatError(TABLE, f"must have a number for {', '.join(columns)} ({error}): install again") from error
+    rows = read_csv(TABLE, "point", *columns)
+    return {row.text("point"): {column: row.number(column) for column in columns} for row in rows}
 
 
 @lru_cache(maxsize=1)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,6 +14,7 @@ from ..errors import FormatError
 from ..face.tracked.landmarks import LandmarkReading
 from ..mpeg4 import FAP_COUNT, FAPS
 from ..mpeg4.streams.capture import CAPTURE_PRESETS
+from ..tables import read_csv
 
 TABLE = CAPTURE_PRESETS / "camera_faps.csv"
 
@@ -51,14 +51,12 @@ def camera_faps() -> Mapping[int, CameraFap]:
     ------
     FormatError : the table is damaged.
     """
-    with TABLE.open(encoding="utf-8") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    try:
-        table = {int(row["fap"]): CameraFap(int(row["fap"]), float(row["trust"]), row["reason"]) for row in rows}
-    except (KeyError, TypeError, ValueError) as error:
-        raise FormatError(TABLE, f"must have fap, trust and reason in each row ({error}): install again") from error
-    if sorted(table) != list(range(3, FAP_COUNT + 1)) or not all(0.0 <= row.trust <= 1.0 for row in table.values()):
-        raise FormatError(TABLE, f"must have each of FAPs 3 to {FAP_COUNT} once, with a trust in 0..1: install again")
+    table = {}
+    for row in read_csv(TABLE, "fap", "trust", "reason"):
+        number = row.integer("fap", least=3, most=FAP_COUNT)
+        table[number] = CameraFap(number, row.number("trust", least=0.0, most=1.0), row.text("reason", ""))
+    if sorted(table) != list(range(3, FAP_COUNT + 1)):
+        raise FormatError(TABLE, f"must have each of FAPs 3 to {FAP_COUNT}: install Risorius again")
     return MappingProxyType(table)
 
 

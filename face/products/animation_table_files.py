@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import Floats
-from ...errors import FormatError, ParameterError
-from ...files import read_document, write_whole
+from ...arrays import Ints
+from ...errors import ParameterError
+from ...files import write_whole
 from ...mpeg4 import FAPS
+from ...tables import KeyedTable, read_json
 from .animation_tables import AnimationTable, AnimationTables, TableError
 
 FORMAT, VERSION = "risorius face animation tables", 1
 DIGITS = 7  # after the point: metres of the mesh and slopes; a 30 mm motion is kept within a hundredth of a micrometre
-KEYS = ("fap", "unit", "borders", "vertices", "slopes")
 
 
 def write_animation_tables(path: str | Path, tables: AnimationTables) -> None:
@@ -43,22 +43,14 @@ def read_animation_tables(path: str | Path) -> AnimationTables:
     ------
     FormatError : names the file, the key and the rule it breaks.
     """
-    file = Path(path)
-    document = read_document(file, kind=FORMAT, version=VERSION)
-    entries = document.get("tables")
-    if not isinstance(entries, list):
-        raise FormatError(file, "must be a list of tables", key="tables")
-    vertices = _array(file, document.get("vertices"), "vertices", (-1, 3))
+    document = read_json(path, kind=FORMAT, version=VERSION)
     found: dict[int, AnimationTable] = {}
-    for place, entry in enumerate(entries):
-        table = _table(file, entry, f"tables.{place}")
+    for entry in document.listed("tables"):
+        table = _table(entry)
         if table.fap in found:
-            raise FormatError(file, f"FAP {table.fap} has a table already", key=f"tables.{place}.fap")
+            raise entry.refuse(f"FAP {table.fap} has a table already", "fap")
         found[table.fap] = table
-    try:
-        return AnimationTables(vertices, found)
-    except ParameterError as error:
-        raise FormatError(file, str(error), key="tables") from error
+    return document.made(lambda: AnimationTables(document.numbers("vertices", None, 3), found), "tables")
 
 
 def write_face_def_tables(path: str | Path, tables: AnimationTables, *, node: str = "Face") -> None:
@@ -90,29 +82,19 @@ def _entry(table: AnimationTable) -> dict[str, Any]:
     }
 
 
-def _table(file: Path, entry: object, key: str) -> AnimationTable:
+def _table(entry: KeyedTable) -> AnimationTable:
     """One checked table."""
-    if not isinstance(entry, dict) or not set(KEYS) <= set(entry):
-        raise FormatError(file, f"must be an object with {', '.join(KEYS)}", key=key)
-    for name in ("fap", "unit"):
-        if isinstance(entry[name], bool) or not isinstance(entry[name], int | float):
-            raise FormatError(file, f"must be a number, but it is {entry[name]!r:.40}", key=f"{key}.{name}")
-    borders, vertices = (_array(file, entry[name], f"{key}.{name}", (-1,)) for name in ("borders", "vertices"))
-    for name, values in (("borders", borders), ("vertices", vertices)):
-        if (values != np.rint(values)).any() or (np.abs(values) >= 2**53).any():
-            raise FormatError(file, "must be whole numbers", key=f"{key}.{name}")
-    slopes = _array(file, entry["slopes"], f"{key}.slopes", (max(len(borders) - 1, 0), len(vertices), 3))
-    try:
-        return AnimationTable(
-            fap=entry["fap"],
-            unit=float(entry["unit"]),
-            borders=borders.astype(np.int64),
-            vertices=vertices.astype(np.int64),
-            slopes=slopes,
-            error=_error(entry.get("error_mm")),
+    borders, vertices = _whole(entry, "borders"), _whole(entry, "vertices")
+    return entry.made(
+        lambda: AnimationTable(
+            fap=entry.integer("fap"),
+            unit=entry.number("unit"),
+            borders=borders,
+            vertices=vertices,
+            slopes=entry.numbers("slopes", max(len(borders) - 1, 0), len(vertices), 3),
+            error=_error(entry.cells.get("error_mm")),
         )
-    except (ParameterError, OverflowError) as error:
-        raise FormatError(file, str(error), key=key) from error
+    )
 
 
 def _error(entry: object) -> TableError | None:
@@ -124,19 +106,12 @@ def _error(entry: object) -> TableError | None:
     return TableError(1e-3 * numbers[0], 1e-3 * numbers[1]) if len(numbers) == 2 else None
 
 
-def _array(file: Path, value: object, key: str, shape: tuple[int, ...]) -> Floats:
-    """An array of numbers of a shape; -1 stands for any length."""
-    if not isinstance(value, list):
-        raise FormatError(file, "must be a list", key=key)
-    try:
-        array = np.array(value, dtype=np.float64).reshape(shape) if value else np.zeros([max(n, 0) for n in shape])
-    except (TypeError, ValueError, OverflowError) as error:
-        raise FormatError(file, f"must hold numbers in the shape {shape}: {error}", key=key) from error
-    if array.ndim > 1 and np.shape(value[:1])[1:] != array.shape[1:] and value:
-        raise FormatError(file, f"must hold numbers in the shape {shape}", key=key)
-    if not np.isfinite(array).all():
-        raise FormatError(file, "must be finite", key=key)
-    return array
+def _whole(entry: KeyedTable, name: str) -> Ints:
+    """Whole numbers."""
+    found = entry.numbers(name)
+    if (found != np.rint(found)).any() or (np.abs(found) >= 2**53).any():
+        raise entry.refuse("must be whole numbers", name)
+    return found.astype(np.int64)
 
 
 def _node_lines(tables: AnimationTables, node: str) -> Iterator[str]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from enum import StrEnum
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -24,13 +23,13 @@ from ...mpeg4.streams.capture import (
     landmarks_from_json,
     load_columns,
     read_arkit,
-    read_document,
     read_fap_csv,
     read_json_frames,
     read_openface,
     read_scores,
     read_table_file,
 )
+from ...tables import TomlTable, read_toml
 from .landmarks import LandmarkReading, read_points
 
 TOPOLOGIES = CAPTURE_PRESETS.parent / "topologies"
@@ -163,16 +162,16 @@ def read_landmarks(landmarks: Landmarks, *, neutral: tuple[float, float] | None 
     return read_points(
         landmarks.positions[:, list(tracked.values())],
         list(tracked),
-        stable=preset["stable"],
-        eye_radius=float(preset["eye_radius"]),
-        unseen=preset["unseen"],
+        stable=preset.texts("stable"),
+        eye_radius=preset.number("eye_radius"),
+        unseen=[int(number) for number in preset.numbers("unseen")],
         neutral=stretch,
     )
 
 
 @lru_cache(maxsize=1)
-def _mediapipe() -> tuple[dict[str, Any], dict[str, int]]:
+def _mediapipe() -> tuple[TomlTable, dict[str, int]]:
     """The preset of MediaPipe's landmarks, and feature point -> landmark."""
-    preset = read_document(CAPTURE_PRESETS / "mediapipe_landmarks.toml")
-    points = read_document(TOPOLOGIES / preset["topology"])["points"]
-    return preset, {**points, **preset["pupils"]}
+    preset = read_toml(CAPTURE_PRESETS / "mediapipe_landmarks.toml")
+    tables = read_toml(TOPOLOGIES / preset.text("topology")).table("points"), preset.table("pupils")
+    return preset, {name: table.integer(name) for table in tables for name in table}

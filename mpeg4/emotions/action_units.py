@@ -9,7 +9,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from ..tables import read_table
+from ...resources import STANDARD
+from ...tables import read_csv
 
 
 @dataclass(frozen=True)
@@ -31,10 +32,11 @@ class AuTerm:
 def _read_action_units() -> dict[int, tuple[AuTerm, ...]]:
     """action_units.csv by AU."""
     units: dict[int, list[AuTerm]] = {}
-    for row in read_table("action_units"):
-        terms = units.setdefault(int(row["au"]), [])
-        if row["printed"]:
-            terms.append(AuTerm(row["printed"], int(row["fap"]) if row["fap"] else None, row["optional"] == "yes"))
+    for row in read_csv(STANDARD / "action_units.csv"):
+        terms = units.setdefault(row.integer("au"), [])
+        if "printed" in row:
+            fap, optional = row.integer("fap") if "fap" in row else None, row.choice("optional", ("yes", "no"))
+            terms.append(AuTerm(row.text("printed"), fap, optional == "yes"))
     return {number: tuple(terms) for number, terms in units.items()}
 
 

@@ -14,8 +14,9 @@ from enum import StrEnum
 from types import MappingProxyType
 
 from ...errors import ParameterError
-from ..standard import FAPS
-from ..tables import read_table
+from ...resources import STANDARD
+from ...tables import read_csv
+from ..standard import FAP_COUNT, FAPS
 from .profile import ARCHETYPES, Archetype, Profile, Range, Signs, check_archetype, check_signs
 
 
@@ -63,41 +64,42 @@ class BaseWord:
     angle: float
 
 
-FEATURE_SIGNED: frozenset[int] = frozenset(int(row["fap"]) for row in read_table("signs"))
+FEATURE_SIGNED: frozenset[int] = frozenset(row.integer("fap") for row in read_csv(STANDARD / "signs.csv"))
 """FAPs whose sign as a feature distance is opposite to MPEG-4's."""
 
 
 def _read_profiles() -> dict[tuple[Archetype, int], tuple[PrintedRange, ...]]:
     """Table 5 as printed, by archetype and variant."""
     profiles: dict[tuple[Archetype, int], list[PrintedRange]] = {}
-    for row in read_table("profiles"):
-        entry = PrintedRange(int(row["fap"]), float(row["low"]), float(row["high"]), row["erratum"], row["note"])
-        profiles.setdefault((Archetype(row["archetype"]), int(row["variant"])), []).append(entry)
+    for row in read_csv(STANDARD / "profiles.csv"):
+        fap, low, high = row.integer("fap", least=1, most=FAP_COUNT), row.number("low"), row.number("high")
+        entry = PrintedRange(fap, low, high, row.text("erratum", ""), row.text("note", ""))
+        profiles.setdefault((row.choice("archetype", Archetype), row.integer("variant")), []).append(entry)
     return {key: tuple(entries) for key, entries in profiles.items()}
 
 
 def _read_base_words() -> dict[Archetype, BaseWord]:
     """Activation and angle of each archetype from Table 6."""
-    table = {row["word"]: row for row in read_table("words")}
-    return {
-        Archetype(row["archetype"]): BaseWord(
-            row["word"], float(table[row["word"]]["activation"]), float(table[row["word"]]["angle"])
-        )
-        for row in read_table("archetypes")
-    }
+    table = {row.text("word"): row for row in read_csv(STANDARD / "words.csv")}
+    words = {}
+    for row in read_csv(STANDARD / "archetypes.csv"):
+        word = table[row.choice("word", table)]
+        base = BaseWord(word.text("word"), word.number("activation"), word.number("angle"))
+        words[row.choice("archetype", Archetype)] = base
+    return words
 
 
 def _read_statistics() -> dict[tuple[Archetype, int], Statistic]:
     """Table 4 by archetype and FAP."""
     return {
-        (Archetype(row["archetype"]), int(row["fap"])): Statistic(
-            fap=int(row["fap"]),
-            archetype=Archetype(row["archetype"]),
-            status=Verified(row["status"]),
-            mean=float(row["mean"]) if row["mean"] else None,
-            std=float(row["std"]) if row["std"] else None,
+        (row.choice("archetype", Archetype), row.integer("fap")): Statistic(
+            fap=row.integer("fap", least=1, most=FAP_COUNT),
+            archetype=row.choice("archetype", Archetype),
+            status=row.choice("status", Verified),
+            mean=row.number("mean") if "mean" in row else None,
+            std=row.number("std") if "std" in row else None,
         )
-        for row in read_table("statistics")
+        for row in read_csv(STANDARD / "statistics.csv")
     }
 
 
@@ -115,18 +117,20 @@ BASE_WORDS: Mapping[Archetype, BaseWord] = MappingProxyType(_read_base_words())
 STATISTICS: Mapping[tuple[Archetype, int], Statistic] = MappingProxyType(_read_statistics())
 """Table 4: (archetype, FAP number) -> cell."""
 
-VOCABULARIES: Mapping[Archetype, frozenset[int]] = MappingProxyType(
-    {
-        name: frozenset(int(row["fap"]) for row in read_table("vocabularies") if row["archetype"] == name)
-        for name in ARCHETYPES
-    }
-)
+
+def _read_vocabularies() -> dict[Archetype, frozenset[int]]:
+    """Table 2 by archetype."""
+    rows = [(row.choice("archetype", Archetype), row.integer("fap")) for row in read_csv(STANDARD / "vocabularies.csv")]
+    return {name: frozenset(fap for owner, fap in rows if owner is name) for name in ARCHETYPES}
+
+
+VOCABULARIES: Mapping[Archetype, frozenset[int]] = MappingProxyType(_read_vocabularies())
 """Table 2: archetype -> FAP numbers it may use."""
 
 VOCABULARY_EXCEPTIONS: Mapping[tuple[Archetype, int], frozenset[int]] = MappingProxyType(
     {
-        (Archetype(row["archetype"]), int(row["fap"])): frozenset(map(int, row["variants"].split()))
-        for row in read_table("vocabulary_exceptions")
+        (row.choice("archetype", Archetype), row.integer("fap")): frozenset(map(int, row.numbers("variants")))
+        for row in read_csv(STANDARD / "vocabulary_exceptions.csv")
     }
 )
 """(archetype, FAP number) -> variants of Table 5 that use the FAP although Table 2 does not list it."""

@@ -17,8 +17,9 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Floats
 from ...errors import ParameterError
+from ...resources import STANDARD
+from ...tables import read_csv
 from ..standard import FAP_COUNT, Unit
-from ..tables import read_table
 
 FEATURE_COUNT = 15
 
@@ -51,15 +52,15 @@ class Feature:
 def _read_features() -> tuple[Feature, ...]:
     """features.csv in order."""
     features = []
-    for row in read_table("features"):
-        pairs = (part.split(":") for part in row["faps"].split())
+    for row in read_csv(STANDARD / "features.csv"):
+        pairs = (part.split(":") for part in row.texts("faps"))
         features.append(
             Feature(
-                number=int(row["feature"]),
-                point_a=row["point_a"],
-                point_b=row["point_b"],
-                sign={"grows": 1, "shrinks": -1}[row["positive_when"]],
-                unit=Unit(row["unit"]),
+                number=row.integer("feature"),
+                point_a=row.text("point_a"),
+                point_b=row.text("point_b"),
+                sign=1 if row.choice("positive_when", ("grows", "shrinks")) == "grows" else -1,
+                unit=row.choice("unit", Unit),
                 shares=MappingProxyType({int(number): float(share) for number, share in pairs}),
             )
         )

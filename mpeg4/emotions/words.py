@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from ...errors import ParameterError
-from ..tables import read_table
+from ...resources import STANDARD
+from ...tables import read_csv
 from .archetypes import VARIANTS
 from .profile import Archetype, check_archetype
 from .wheel import check_activation, check_angle
@@ -65,16 +66,17 @@ class Word:
 def _read_table_words() -> dict[str, Word]:
     """Table 6 as printed, with the categories the paper gives or that lie close enough to read in."""
     words = {}
-    for row in read_table("words"):
-        activation, evaluation = (float(row[key]) if row[key] else None for key in ("activation", "evaluation"))
-        words[row["word"]] = Word(
-            name=row["word"],
+    for row in read_csv(STANDARD / "words.csv"):
+        name = row.text("word")
+        activation, evaluation = (row.number(key) if key in row else None for key in ("activation", "evaluation"))
+        words[name] = Word(
+            name=name,
             activation=activation,
             evaluation=evaluation,
-            angle=float(row["angle"]),
-            category=Archetype(row["category"]) if row["category"] else None,
+            angle=row.number("angle"),
+            category=row.choice("category", Archetype) if "category" in row else None,
             neutral=activation is None,
-            source=f"Raouzaiou et al. 2002, Table 6; {row['category_source']}".rstrip("; "),
+            source=f"Raouzaiou et al. 2002, Table 6; {row.text('category_source', '')}".rstrip("; "),
         )
     return words
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,8 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import FormatError, ParameterError
-from ...files import read_document, write_whole
+from ...files import write_whole
+from ...tables import KeyedTable, read_json
 from ..high_level import ExpressionField, VisemeField
 from ..standard import FAP_COUNT, FAPS
 from .fap_stream import FapStream
@@ -58,66 +58,53 @@ def read_fap_json(path: str | Path) -> FapStream:
     ------
     FormatError : names the file, the key and the rule it breaks.
     """
-    file = Path(path)
-    document = read_document(file, kind=FORMAT, version=VERSION)
-    frames = _frames(file, document)
-    name, file_version = (_text(file, document, key) for key in ("name", "file_version"))
-    fields = {key: _fields(file, document, key) for key in ("visemes", "expressions")}
+    document = read_json(path, kind=FORMAT, version=VERSION)
+    frames = _frames(document)
+    visemes, expressions = _fields(document, "visemes"), _fields(document, "expressions")
     try:
         return FapStream(
             frames,
-            fps=float(_number(file, document, "fps")),
-            name=name,
-            visemes={index: VisemeField(*values) for index, values in fields["visemes"].items()},
-            expressions={index: ExpressionField(*values) for index, values in fields["expressions"].items()},
-            first_frame=int(_number(file, document, "first_frame")),
-            version=file_version,
+            fps=document.number("fps"),
+            name=_text(document, "name"),
+            visemes={index: VisemeField(*values) for index, values in visemes.items()},
+            expressions={index: ExpressionField(*values) for index, values in expressions.items()},
+            first_frame=int(document.number("first_frame")),
+            version=_text(document, "file_version"),
         )
     except (ParameterError, TypeError, OverflowError, ValueError) as error:
-        raise FormatError(file, f"does not fit together: {error}") from error
+        raise document.refuse(f"does not fit together: {error}") from error
 
 
-def _frames(file: Path, document: Mapping[str, Any]) -> Floats:
+def _frames(document: KeyedTable) -> Floats:
     """(T, 68) frames."""
-    names, rows = document.get("faps"), document.get("frames")
-    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-        raise FormatError(file, "must be a list of FAP names", key="faps")
+    names, rows = document.texts("faps"), document.cells.get("frames")
     unknown = [name for name in names if name not in NUMBERS]
     if unknown or len(set(names)) != len(names):
-        raise FormatError(file, f"must name low-level FAPs, each once; look at {unknown or names!r:.60}", key="faps")
+        raise document.refuse(f"must name low-level FAPs, each once; look at {unknown or list(names)!r:.60}", "faps")
     if not isinstance(rows, list):
-        raise FormatError(file, "must be a list of rows", key="frames")
+        raise document.refuse("must be a list of rows", "frames")
     frames = np.full((len(rows), FAP_COUNT), np.nan)
     places = [NUMBERS[name] - 1 for name in names]
     for index, row in enumerate(rows):
         if not isinstance(row, list) or len(row) != len(names):
-            raise FormatError(file, f"must be a list of {len(names)} numbers", key=f"frames.{index}")
+            raise FormatError(document.path, f"must be a list of {len(names)} numbers", key=f"frames.{index}")
         if not all(value is None or (isinstance(value, int | float) and math.isfinite(value)) for value in row):
-            raise FormatError(file, "must hold finite numbers, or null", key=f"frames.{index}")
+            raise FormatError(document.path, "must hold finite numbers, or null", key=f"frames.{index}")
         frames[index, places] = [np.nan if value is None else float(value) for value in row]
     return frames
 
 
-def _fields(file: Path, document: Mapping[str, Any], key: str) -> dict[int, list[Any]]:
+def _fields(document: KeyedTable, key: str) -> dict[int, list[Any]]:
     """Frame index -> the sub-fields of FAP 1 or 2; none where the key is left out."""
-    entries = document.get(key, {})
-    if not isinstance(entries, dict) or not all(isinstance(values, list) for values in entries.values()):
-        raise FormatError(file, "must be an object of frame index and list of sub-fields", key=key)
-    if not all(index.isascii() and index.isdigit() and len(index) < 10 for index in entries):
-        raise FormatError(file, "must have frame indices as keys", key=key)
-    return {int(index): values for index, values in entries.items()}
+    entries = document.table(key, optional=True)
+    for index, values in entries.cells.items():
+        if not (index.isascii() and index.isdigit() and len(index) < 10):
+            raise document.refuse(f"must have frame indices as keys, but there is {index!r:.40}", key)
+        if not isinstance(values, list):
+            raise entries.refuse("must be a list of sub-fields", index)
+    return {int(index): values for index, values in entries.cells.items()}
 
 
-def _text(file: Path, document: Mapping[str, Any], key: str) -> str:
-    """A text."""
-    if not isinstance(document.get(key), str):
-        raise FormatError(file, "must be a text", key=key)
-    return str(document[key])
-
-
-def _number(file: Path, document: Mapping[str, Any], key: str) -> int | float:
-    """A number."""
-    value = document.get(key)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise FormatError(file, f"must be a number, but it is {value!r:.40}", key=key)
-    return value
+def _text(document: KeyedTable, key: str) -> str:
+    """A text, which may be empty but must be there."""
+    return "" if document.cells.get(key) == "" else document.text(key)

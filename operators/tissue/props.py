@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from ...resources import PRESETS
+from ...tables import read_toml
 from ..changes import changed
 
 if TYPE_CHECKING:
@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 OWN = "OWN"
 FIRST = "default"
 #: The bundled tissues as they stand in their table: registration must not need SciPy, which `physics` does.
-_TABLE = PRESETS / "tissue.toml"
-_TISSUES: dict[str, dict[str, Any]] = tomllib.loads(_TABLE.read_text(encoding="utf-8"))["tissues"]
+_TISSUES = {name: table.cells for name, table in read_toml(PRESETS / "tissue.toml").tables("tissues").items()}
 _DEFAULT = _TISSUES[FIRST]
 _loading = False
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from risorius.errors import FormatError, ParameterError
+from risorius.errors import ParameterError
 from risorius.mpeg4 import (
     ACTION_UNITS,
     ARCHETYPES,
@@ -20,7 +20,6 @@ from risorius.mpeg4 import (
     Side,
     Unit,
     fap,
-    tables,
 )
 
 # ISO/IEC 14496-2: members of the FAP groups 1..10 and of the feature point groups 2..11.
@@ -207,15 +206,3 @@ def test_table_1_is_symmetric_but_for_the_middle() -> None:
         numbers = {term.fap for term in terms if term.fap is not None}
         mirrored = {FAPS[number].mirror or number for number in numbers}
         assert mirrored == numbers, f"AU {unit}"
-
-
-def test_a_damaged_table_names_its_line(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    from pathlib import Path
-
-    folder = Path(str(tmp_path))
-    (folder / "odd.csv").write_text("# heading\na,b\n1,2\n3\n", encoding="utf-8")
-    monkeypatch.setattr(tables, "DATA", folder)
-    with pytest.raises(FormatError, match=r"odd\.csv, line 4"):
-        tables.read_table("odd")
-    with pytest.raises(FormatError, match="missing"):
-        tables.read_table("missing")

@@ -218,7 +218,7 @@ def test_an_unknown_ramp_is_refused() -> None:
     ("text", "key"),
     [("[a]\nonset = -1\napex = 1\noffset = 1\nreason = 'x'", "a.onset"),
      ("[a]\nonset = 1\napex = inf\noffset = 1\nreason = 'x'", "a.apex"),
-     ("[a]\nonset = 1\napex = 1\nreason = 'x'", "a"),
+     ("[a]\nonset = 1\napex = 1\nreason = 'x'", "a.offset"),
      ("[a]\nonset = 1\napex = 1\noffset = 1\nreason = ''", "a.reason"),
      ("[a]\nonset = 1\napex = 1\noffset = 1\nreason = 'x'\nramp = 'bounce'", "a.ramp"),
      ("[a]\nonset = 1\napex = 1\noffset = 1\nreason = 'x'\npeak = 2.0", "a.peak"),

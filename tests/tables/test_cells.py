@@ -52,10 +52,10 @@ READERS: dict[str, Callable[[Cells], object]] = {
     "a number": lambda cells: cells.number("a"),
     "a number above 0": lambda cells: cells.number("a", above=0.0),
     "a number, 2 or more": lambda cells: cells.number("a", least=2.0),
-    "a number in 0..1": lambda cells: cells.number("a", least=0.0, most=1.0),
+    "a number from 0 to 1": lambda cells: cells.number("a", least=0.0, most=1.0),
     "a number above 0, 1 or less": lambda cells: cells.number("a", above=0.0, most=1.0),
     "a whole number": lambda cells: cells.integer("a"),
-    "a whole number in 1..68": lambda cells: cells.integer("a", least=1, most=68),
+    "a whole number from 1 to 68": lambda cells: cells.integer("a", least=1, most=68),
     "a text": lambda cells: cells.text("a"),
     "one of left, right": lambda cells: cells.choice("a", Side),
     "N finite numbers": lambda cells: cells.numbers("a"),
@@ -85,15 +85,16 @@ def test_an_absent_cell_without_default_is_refused(rule: str) -> None:
         ("a number", 10**400),
         ("a number above 0", 0.0),
         ("a number, 2 or more", 1.999),
-        ("a number in 0..1", 1.001),
-        ("a number in 0..1", -0.001),
+        ("a number from 0 to 1", 1.001),
+        ("a number from 0 to 1", -0.001),
         ("a number above 0, 1 or less", 2),
         ("a whole number", 3.0),
         ("a whole number", False),
-        ("a whole number in 1..68", 0),
-        ("a whole number in 1..68", 69),
+        ("a whole number from 1 to 68", 0),
+        ("a whole number from 1 to 68", 69),
         ("a text", 3),
         ("a text", ""),
+        ("a text", " "),
         ("one of left, right", "up"),
         ("one of left, right", 1),
         ("N finite numbers", 3.0),
@@ -122,7 +123,7 @@ def test_toml_refuses_what_breaks_the_rule(rule: str, value: object) -> None:
         ("a number", "1,5"),
         ("a number above 0", "0"),
         ("a whole number", "3.0"),
-        ("a whole number in 1..68", "69"),
+        ("a whole number from 1 to 68", "69"),
         ("one of left, right", "up"),
         ("N finite numbers", "1 two"),
         ("3 finite numbers", "1 2"),
@@ -139,6 +140,7 @@ def test_numbers_have_the_shape_that_is_asked_for() -> None:
     np.testing.assert_array_equal(toml(a=[[1, 2], [3, 4], [5, 6]]).numbers("a", None, 2), [[1, 2], [3, 4], [5, 6]])
     np.testing.assert_array_equal(row(a="1 2.5  3").numbers("a", 3), [1.0, 2.5, 3.0])
     assert toml(a=[]).numbers("a").shape == (0,)
+    assert toml(a=[]).numbers("a", 0, 4, None).shape == (0, 4, 0)
     assert toml(a=[1, 2]).numbers("a").dtype == np.float64
 
 
@@ -157,8 +159,10 @@ def test_flags_are_not_numbers() -> None:
 
 def test_unknown_cells_are_refused() -> None:
     toml(a=1, b=2).only("a", "b", "c")
-    with pytest.raises(FormatError, match=r"key row\.aa: is not known here: known are a, b"):
-        toml(a=1, aa=2).only("a", "b")
+    with pytest.raises(FormatError, match=r"key row\.prior: is not known here: did you mean prior_mm\?"):
+        toml(a=1, prior=2).only("a", "prior_mm")
+    with pytest.raises(FormatError, match=r"key row\.c: is not known here: known are a, prior_mm"):
+        toml(a=1, c=2).only("a", "prior_mm")
 
 
 def test_a_refused_parameter_tells_where_it_stands() -> None:

@@ -1,6 +1,6 @@
 """What trackers write, as FAPs: one file per format, by the tables of presets/capture/.
 
-preset, shapes, columns              mapping tables: blend shapes and action units in FAPs
+shapes, columns                      mapping tables: blend shapes and action units in FAPs
 samples, rotation                    times to an even rate; rotations of a head as FAPs 48 to 50
 table_file, json_file                CSV and JSON, with errors that name line and column or frame
 openface, live_link                  action units with pose and gaze; ARKit blend shapes
@@ -17,9 +17,8 @@ from .landmark_file import Landmarks, holds_landmarks, landmarks_from_csv, landm
 from .live_link import read_arkit
 from .mediapipe_scores import read_scores
 from .openface import read_openface
-from .preset import CAPTURE_PRESETS, read_document
 from .samples import Samples
-from .shapes import CaptureShape, load_shapes
+from .shapes import CAPTURE_PRESETS, CaptureShape, load_shapes
 from .table_file import TableFile, read_table_file
 
 __all__ = [
@@ -40,7 +39,6 @@ __all__ = [
     "load_key_names",
     "load_shapes",
     "read_arkit",
-    "read_document",
     "read_fap_csv",
     "read_json_frames",
     "read_openface",

@@ -15,10 +15,9 @@ from types import MappingProxyType
 import numpy as np
 
 from ....arrays import Floats
-from ....errors import FormatError
+from ....tables import read_toml
 from ...standard import FAP_COUNT
-from .preset import CAPTURE_PRESETS, read_preset
-from .shapes import load_shapes
+from .shapes import CAPTURE_PRESETS, load_shapes
 
 #: A FAP is stated where known columns carry more than this share of its squared gains.
 MOST = 0.5
@@ -66,19 +65,13 @@ def load_columns(path: Path = CAPTURE_PRESETS / "openface.toml") -> ColumnTable:
     FormatError : names the file, the key and the rule.
     """
     shapes, gains = load_shapes(), {}
-    for name, row in read_preset(path, "columns").items():
-        full, parts = row.get("full"), row.get("shapes")
-        if isinstance(full, bool) or not isinstance(full, int | float) or not full > 0.0:
-            raise FormatError(path, f"must be a positive number, but it is {full!r}", key=f"columns.{name}.full")
-        if not isinstance(parts, dict) or not parts:
-            raise FormatError(path, "must be a table of blend shape = share", key=f"columns.{name}.shapes")
+    for name, row in read_toml(path).tables("columns").items():
+        full, parts = row.number("full", above=0.0), row.table("shapes")
         gains[name] = np.zeros(FAP_COUNT)
-        for shape, share in parts.items():
+        for shape in parts:
             if shape not in shapes:
-                raise FormatError(path, "is no blend shape of arkit.toml", key=f"columns.{name}.shapes.{shape}")
-            if isinstance(share, bool) or not isinstance(share, int | float):
-                raise FormatError(path, f"must be a number, but it is {share!r}", key=f"columns.{name}.shapes.{shape}")
-            gains[name] = gains[name] + np.nan_to_num(shapes[shape].frame) * (share / full)
+                raise parts.refuse("is not a blend shape of arkit.toml", shape)
+            gains[name] = gains[name] + np.nan_to_num(shapes[shape].frame) * (parts.number(shape) / full)
     return ColumnTable(_by_lower_name(gains))
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ....errors import FormatError
+from ....files import read_bytes
 
 #: Names of one frame's entries: what it is -> how it is called.
 NAMES: Mapping[str, tuple[str, ...]] = {
@@ -65,9 +66,7 @@ def read_json_frames(path: str | Path) -> list[JsonFrame]:
     """
     file = Path(path)
     try:
-        text = file.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise FormatError(file, f"cannot be read ({error.strerror})") from error
+        text = read_bytes(file).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise FormatError(file, "is not UTF-8 text", offset=error.start) from error
     document = _parsed(file, text)

@@ -16,10 +16,10 @@ import numpy as np
 
 from ....arrays import Floats
 from ....errors import FormatError, ParameterError
+from ....tables import read_toml
 from .columns import arkit_columns
-from .preset import CAPTURE_PRESETS, read_preset
 from .samples import Samples
-from .shapes import fap_frame
+from .shapes import CAPTURE_PRESETS, fap_frame
 from .table_file import TableFile
 
 TIMECODE = re.compile(r"(\d+):(\d{1,2}):(\d{1,2})[:;](\d+(?:\.\d+)?)")
@@ -56,10 +56,10 @@ def read_arkit(table: TableFile, *, rate: float | None = None, preset: Path | No
 def _rotations(table: TableFile, preset: Path) -> Floats:
     """(T, 68) FAPs of the columns of rotations; NaN elsewhere."""
     frames = np.full((len(table.rows), 68), np.nan)
-    for name, row in read_preset(preset, "rotations").items():
+    for name, row in read_toml(preset).tables("rotations").items():
         if name not in table:
             continue
-        gains = fap_frame(preset, f"rotations.{name}", row.get("faps"))
+        gains = fap_frame(row)
         values = table.numbers(name)
         for place in np.flatnonzero(~np.isnan(gains)):
             frames[:, place] = values * gains[place]

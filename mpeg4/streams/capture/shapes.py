@@ -5,20 +5,21 @@ A captured score times a shape's FAPs is a frame; a face posed with a shape's FA
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
 from ....arrays import Floats
-from ....errors import FormatError
+from ....resources import PRESETS
+from ....tables import TomlTable, read_toml
 from ...standard import FAP_COUNT, FAPS, Motion
-from .preset import CAPTURE_PRESETS, read_preset
+
+CAPTURE_PRESETS = PRESETS / "capture"
+"""The mapping tables that come with Risorius."""
 
 SHAPE_KEYS = ("mirror", "faps", "contractions", "over", "source")
 SIDEWAYS = {Motion.LEFT: Motion.RIGHT, Motion.RIGHT: Motion.LEFT}
@@ -75,58 +76,36 @@ def load_shapes(path: str | Path = CAPTURE_PRESETS / "arkit.toml") -> Mapping[st
 def _load(path: Path) -> Mapping[str, CaptureShape]:
     """See `load_shapes`."""
     shapes: dict[str, CaptureShape] = {}
-    for name, row in read_preset(path, "shapes").items():
-        for key in row:
-            if key not in SHAPE_KEYS:
-                raise FormatError(
-                    path, f"is no key of a shape: use {', '.join(SHAPE_KEYS)}", key=f"shapes.{name}.{key}"
-                )
-        key = f"shapes.{name}"
-        if not isinstance(row.get("source"), str):
-            raise FormatError(path, "must be text that says where the figures are from", key=f"{key}.source")
-        over = row.get("over")
-        if over is not None and over not in shapes:
-            raise FormatError(path, f"must be a shape that stands above, but it is {over!r}", key=f"{key}.over")
-        frame = fap_frame(path, key, row.get("faps", {}))
-        shape = CaptureShape(name, frame, read_contractions(path, key, row), row["source"], over)
+    for name, row in read_toml(path).tables("shapes").items():
+        row.only(*SHAPE_KEYS)
+        if "over" in row and row.text("over") not in shapes:
+            raise row.refuse(f"must be a shape that stands above, but it is {row.text('over')!r}", "over")
+        over = row.text("over") if "over" in row else None
+        shape = CaptureShape(name, fap_frame(row), read_contractions(row), row.text("source"), over)
         shapes[name] = shape
         if "mirror" in row:
-            shapes[str(row["mirror"])] = shape.mirrored(str(row["mirror"]))
+            shapes[row.text("mirror")] = shape.mirrored(row.text("mirror"))
     return MappingProxyType(shapes)
 
 
-def fap_frame(path: Path, key: str, faps: object) -> Floats:
-    """(68,) frame of a table {FAP number = value}; NaN where it says nothing.
+def fap_frame(row: TomlTable) -> Floats:
+    """(68,) frame of a row's table faps = {FAP number = value}; NaN where it says nothing. Read-only.
 
     Raises
     ------
     FormatError : something else than FAP numbers 3 to 68 with numbers.
     """
-    if not isinstance(faps, dict):
-        raise FormatError(path, "must be a table of FAP number = value", key=f"{key}.faps")
+    faps = row.table("faps", optional=True)
     frame = np.full(FAP_COUNT, np.nan)
-    for number, value in faps.items():
+    for number in faps:
         if not (number.isdecimal() and 3 <= int(number) <= FAP_COUNT):
-            raise FormatError(path, f"must name FAPs 3 to {FAP_COUNT}, but there is {number!r}", key=f"{key}.faps")
-        frame[int(number) - 1] = _number(path, f"{key}.faps.{number}", value)
+            raise row.refuse(f"must name FAPs 3 to {FAP_COUNT}, but there is {number!r}", "faps")
+        frame[int(number) - 1] = faps.number(number)
     frame.flags.writeable = False
     return frame
 
 
-def read_contractions(path: Path, key: str, row: Mapping[str, Any]) -> dict[str, float]:
+def read_contractions(row: TomlTable) -> dict[str, float]:
     """The row's muscles, each 0..1."""
-    table = row.get("contractions", {})
-    if not isinstance(table, dict):
-        raise FormatError(path, "must be a table of muscle = contraction", key=f"{key}.contractions")
-    values = {muscle: _number(path, f"{key}.contractions.{muscle}", value) for muscle, value in table.items()}
-    for muscle, value in values.items():
-        if not 0.0 <= value <= 1.0:
-            raise FormatError(path, f"must lie in 0..1, but it is {value!r}", key=f"{key}.contractions.{muscle}")
-    return values
-
-
-def _number(path: Path, key: str, value: object) -> float:
-    """A finite number."""
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise FormatError(path, f"must be a number, but it is {value!r}", key=key)
-    return float(value)
+    table = row.table("contractions", optional=True)
+    return {muscle: table.number(muscle, least=0.0, most=1.0) for muscle in table}

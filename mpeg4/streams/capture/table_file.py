@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -13,6 +12,8 @@ import numpy as np
 
 from ....arrays import Floats
 from ....errors import FormatError
+from ....files import read_bytes
+from ....tables import numbered_lines, parsed_number, row_cells, split_cells
 
 #: What trackers write for "no value".
 UNKNOWN = ("", "nan", "na", "none", "null", "-nan", "-nan(ind)", "inf", "-inf")
@@ -66,15 +67,11 @@ class TableFile:
         """One cell."""
         if text.lower() in UNKNOWN:
             return math.nan
-        try:
-            value = float(text) if "_" not in text else math.nan
-        except ValueError:
-            value = math.nan
-        if not math.isfinite(value):
-            raise FormatError(
-                self.path, f"column {name} must be a number, but it is {text[:40]!r}", line=self.lines[row]
-            )
-        return value
+        value = parsed_number(text)
+        if value is None or not math.isfinite(value):
+            problem = f"must be a number, but it is {text[:40]!r}"
+            raise FormatError(self.path, problem, line=self.lines[row], column=name)
+        return float(value)
 
     def several(self, names: Iterable[str]) -> dict[str, Floats]:
         """Those of the named columns that the file has."""
@@ -89,36 +86,20 @@ def read_table_file(path: str | Path) -> TableFile:
     FormatError : names the file, the line and the remedy.
     """
     file = Path(path)
-    lines = [(number, line) for number, line in enumerate(_text(file).splitlines(), start=1) if line.strip()]
+    lines = numbered_lines(_text(file))
     if not lines:
         raise FormatError(file, "is empty: it must begin with a line of column names")
-    heading = lines[0][1]
-    mark = max(",;\t", key=heading.count)
-    columns = tuple(cell.strip() for cell in next(csv.reader([heading], delimiter=mark)))
-    rows, numbers = [], []
-    for number, line in lines[1:]:
-        try:
-            cells = tuple(cell.strip() for cell in next(csv.reader([line], delimiter=mark)))
-        except csv.Error as error:
-            raise FormatError(file, f"is no row of a table ({error}): mend or remove it", line=number) from error
-        if len(cells) == len(columns) + 1 and cells[-1] == "":
-            cells = cells[:-1]
-        if len(cells) != len(columns):
-            problem = f"has {len(cells)} cells where the heading has {len(columns)}: is the file cut off here?"
-            raise FormatError(file, problem, line=number)
-        rows.append(cells)
-        numbers.append(number)
-    if not rows:
+    if len(lines) == 1:
         raise FormatError(file, "has a heading but no rows: nothing was recorded")
-    return TableFile(file, columns, tuple(rows), tuple(numbers))
+    mark = max(",;\t", key=lines[0][1].count)
+    columns = tuple(split_cells(file, *lines[0], separator=mark))
+    rows = tuple(row_cells(file, len(columns), *line, separator=mark) for line in lines[1:])
+    return TableFile(file, columns, rows, tuple(number for number, _ in lines[1:]))
 
 
 def _text(file: Path) -> str:
     """The file's text."""
-    try:
-        data = file.read_bytes()
-    except OSError as error:
-        raise FormatError(file, f"cannot be read ({error.strerror})") from error
+    data = read_bytes(file)
     if b"\0" in data:
         raise FormatError(file, "is binary, not a CSV file", offset=data.index(b"\0"))
     try:

@@ -1,0 +1,27 @@
+"""JSON documents as tables of checked cells."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from ..errors import FormatError
+from ..files import read_bytes
+from .keyed_table import KeyedTable
+
+
+def read_json(path: str | Path, *, kind: str, version: int) -> KeyedTable:
+    """A JSON object that says what it is: "format": `kind`, "version": `version`.
+
+    Raises
+    ------
+    FormatError : unreadable, not JSON, or another kind or version of document.
+    """
+    file = Path(path)
+    try:
+        document = json.loads(read_bytes(file).decode("utf-8-sig"))
+    except (ValueError, RecursionError) as error:  # UnicodeDecodeError is a ValueError
+        raise FormatError(file, f"is not valid JSON: {error}") from error
+    if not isinstance(document, dict) or (document.get("format"), document.get("version")) != (kind, version):
+        raise FormatError(file, f'must be an object with "format": "{kind}", "version": {version}', key="format")
+    return KeyedTable(file, document)
