@@ -14,9 +14,9 @@ products        what is made with a whole `Face`: tables for players, shapes for
 drive           what is asked, what a face can do of it, and the muscles behind it
 response        what muscles do to the skin, and what follows the skin
 bodies          eyeballs, teeth, tongue, the head on its spine, and where skin meets them or itself
+muscles         the table of muscles, a file for each kind; its rows placed on one face, and their pull
 mechanisms      what moves a face, one mechanism per file
 skin            the visible skin as a sheet: geometry only
-muscles         the table of muscles, and its rows placed on one face
 mesh            what is given: vertices, points, parts, openings, the head's frame, the template
 mechanism       the names of all mechanisms
 

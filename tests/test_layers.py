@@ -27,4 +27,3 @@ def test_package_root_loads_neither_numpy_nor_scipy() -> None:
     loaded = loaded_by("import risorius")
     assert "risorius" in loaded
     assert not loaded & {"numpy", "scipy"}
-

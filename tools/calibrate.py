@@ -27,10 +27,12 @@ from risorius.api import Face
 from risorius.arrays import Floats
 from risorius.face.drive.wishes import Drive
 from risorius.face.mesh.template import MM
+from risorius.face.muscles.insertion import force_density
 from risorius.face.muscles.placement import place_muscles
-from risorius.face.muscles.table import Kind, MuscleRow
+from risorius.face.muscles.row import MuscleRow
+from risorius.face.muscles.sphincter import SphincterSkinRow
+from risorius.face.muscles.table import read_muscles
 from risorius.face.pose import Poser
-from risorius.face.response.fields import force_density
 
 #: Figure -> one step of a fit, its least and largest value; places may go `FARTHEST` from where anatomy has them.
 STEPS = {
@@ -62,7 +64,8 @@ class Bench:
         self.poser = Poser(self.anatomy)
         self.anatomy.inverse.kernel = np.ascontiguousarray(self.anatomy.inverse.kernel)
         self.anatomy.actuators.fields = np.ascontiguousarray(self.anatomy.actuators.fields)
-        self.rows: dict[str, MuscleRow] = {m.row.name: m.row for m in self.anatomy.actuators.muscles}
+        alive = {m.row.name for m in self.anatomy.actuators.muscles}
+        self.rows: dict[str, MuscleRow] = {n: row for n, row in read_muscles().items() if n in alive}
         self.place = {m.name: i for i, m in enumerate(self.anatomy.actuators.muscles)}
 
     def put(self, row: MuscleRow) -> None:
@@ -133,18 +136,15 @@ def figures(rows: dict[str, MuscleRow]) -> list[Figure]:
     found = []
     for row in rows.values():
         for field in ("attachment", "insertion", "centre"):
-            if getattr(row, field) is not None:
+            if hasattr(row, field):
                 first = 1 if row.sides == "halves" else 0
                 found += [Figure(row.name, field, axis) for axis in range(first, 3)]
-        if row.kind is Kind.LINEAR:
-            found += [Figure(row.name, f) for f in ("angle", "exponent", "reach")]
-        if row.kind is Kind.SHEET:
-            found += [Figure(row.name, f) for f in ("exponent", "reach")]
-        found += [Figure(row.name, "radii", i) for i in range(len(row.radii))]
-        found += [Figure(row.name, f) for f in ("fall", "power", "reaction", "reaction_at") if getattr(row, f)]
-        if row.kind is Kind.SPHINCTER_SKIN:
+        found += [Figure(row.name, f) for f in ("angle", "exponent", "reach") if hasattr(row, f)]
+        found += [Figure(row.name, "radii", i) for i in range(len(getattr(row, "radii", ())))]
+        found += [Figure(row.name, f) for f in ("fall", "power", "reaction", "reaction_at") if getattr(row, f, 0.0)]
+        if isinstance(row, SphincterSkinRow):
             found.append(Figure(row.name, "bulge"))
-        if row.direction is not None:
+        if hasattr(row, "direction"):
             found += [Figure(row.name, "direction", i) for i in range(row.sides == "halves", 3)]
         found.append(Figure(row.name, "prior"))
     return found
@@ -161,11 +161,11 @@ def moved_row(start: MuscleRow, figure_steps: Sequence[tuple[Figure, float]]) ->
             row = replace(row, **{figure.field: value + reach * np.eye(3)[figure.entry]})
         elif figure.kind == "direction":
             turned = value + np.eye(3)[figure.entry] * steps * step
-            row = replace(row, direction=turned)
+            row = replace(row, **{figure.field: turned})
         elif figure.kind == "radii":
             radii = list(value)
             radii[figure.entry] = float(np.clip(radii[figure.entry] * np.exp(steps * step), least, most))
-            row = replace(row, radii=tuple(radii))
+            row = replace(row, **{figure.field: tuple(radii)})
         elif figure.kind == "prior":
             prior = float(np.clip(value * np.exp(steps * step), least, most))
             row = replace(row, prior=prior, amplitude=max(prior, row.amplitude))

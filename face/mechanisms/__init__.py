@@ -7,6 +7,6 @@ brow, cheek, nose, lips, corners        muscles by region: where they insert, ho
 buccinator, chin, orbicularis_oris,       what their pulls have that the paper's three classes lack
 platysma
 
-A mechanism says what it contributes; skin (`regions`, `tissue`), muscle fields and actuators add the contributions up.
+A mechanism says what it contributes; skin, muscles and actuators add the contributions up.
 Its figures of muscles stand in presets/anatomy/muscles/<name>.toml.
 """

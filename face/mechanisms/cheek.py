@@ -8,7 +8,7 @@ Rows (presets/anatomy/muscles/cheek.toml): orb_oculi_orbital_inf (a flat window 
 sphincter it would draw the cheek's sides together), cheek_puff and cheek_suck (pressure along the normal).
 
 What the second paper's model lacks and is added here: the insertion's region, below the lower lid's edge and not on the
-upper one; pressure, which is no muscle. The heap under the eye is `bulge.py`.
+upper one; pressure, which is no muscle (`muscles/pressure.py`). The heap under the eye is `bulge.py`.
 
 Source: FACS muscle list (docs/sources.md); window of the raiser: own calibration on a scanned squint of the cheek
 (it rises by 5.5 mm and comes forward by 2); extent of the pouch: anatomy alone, no scan at hand shows it.
@@ -20,11 +20,8 @@ import numpy as np
 
 from ...arrays import Floats
 from ..mesh.template import MM
-from ..muscles.placement import PlacedMuscle
 from ..skin.outer import OuterSkin, smoothstep
-from .lips import off_lips
 from .separation import lower_lid_side
-from .sliding import sliding
 
 
 def region(skin: OuterSkin) -> Floats:
@@ -33,14 +30,3 @@ def region(skin: OuterSkin) -> Floats:
     lid = (skin.points["3.3"][1] + skin.points["3.4"][1]) / 2.0
     below = smoothstep((lid + 14 * MM - y) / (10 * MM))
     return np.asarray(below * np.where(y > lid - 4 * MM, lower_lid_side(skin), 1.0))
-
-
-def pressure(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
-    """(n, 3) air pressure in the cheek pouch along the skin's normal: outwards for bulge 1, inwards for bulge -1.
-
-    No bone lies under the pouch, so the pressure makes up for what the skull takes from motion along the normal
-    elsewhere, and closed lips hold the mouth's corner; otherwise the corner would swell more than the cheek.
-    """
-    radius, depth = muscle.elliptic_radius(skin.positions)
-    strength = muscle.row.bulge * np.exp(-(radius**2) - depth**4) * off_lips(skin) / (1.0 - sliding(skin))
-    return np.asarray(strength[:, None] * skin.normals)

@@ -17,42 +17,12 @@ Source: FACS muscle list (docs/sources.md) for the parts; own calibration on sca
 
 from __future__ import annotations
 
-import numpy as np
-
 from ...arrays import Floats
-from ...physics.muscles import Muscle, SphincterMuscle
-from ..mechanism import Mechanism
 from ..mesh.template import MM
-from ..muscles.placement import PlacedMuscle
 from ..skin.outer import OuterSkin, smoothstep
 
 #: Width over which one half of a midline muscle hands over to the other, metres to each side.
 HALVES_BLEND = 14 * MM
-
-
-def ring(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
-    """(n, 3) equations (14)-(17) inside the rim; beyond it the pull fades instead of ending at its maximum.
-
-    It fades in depth too: seen from the front the neck lies within the ring, but no fibre reaches it.
-    """
-    wide, high = muscle.row.radii
-    paper: Muscle = SphincterMuscle(
-        muscle.middle, np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), semi_major=wide, semi_minor=high
-    )
-    if not skin.has(Mechanism.FADING):
-        return paper.force(skin.positions)
-    radius, depth = muscle.elliptic_radius(skin.positions)
-    toward = muscle.middle - skin.positions
-    toward = toward / np.maximum(np.linalg.norm(toward, axis=1, keepdims=True), 1e-9)
-    outside = np.where(radius > 1.0, np.exp(-(((radius - 1.0) / muscle.row.fall) ** 2)), 0.0)
-    pull = paper.force(skin.positions) * (radius <= 1.0)[:, None] + outside[:, None] * toward
-    return np.asarray(np.exp(-((depth / 2.0) ** 4))[:, None] * pull)
-
-
-def band(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
-    """(n, 3) a band of the lip's margin with a fixed line of pull."""
-    radius, depth = muscle.elliptic_radius(skin.positions)
-    return np.asarray(np.exp(-(radius**2) - depth**4)[:, None] * muscle.pull)
 
 
 def half(skin: OuterSkin, side: int) -> Floats:

@@ -2,7 +2,7 @@
 
 regions                   how firmly each place is held, how stiffly it bends
 sheet                     the skin's elastic answer to forces
-fields, pulls             where each muscle pulls, and what of that shows
+pulls                     what of the muscles' pull shows
 actuators, contractible   muscles, lids and jaw as one list; their names, for setting by hand
 living_skin               the biphasic springs with mass and damping
 folds                     lines where squeezed skin gives way

@@ -9,10 +9,10 @@ import numpy as np
 
 from ...arrays import Floats
 from ...physics.elastic import diagonal_matrix
+from ..muscles.insertion import force_density
 from ..muscles.placement import PlacedMuscle
 from ..skin.fine import SUMMED, fine_skin
 from ..skin.outer import OuterSkin
-from .fields import force_density
 from .sheet import Tissue
 
 

@@ -127,6 +127,10 @@ class OuterSkin:
         unit: Floats = smooth / np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
         return unit
 
+    def tangential(self, vectors: Floats) -> Floats:
+        """The part of vectors (n, 3) along the skin."""
+        return np.asarray(vectors - self.normals * (vectors * self.normals).sum(axis=1, keepdims=True))
+
     @cached_property
     def lip_distances(self) -> tuple[Floats, Floats]:
         """Distances (n,) along the skin from the upper and from the lower lip's edge, metres."""

@@ -72,7 +72,12 @@ def test_spring_force_against_a_loop_over_springs() -> None:
     x = strained(dome()[0], 0.002)
     expected = np.zeros_like(x)
     for i, j, rest, low, high, limit in zip(
-        springs.i, springs.j, springs.rest_length, springs.stiffness_low, springs.stiffness_high, springs.threshold,
+        springs.i,
+        springs.j,
+        springs.rest_length,
+        springs.stiffness_low,
+        springs.stiffness_high,
+        springs.threshold,
         strict=True,
     ):
         r = np.linalg.norm(x[j] - x[i])

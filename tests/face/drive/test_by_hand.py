@@ -20,8 +20,7 @@ def test_a_muscle_set_by_hand_is_not_corrected_away(face: api.Face) -> None:
     """Most of what the muscle does without any correction is left in the natural drive."""
     joy = api.expression("joy")
     both = [
-        face.pose(joy.frame(), drive="muscles", contractions=hand).positions
-        for hand in ({}, {"frontalis_med_l": 1.0})
+        face.pose(joy.frame(), drive="muscles", contractions=hand).positions for hand in ({}, {"frontalis_med_l": 1.0})
     ]
     uncorrected = float(np.linalg.norm(both[1] - both[0], axis=1).max())
     assert raised(face, "frontalis_med_l") > 0.7 * uncorrected

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from risorius.api import Face
-from risorius.face.response.fields import force_density
+from risorius.face.muscles.insertion import force_density
 
 
 def lid_goes_along(face: Face) -> float:

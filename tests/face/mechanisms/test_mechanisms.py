@@ -16,8 +16,8 @@ import risorius.api as api
 from risorius.api import Face, Mechanism
 from risorius.face.bodies.margins import crossing
 from risorius.face.mechanisms.jaw import JawMotion
+from risorius.face.muscles.insertion import force_density
 from risorius.face.pose import Poser
-from risorius.face.response.fields import force_density
 from risorius.face.response.pulls import pulls_of
 
 SILENT = np.full(68, np.nan)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import json
+import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 from risorius.api import MUSCLE_GROUPS, Mechanism
 from risorius.errors import FormatError
 from risorius.face.mesh.template import ANATOMY
-from risorius.face.muscles.table import NEEDS, read_muscles
+from risorius.face.muscles.kinds import KINDS
+from risorius.face.muscles.table import read_muscles
 
 TABLES = sorted((ANATOMY / "muscles").glob("*.toml"))
 HEADER = 'mechanism = "lips"\n'
@@ -32,14 +36,19 @@ amplitude_mm = 4
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('kind = "linear"', 'kind = "spiral"', r"muscles\.test: kind, sides or region.*spiral"),
-        ('sides = "pair"', 'sides = "both"', r"muscles\.test: kind, sides or region.*both"),
-        ('region = "all"', 'region = "nowhere"', r"muscles\.test: kind, sides or region.*nowhere"),
+        ('kind = "linear"', 'kind = "spiral"', r"muscles\.test\.kind: must be one of linear, .*'spiral'"),
+        ('sides = "pair"', 'sides = "both"', r"muscles\.test\.sides: must be one of pair, halves, not 'both'"),
+        ('region = "all"', 'region = "nowhere"', r"muscles\.test\.region: must be one of all, .*'nowhere'"),
         ("exponent = 1.5\n", "", r"muscles\.test: a linear muscle needs exponent"),
         ("exponent = 1.5", "exponent = 1.5\nexponnent = 2", r"muscles\.test: a linear muscle has no exponnent"),
-        ("prior_mm = 4", "prior_mm = 0", r"muscles\.test: prior_mm must be positive, not 0"),
+        ("prior_mm = 4", "prior_mm = 0", r"muscles\.test\.prior_mm: must be positive, not 0"),
         ('"5.1"', '"5.99"', r"muscles\.test\.attachment: names feature point '5\.99'"),
         ("[0.1, 0.1, 0.0]", "[0.1, 0.1]", r"muscles\.test\.attachment: needs an offset of three numbers"),
+        ("[0.1, 0.1, 0.0]", '[0.1, 0.1, "far"]', r"muscles\.test\.attachment: must be a number, not 'far'"),
+        ("reach = 1.5", "reach = true", r"muscles\.test\.reach: must be a number, not True"),
+        ("reach = 1.5", "reach = inf", r"muscles\.test\.reach: must be a number, not inf"),
+        ('au = "12"', "au = 12", r"muscles\.test\.au: must be words, not 12"),
+        ("reach = 1.5", "reach = 1.5\nbulge = 1", r"muscles\.test: a linear muscle has no bulge"),
         ("[muscles.test]", "[muscles.test", r"not a readable TOML table"),
     ],
 )
@@ -89,9 +98,48 @@ def test_every_row_gives_what_its_kind_needs_and_says_where_it_is_from() -> None
     rows = read_muscles()
     assert len(rows) >= 20
     for path in TABLES:
-        assert "source = " in path.read_text(encoding="utf-8").split("[muscles.")[0], path
+        assert tomllib.loads(path.read_text(encoding="utf-8"))["source"].strip(), path
     for row in rows.values():
         assert row.prior > 0.0, row.name
         assert 0.5e-3 <= row.amplitude <= 25e-3, row.name
-        for needed, present in (("centre", row.centre), ("attachment", row.attachment), ("direction", row.direction)):
-            assert (needed in NEEDS[row.kind]) == (present is not None), (row.name, needed)
+
+
+def as_toml(row: Mapping[str, object]) -> str:
+    """Keys and values of a row as a table has them: JSON is TOML for lists and words, but not for tables."""
+    return "".join(f"{key} = {_value(value)}\n" for key, value in row.items())
+
+
+def _value(value: object) -> str:
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_value(inner)}" for key, inner in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return json.dumps(value)
+
+
+def first_of_each_kind() -> list[tuple[str, Path, Mapping[str, object]]]:
+    """Kind, file and raw row of the first muscle of each kind."""
+    found: dict[str, tuple[str, Path, Mapping[str, object]]] = {}
+    for path in TABLES:
+        for raw in tomllib.loads(path.read_text(encoding="utf-8"))["muscles"].values():
+            found.setdefault(raw["kind"], (raw["kind"], path, raw))
+    return list(found.values())
+
+
+@pytest.mark.parametrize(("kind", "path", "raw"), first_of_each_kind())
+def test_a_row_without_what_its_kind_needs_is_refused_by_what_it_lacks(
+    tmp_path: Path, kind: str, path: Path, raw: Mapping[str, object]
+) -> None:
+    header = f'mechanism = "{path.stem}"\n[muscles.test]\n'
+    copy = tmp_path / "mine.toml"
+    copy.write_text(header + as_toml(raw), encoding="utf-8")
+    assert type(read_muscles(copy)["test"]) is KINDS[kind]
+    assert KINDS[kind].needed() <= set(raw)
+    for key in KINDS[kind].needed():
+        copy.write_text(header + as_toml({k: v for k, v in raw.items() if k != key}), encoding="utf-8")
+        with pytest.raises(FormatError, match=rf"mine\.toml.*muscles\.test: a {kind} muscle needs {key}"):
+            read_muscles(copy)
+
+
+def test_the_table_has_a_muscle_of_every_kind() -> None:
+    assert {kind for kind, _, _ in first_of_each_kind()} == set(KINDS)
