@@ -16,7 +16,7 @@ test: ## every test, on every Blender; STEPS="lint types layers pure bpy-4.5 ...
 lint: ## style, types and layers
 	@$(SETUP) dev && .venv/bin/python tools/test.py lint types layers
 
-build: ## the installable zips in dist/; ARGS="--platform linux-x64 --blender 5.1" builds one
+build: ## what users install, in dist/; ARGS="--platform linux-x64 --blender 5.1" builds one zip
 	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/build.py $(ARGS)
 
 bench: ## speed and accuracy figures

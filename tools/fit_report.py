@@ -33,7 +33,8 @@ from risorius.face.fit.clicks import ASKED
 from risorius.face.fit.doubt import DOUBTFUL_SCORE
 from risorius.face.fit.find import locate_points
 from risorius.face.mesh.checks import with_pupils
-from risorius.face.mesh.head_frame import fapu, head_frame
+from risorius.face.mesh.fap_units import fapu
+from risorius.face.mesh.head_frame import head_frame
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE, FIGURES = ROOT / "docs" / "fit.md", ROOT / "out" / "fit"
@@ -106,7 +107,7 @@ def _unit_errors(found: Mapping[str, Floats], truth: Mapping[str, Floats]) -> di
         )
         places = {name: np.asarray(place) for name, place in whole.items()}
         try:
-            units.append(vars(fapu(places, head_frame(places))))
+            units.append(vars(fapu(places, head_frame(places).axes)))
         except ModelError:
             return {}
     return {name: abs(units[0][name] / units[1][name] - 1.0) for name in units[0]}

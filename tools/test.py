@@ -21,8 +21,8 @@ from environments import ENVIRONMENTS, ROOT, SetUpError, ensure, ensure_link
 
 REPORTS = ROOT / "out" / "test-reports"
 TIME_LIMIT = 1500  # s for one step: a hang must not eat the whole run
-PURE = ("tests", "--ignore=tests/blender", "--ignore=tests/gui", "--ignore=tests/tools/test_install.py")
-IN_BLENDER = ("tests/blender", "tests/test_layers.py", "tests/tools/test_install.py")
+PURE = ("tests", "--ignore=tests/blender", "--ignore=tests/gui", "--ignore=tests/tools/release/test_install.py")
+IN_BLENDER = ("tests/blender", "tests/test_layers.py", "tests/tools/release/test_install.py")
 
 BUILDER = ("bpy-4.5",)  # brings Blender's extension tool, which the tests of the zip need
 

@@ -127,3 +127,9 @@ def test_exit_code_and_last_line_tell_of_a_failing_step(
     assert capsys.readouterr().out.splitlines()[-1] == "4 passed, 1 failed, 1 skipped"
     assert runner.main(["good"]) == 0
     assert runner.main(["neither"]) == 2
+
+
+def test_report_of_a_run_counts_errors_as_failures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    report = tmp_path / "r.xml"
+    report.write_text('<testsuites><testsuite tests="9" failures="1" errors="2" skipped="3"/></testsuites>')
+    assert str(tool("test", monkeypatch).read_report(report)) == "3 passed, 3 failed, 3 skipped"

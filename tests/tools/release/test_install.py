@@ -10,8 +10,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from places import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 pytest.importorskip("bpy", reason="needs the bpy module")
 
 # Runs in an interpreter of its own, with an empty settings folder. SciPy may come from the extension's wheel alone.

@@ -1,0 +1,7 @@
+"""What users install, built from the checkout by `build.py`.
+
+sources           the files that belong to the project
+zips              the Blender extension: one zip per system and Blender range, checked by Blender itself
+wheels            which SciPy goes into which zip, and its download
+python_package    the source distribution and the wheel for plain Python
+"""
