@@ -332,6 +332,7 @@ def _handlers() -> tuple[tuple[Any, Any], ...]:
         (on.depsgraph_update_post, _after_update),
         (on.save_pre, _before_save),
         (on.save_post, _after_save),
+        (on.save_post_fail, _after_save),
         (on.undo_pre, _before_undo),
         (on.redo_pre, _before_undo),
         (on.undo_post, _after_undo),
