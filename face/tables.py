@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -21,15 +20,3 @@ def read_toml(path: Path) -> dict[str, Any]:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise FormatError(path, f"is not a readable TOML table: {error}") from error
-
-
-def finite_number(path: Path, key: str, entry: object) -> float:
-    """A finite number of a table.
-
-    Raises
-    ------
-    FormatError : anything else; names the file and the key.
-    """
-    if isinstance(entry, bool) or not isinstance(entry, int | float) or not math.isfinite(entry):
-        raise FormatError(path, f"must be a number, not {entry!r}", key=key)
-    return float(entry)

@@ -6,17 +6,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from enum import StrEnum
 from functools import cache
-from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, TypeAlias, get_origin, get_type_hints
 
 import numpy as np
 
 from ...arrays import Floats
-from ...errors import FormatError
+from ...tables import KeyedTable
 from ..mesh.fap_units import TEMPLATE_FAPU
 from ..mesh.template import MM, TEMPLATE_POINTS, TemplateWarp
-from ..tables import finite_number
 
 #: Offsets in the table are given in these units of the template: ES0, ENS0, ENS0 (metres).
 OFFSET_UNITS: Floats = np.array([TEMPLATE_FAPU.es0, TEMPLATE_FAPU.ens0, TEMPLATE_FAPU.ens0])
@@ -43,72 +41,61 @@ class Figure:
 
     Attributes
     ----------
-    read : (file, key, entry) -> value in SI units; raises a FormatError.
+    read : (row of a table, key) -> value in SI units; raises a FormatError.
     carry : (value, mirror (3,) of the side, warp) -> value on a face.
     unit : what the table's key has after the field's name, such as "_mm".
     field : name of the row's field.
     """
 
-    read: Callable[[Path, str, Any], Any]
+    read: Callable[[KeyedTable, str], Any]
     carry: Callable[[Any, Floats, TemplateWarp], Any] = _kept
     unit: str = ""
     field: str = ""
 
 
-def _text(path: Path, key: str, entry: Any) -> str:
-    """Words."""
-    if not isinstance(entry, str):
-        raise FormatError(path, f"must be words, not {entry!r}", key=key)
-    return entry
-
-
-def _angle(path: Path, key: str, entry: Any) -> float:
+def _angle(raw: KeyedTable, key: str) -> float:
     """Degrees, as radians."""
-    return float(np.radians(finite_number(path, key, entry)))
+    return float(np.radians(raw.number(key)))
 
 
-def _length(path: Path, key: str, entry: Any) -> float:
+def _length(raw: KeyedTable, key: str) -> float:
     """Millimetres above 0, as metres."""
-    if not finite_number(path, key, entry) > 0.0:
-        raise FormatError(path, f"must be positive, not {entry!r}", key=key)
-    return MM * float(entry)
+    return MM * raw.number(key, above=0.0)
 
 
-def _listed(path: Path, key: str, entry: Any, count: int, what: str) -> list[Any]:
-    """A list of so many entries."""
-    if not isinstance(entry, list) or len(entry) != count:
-        raise FormatError(path, f"needs {what}", key=key)
-    return entry
-
-
-def _radii(path: Path, key: str, entry: Any) -> tuple[float, float]:
+def _radii(raw: KeyedTable, key: str) -> tuple[float, float]:
     """Two lengths."""
-    wide, high = _listed(path, key, entry, 2, "two lengths, to the side and up")
-    return _length(path, key, wide), _length(path, key, high)
+    wide, high = raw.numbers(key, 2).tolist()
+    if min(wide, high) <= 0.0:
+        raise raw.refuse("must be two lengths above 0, to the side and up", key)
+    return MM * wide, MM * high
 
 
-def _numbers(path: Path, key: str, entry: Any, what: str) -> Floats:
-    """(3,) numbers."""
-    return np.array([finite_number(path, key, one) for one in _listed(path, key, entry, 3, what)])
-
-
-def _direction(path: Path, key: str, entry: Any) -> Floats:
+def _direction(raw: KeyedTable, key: str) -> Floats:
     """(3,) left, up, forward."""
-    return _numbers(path, key, entry, "a direction of three numbers")
+    return raw.numbers(key, 3)
 
 
-def _place(path: Path, key: str, entry: Any) -> Floats:
+def _place(raw: KeyedTable, key: str) -> Floats:
     """(3,) a feature point of the template and an offset from it."""
-    point = entry.get("point") if isinstance(entry, dict) else None
-    if not isinstance(point, str) or point not in TEMPLATE_POINTS:
-        raise FormatError(path, f"names feature point {point!r}, which the template lacks", key=key)
-    offset = _numbers(path, key, entry.get("offset"), "an offset of three numbers in units of ES0, ENS0, ENS0")
-    return TEMPLATE_POINTS[point] + offset * OFFSET_UNITS
+    return _at(raw.table(key))
 
 
-def _line(path: Path, key: str, entry: Any) -> Floats:
+def _line(raw: KeyedTable, key: str) -> Floats:
     """(2, 3) two places."""
-    return np.stack([_place(path, key, one) for one in _listed(path, key, entry, 2, "a line of two places")])
+    places = raw.listed(key)
+    if len(places) != 2:
+        raise raw.refuse("must be a line of two places", key)
+    return np.stack([_at(place) for place in places])
+
+
+def _at(place: KeyedTable) -> Floats:
+    """(3,) where a place lies on the template."""
+    place.only("point", "offset")
+    point = place.text("point")
+    if point not in TEMPLATE_POINTS:
+        raise place.refuse(f"names feature point {point}, which the template lacks", "point")
+    return TEMPLATE_POINTS[point] + place.numbers("offset", 3) * OFFSET_UNITS
 
 
 Angle: TypeAlias = Annotated[float, Figure(_angle, unit="_deg")]
@@ -130,28 +117,17 @@ Direction: TypeAlias = Annotated[Floats, Figure(_direction, _turned)]
 """(3,) left, up, forward: the same on every face."""
 
 
-def _choice(options: type[StrEnum]) -> Callable[[Path, str, Any], Any]:
-    """Reads a name of an enum."""
-
-    def read(path: Path, key: str, entry: Any) -> Any:
-        if entry not in list(options):
-            raise FormatError(path, f"must be one of {', '.join(options)}, not {entry!r}", key=key)
-        return options(entry)
-
-    return read
-
-
 def _figure(hint: Any) -> Figure:
     """How a table writes a field of a type."""
     if get_origin(hint) is Annotated:
         figure: Figure = hint.__metadata__[0]
         return figure
     if hint is float:
-        return Figure(finite_number)
+        return Figure(lambda raw, key: raw.number(key))
     if hint is str:
-        return Figure(_text)
+        return Figure(lambda raw, key: raw.text(key, "" if key in raw.cells else None))
     if isinstance(hint, type) and issubclass(hint, StrEnum):
-        return Figure(_choice(hint))
+        return Figure(lambda raw, key: raw.choice(key, hint))
     raise TypeError(f"no table writes a {hint}")
 
 

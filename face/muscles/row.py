@@ -12,13 +12,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields, replace
 from enum import StrEnum
-from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
 
 from ...arrays import Floats
-from ...errors import FormatError
+from ...tables import KeyedTable
 from ..mechanism import Mechanism
 from ..mesh.template import TemplateWarp
 from ..skin.outer import OuterSkin
@@ -84,19 +83,18 @@ class MuscleRow(ABC):
         return frozenset(key for key, figure in cls.figures().items() if figure.field not in optional)
 
     @classmethod
-    def read(cls, path: Path, mechanism: Mechanism, name: str, raw: Mapping[str, Any]) -> Self:
+    def read(cls, mechanism: Mechanism, name: str, raw: KeyedTable) -> Self:
         """A row of this kind from what a table says under its name.
 
         Raises
         ------
         FormatError : names the file, the key and the rule that is broken.
         """
-        key, figures = f"muscles.{name}", cls.figures()
-        if missing := [wanted for wanted in figures if wanted in cls.needed() and wanted not in raw]:
-            raise FormatError(path, f"a {cls.kind} muscle needs {', '.join(missing)}", key=key)
-        if unknown := sorted(set(raw) - {"kind", *figures}):
-            raise FormatError(path, f"a {cls.kind} muscle has no {', '.join(unknown)}", key=key)
-        given = {figures[k].field: figures[k].read(path, f"{key}.{k}", raw[k]) for k in raw if k != "kind"}
+        figures = cls.figures()
+        if missing := [key for key in figures if key in cls.needed() and key not in raw.cells]:
+            raise raw.refuse(f"a {cls.kind} muscle needs {', '.join(missing)}")
+        raw.only("kind", *figures)
+        given = {figures[key].field: figures[key].read(raw, key) for key in raw if key != "kind"}
         return cls(name=name, mechanism=mechanism, **given)
 
     def placed(self, side: int, warp: TemplateWarp) -> Self:

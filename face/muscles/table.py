@@ -2,32 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
-from ...errors import FormatError
+from ...tables import read_toml
 from ..mechanism import MUSCLE_GROUPS, Mechanism
 from ..mesh.template import ANATOMY
-from ..tables import read_toml
 from .kinds import KINDS
 from .row import MuscleRow
-
-
-def _row(path: Path, mechanism: Mechanism, name: str, raw: Mapping[str, Any]) -> MuscleRow:
-    """One checked row of the kind that it says."""
-    kind = raw.get("kind")
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise FormatError(path, f"must be one of {', '.join(KINDS)}, not {kind!r}", key=f"muscles.{name}.kind")
-    return KINDS[kind].read(path, mechanism, name, raw)
-
-
-def _group(path: Path, raw: Mapping[str, Any]) -> Mechanism:
-    """The group that a table says it is."""
-    name = raw.get("mechanism")
-    if name not in MUSCLE_GROUPS:
-        raise FormatError(path, f"must be one of {', '.join(MUSCLE_GROUPS)}, not {name!r}", key="mechanism")
-    return Mechanism(name)
 
 
 def read_muscles(path: Path = ANATOMY / "muscles") -> dict[str, MuscleRow]:
@@ -39,12 +20,13 @@ def read_muscles(path: Path = ANATOMY / "muscles") -> dict[str, MuscleRow]:
     """
     rows: dict[str, MuscleRow] = {}
     for file in sorted(path.glob("*.toml")) if path.is_dir() else [path]:
-        raw = read_toml(file)
-        mechanism = _group(file, raw)
-        for name, row in raw.get("muscles", {}).items():
+        table = read_toml(file)
+        table.only("mechanism", "source", "muscles")
+        mechanism = table.choice("mechanism", MUSCLE_GROUPS)
+        for name, raw in table.tables("muscles", optional=True).items():
             if name in rows:
-                raise FormatError(file, f"is also a muscle of the group {rows[name].mechanism}", key=f"muscles.{name}")
-            rows[name] = _row(file, mechanism, name, row)
+                raise raw.refuse(f"is also a muscle of the group {rows[name].mechanism}")
+            rows[name] = KINDS[raw.choice("kind", KINDS)].read(mechanism, name, raw)
     return rows
 
 
