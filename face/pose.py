@@ -153,7 +153,7 @@ class Poser:
         hinge = ["jaw_open"] if Mechanism.JAW in self.anatomy.mechanisms else []
         for name, value in contractions.items():
             if not 0.0 <= value <= 1.0:
-                raise ParameterError(f"contraction of {name}", "must lie in 0..1", value)
+                raise ParameterError(f"contraction of {name}", "must be in 0..1", value)
             if name in index:
                 muscles[index[name]] = value * actuators.muscles[index[name]].amplitude
             elif name in lid_index:

@@ -199,7 +199,7 @@ def viseme_frame(field: VisemeField, shapes: Mapping[int, Floats] = VISEME_SHAPE
         if number == 0 or weight == 0.0:
             continue
         if number not in shapes:
-            raise ParameterError("viseme shapes", f"must hold viseme {number} ({_names(number)})", sorted(shapes))
+            raise ParameterError("viseme shapes", f"must contain viseme {number} ({_names(number)})", sorted(shapes))
         frames.append(np.asarray(shapes[number], dtype=np.float64) * weight)
     return _sum(frames)
 

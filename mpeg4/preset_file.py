@@ -84,7 +84,7 @@ class Clip:
             if not (math.isfinite(value) and value >= 0.0):
                 raise ParameterError(key, "must be a number of seconds, 0 or more", value)
         if not 0.0 <= self.peak <= 1.0:
-            raise ParameterError("peak", "must lie in 0..1", self.peak)
+            raise ParameterError("peak", "must be in 0..1", self.peak)
 
 
 @dataclass(frozen=True)
@@ -106,12 +106,12 @@ class Preset:
     def __post_init__(self) -> None:
         """Check that it holds what its kind says."""
         if self.kind is PresetKind.EXPRESSION and self.emotion is None:
-            raise ParameterError("preset", "must hold an emotion", self.kind)
+            raise ParameterError("preset", "must contain an emotion", self.kind)
         if self.kind is PresetKind.TIMELINE and not self.clips:
-            raise ParameterError("preset", "must hold at least one clip", self.kind)
+            raise ParameterError("preset", "must contain at least one clip", self.kind)
         for name, value in self.contractions.items():
             if not 0.0 <= value <= 1.0:
-                raise ParameterError(f"contraction of {name}", "must lie in 0..1", value)
+                raise ParameterError(f"contraction of {name}", "must be in 0..1", value)
 
 
 def write_preset(path: str | Path, preset: Preset) -> None:

@@ -103,7 +103,7 @@ class Fap:
     def __post_init__(self) -> None:
         """Refuse a number outside 1..68."""
         if not 1 <= self.number <= FAP_COUNT:
-            raise ParameterError("FAP number", f"must lie in 1..{FAP_COUNT}", self.number)
+            raise ParameterError("FAP number", f"must be in 1..{FAP_COUNT}", self.number)
 
     @property
     def high_level(self) -> bool:

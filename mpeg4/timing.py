@@ -36,7 +36,7 @@ def _check_seconds(name: str, value: float) -> None:
 def _check_peak(value: float) -> None:
     """A strength: 0 to 1."""
     if not 0.0 <= value <= 1.0:
-        raise ParameterError("peak", "must lie in 0..1", value)
+        raise ParameterError("peak", "must be in 0..1", value)
 
 
 def _check_fps(fps: float) -> None:
@@ -256,7 +256,7 @@ def strengths(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
     """
     _check_fps(fps)
     if not cues:
-        raise ParameterError("cues", "must hold at least one cue", 0)
+        raise ParameterError("cues", "must contain at least one cue", 0)
     end = max(cue.start + cue.duration for cue in cues)
     times = np.arange(math.ceil(end * fps - 1e-6) + 1) / fps  # a millionth of a frame is rounding, not time
     return np.stack([cue.strength(times) for cue in cues], axis=1)

@@ -201,7 +201,7 @@ def drawn_within(profile: Profile, drawn: Drawn) -> Profile:
     ParameterError : the amount is above 1.
     """
     if drawn.amount > 1.0:
-        raise ParameterError("amount of draws", "must lie in 0..1", drawn.amount)
+        raise ParameterError("amount of draws", "must be in 0..1", drawn.amount)
     middle, draw = profile.frame(), profile.frame(np.random.default_rng(drawn.seed))
     frame = middle + drawn.amount * (draw - middle)
     return replace(profile, ranges={number: (float(frame[number - 1]),) * 2 for number in profile.ranges})

@@ -50,9 +50,9 @@ def corners(polygons: Polygons, vertex_count: int | None = None) -> tuple[Ints, 
     if len(sizes) and sizes.min() < 3:
         raise ParameterError("polygons", "must have three corners or more", int(np.argmin(sizes)))
     if len(loops) and loops.min() < 0:
-        raise ParameterError("polygons", "must hold vertex indices from 0", int(loops.min()))
+        raise ParameterError("polygons", "must contain vertex indices of 0 or more", int(loops.min()))
     if vertex_count is not None and len(loops) and loops.max() >= vertex_count:
-        raise ParameterError("polygons", f"must hold vertex indices below {vertex_count}", int(loops.max()))
+        raise ParameterError("polygons", f"must contain vertex indices below {vertex_count}", int(loops.max()))
     return loops, sizes
 
 

@@ -92,7 +92,7 @@ class Rk2Solver:
                 f"{substep_limit}; use the implicit integrator, a coarser mesh, or a tissue without bending"
             )
         if substeps is not None and substeps < needed:
-            raise SolverError(f"{substeps} substeps in {step:g} s are unstable; it takes {needed}")
+            raise SolverError(f"{substeps} substeps in {step:g} s are unstable; use at least {needed}")
         self.skin, self.length, self.substeps = skin, step, substeps or needed
 
     def step(self, state: State, force: Force | None = None, anchors: Floats | None = None) -> State:
@@ -116,7 +116,7 @@ class Rk2Solver:
             x_mid, v_mid = x + half * v, v + half * self._acceleration(x, v, force, anchors)
             x, v = x + h * v_mid, v + h * self._acceleration(x_mid, v_mid, force, anchors)
         if not np.isfinite(x).all():
-            raise SolverError("second-order Runge-Kutta ran away; use the implicit integrator or lower the forces")
+            raise SolverError("second-order Runge-Kutta diverged; use the implicit integrator or lower the forces")
         return State(x, v)
 
     def _acceleration(self, x: Floats, v: Floats, force: Force | None, anchors: Floats | None) -> Floats:

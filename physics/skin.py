@@ -80,7 +80,7 @@ class Skin:
             raise ParameterError("rest", "must be (V, 3) finite positions", rest.shape)
         object.__setattr__(self, "rest", rest)
         if self.springs.vertex_count != len(rest):
-            raise ParameterError("springs", f"must join {len(rest)} nodes", self.springs.vertex_count)
+            raise ParameterError("springs", f"must connect {len(rest)} nodes", self.springs.vertex_count)
         for name in ("mass", "anchor", "damping"):
             values = np.array(getattr(self, name), dtype=np.float64)
             if values.shape != (len(rest),) or not np.isfinite(values).all() or (values < 0).any():
@@ -133,7 +133,7 @@ class Skin:
         areas = vertex_areas(vertices, polygons)
         skin = areas > 0
         if not skin.any():
-            raise ParameterError("polygons", "must hold at least one polygon of some area", len(polygons))
+            raise ParameterError("polygons", "must contain at least one polygon with an area", len(polygons))
         bed = np.array(np.broadcast_to(1 / tissue.anchor_length**2 if anchor is None else anchor, areas.shape))
         bed[~skin] = 1 / tissue.anchor_length**2
         lumps = np.where(skin, areas, areas[skin].mean())

@@ -130,8 +130,8 @@ class Cells(ABC):
         for name in self:
             if name not in names:
                 near = difflib.get_close_matches(name, names, n=1)
-                hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}"
-                raise self.refuse(f"is not known here: {hint}", name)
+                hint = f"did you mean {near[0]}?" if near else f"use one of {', '.join(names)}"
+                raise self.refuse(f"is unknown: {hint}", name)
 
     def made(self, make: Callable[[], T], name: str | None = None) -> T:
         """What `make` makes of the cells; where it refuses a parameter, the error says where in the file it stands.

@@ -78,7 +78,7 @@ def split_cells(path: Path, number: int, line: str, *, separator: str = ",") -> 
     try:
         return [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
     except csv.Error as error:
-        raise FormatError(path, f"is not a row of a table ({error}): mend or remove it", line=number) from error
+        raise FormatError(path, f"is not a row of a table ({error}): correct or remove it", line=number) from error
 
 
 def row_cells(path: Path, count: int, number: int, line: str, *, separator: str = ",") -> tuple[str, ...]:
@@ -92,7 +92,7 @@ def row_cells(path: Path, count: int, number: int, line: str, *, separator: str 
     if len(cells) == count + 1 and cells[-1] == "":
         cells.pop()
     if len(cells) != count:
-        problem = f"has {len(cells)} cells where the heading has {count}: is the file cut off here?"
+        problem = f"has {len(cells)} cells, but the heading has {count}: is the file cut off here?"
         raise FormatError(path, problem, line=number)
     return tuple(cells)
 

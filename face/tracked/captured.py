@@ -157,7 +157,7 @@ def read_landmarks(landmarks: Landmarks, *, neutral: tuple[float, float] | None 
     if neutral is not None:
         inside = np.flatnonzero((landmarks.times >= neutral[0]) & (landmarks.times <= neutral[1]))
         if len(inside) == 0:
-            raise ParameterError("neutral", f"must lie in 0..{landmarks.times[-1]:.2f} seconds", neutral)
+            raise ParameterError("neutral", f"must be in 0..{landmarks.times[-1]:.2f} seconds", neutral)
         stretch = (int(inside[0]), int(inside[-1]))
     return read_points(
         landmarks.positions[:, list(tracked.values())],

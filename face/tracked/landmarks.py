@@ -173,7 +173,7 @@ def _neutral_frames(shapes: Floats, seen: Bools, neutral: tuple[int, int] | None
         return usual_frames(shapes, seen)
     first, last = neutral
     if not 0 <= first <= last < len(shapes):
-        raise ParameterError("neutral", f"must lie in frames 0..{len(shapes) - 1}, the first before the last", neutral)
+        raise ParameterError("neutral", f"must be in frames 0..{len(shapes) - 1}, the first before the last", neutral)
     chosen = first + np.flatnonzero(seen[first : last + 1])
     if len(chosen) == 0:
         raise ParameterError("neutral", "must hold a frame with a face", neutral)

@@ -82,7 +82,7 @@ def find_word(word: str, words: Mapping[str, Word] = WORDS) -> Word:
         if candidate in words:
             return words[candidate]
     near = difflib.get_close_matches(name, words, n=3, cutoff=0.6)
-    hint = f"did you mean {' or '.join(near)}?" if near else f"known are {', '.join(sorted(words))}"
+    hint = f"did you mean {' or '.join(near)}?" if near else f"use one of {', '.join(sorted(words))}"
     raise ParameterError("emotion word", f"must be a known word ({hint})", word)
 
 
@@ -119,7 +119,7 @@ def _chosen(
         chosen.update({check_archetype(name): number for name, number in asked.items()})
     elif asked is not None:
         if entry is None or entry.category is None:
-            rule = "must map archetypes to numbers where an expression lies between two, such as {'fear': 8}"
+            rule = "must map archetypes to variant numbers if the expression is between two archetypes, such as {'fear': 8}"
             raise ParameterError("variants", rule, asked)
         chosen[entry.category] = asked
     return chosen

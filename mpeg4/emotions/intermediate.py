@@ -34,7 +34,7 @@ def between(first: Profile, second: Profile, *, activation: float, angle: float)
     """
     for name, profile in (("first profile", first), ("second profile", second)):
         if profile.neutral:
-            raise ParameterError(name, "must ask for something: to weaken an expression use scaled()", profile.word)
+            raise ParameterError(name, "must not be empty: use scaled() to weaken an expression", profile.word)
     if first.signs is not second.signs:
         raise ParameterError("signs of the two profiles", "must be the same", (str(first.signs), str(second.signs)))
     share = position(angle, first.angle, second.angle)

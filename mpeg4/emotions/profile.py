@@ -102,7 +102,7 @@ class Profile:
         checked: dict[int, Range] = {}
         for number in sorted(self.ranges):
             if number not in FAPS or FAPS[number].high_level:
-                raise ParameterError("FAP number in a profile", f"must lie in 3..{FAP_COUNT}", number)
+                raise ParameterError("FAP number in a profile", f"must be in 3..{FAP_COUNT}", number)
             low, high = map(float, self.ranges[number])
             if not (math.isfinite(low) and math.isfinite(high) and low <= high):
                 raise ParameterError(f"range of F{number}", "must be finite with low <= high", (low, high))
@@ -111,7 +111,7 @@ class Profile:
         if weights and (min(weights.values()) < 0.0 or abs(sum(weights.values()) - 1.0) > 1e-9):
             raise ParameterError("weights", "must be shares >= 0 that sum to 1", weights)
         if bool(checked) and not weights:
-            raise ParameterError("weights", "must name at least one archetype unless the profile is silent", weights)
+            raise ParameterError("weights", "must name at least one archetype unless the profile is empty", weights)
         settle = object.__setattr__
         settle(self, "ranges", checked)
         settle(self, "activation", check_activation(self.activation))
@@ -170,7 +170,7 @@ class Profile:
             When the asymmetry is outside 0..1.
         """
         if not 0.0 <= asymmetry <= 1.0:
-            raise ParameterError("asymmetry", "must lie in 0..1", asymmetry)
+            raise ParameterError("asymmetry", "must be in 0..1", asymmetry)
         place = np.full(FAP_COUNT, 0.5) if rng is None else _places(np.random.default_rng(rng), asymmetry)
         frame = np.full(FAP_COUNT, np.nan)
         for number, (low, high) in self.ranges.items():

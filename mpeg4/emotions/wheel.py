@@ -78,5 +78,5 @@ def position(angle: float, start: float, end: float) -> float:
     if arc > 180.0:
         return 1.0 - position(angle, end, start)
     if reached > arc + ANGLE_TOLERANCE:
-        raise ParameterError("angle", f"must lie on the shorter arc between {start:g} and {end:g} degrees", angle)
+        raise ParameterError("angle", f"must be on the shorter arc between {start:g} and {end:g} degrees", angle)
     return min(reached / arc, 1.0) if arc > ANGLE_TOLERANCE else 0.5

@@ -81,7 +81,7 @@ def read_fap(path: str | Path) -> FapStream:
         last = frame.number
         frames[last] = frame
     if not frames:
-        raise FormatError(file, "holds no frame after its header", line=line)
+        raise FormatError(file, "contains no frame after its header", line=line)
     return _stream(frames, fps=fps, name=name, version=version)
 
 
@@ -104,9 +104,9 @@ def write_fap(path: str | Path, stream: FapStream, *, decimals: int = 0) -> None
     if decimals < 0:
         raise ParameterError("decimals", "must be 0 or more", decimals)
     if not len(stream.frames):
-        raise ParameterError("stream", "must hold at least one frame", 0)
+        raise ParameterError("stream", "must contain at least one frame", 0)
     if (np.abs(stream.frames) > LARGEST).any():
-        raise ParameterError("frames", f"must lie within {LARGEST:.0f} FAP units", float(np.nanmax(abs(stream.frames))))
+        raise ParameterError("frames", f"must be within {LARGEST:.0f} FAP units", float(np.nanmax(abs(stream.frames))))
     write_whole(path, "".join(_text(stream, decimals)))
 
 
@@ -117,7 +117,7 @@ def _lines(file: Path) -> Iterator[tuple[int, str]]:
     except OSError as error:
         raise FormatError(file, f"cannot be read ({error.strerror})") from error
     if b"\0" in data:
-        raise FormatError(file, "is binary: only ASCII .fap is read, no coded FBA stream", offset=data.index(b"\0"))
+        raise FormatError(file, "is binary, but a .fap file is text: is it an .fba stream?", offset=data.index(b"\0"))
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -146,12 +146,12 @@ def _header(file: Path, line: int, text: str) -> tuple[str, str, float]:
 def _check_order(file: Path, line: int, number: int, *, first: int, last: int) -> None:
     """Refuse a frame number that does not follow the last one."""
     if number <= last:
-        raise FormatError(file, f"frame {number} comes after frame {last}: numbers must rise", line=line)
+        raise FormatError(file, f"frame {number} comes after frame {last}: frame numbers must increase", line=line)
     if number - last > LONGEST_GAP:
-        problem = f"frame number {number} is more than {LONGEST_GAP} frames after {last}: mend it"
+        problem = f"frame number {number} is more than {LONGEST_GAP} frames after {last}: correct the number"
         raise FormatError(file, problem, line=line)
     if number - first >= LONGEST:
-        raise FormatError(file, f"frame number {number} makes more than {LONGEST} frames: cut the file", line=line)
+        raise FormatError(file, f"frame number {number} gives more than {LONGEST} frames: shorten the file", line=line)
 
 
 def _mask(file: Path, line: int, text: str) -> Bools:
@@ -181,7 +181,7 @@ def _frame(file: Path, line: int, text: str, mask: Bools) -> _Frame:
     stated = int(mask[2:].sum())
     wanted = 1 + viseme + expression + stated
     if len(values) != wanted:
-        problem = f"the mask above asks for {wanted} numbers (the frame's and {wanted - 1} values), this line has"
+        problem = f"the mask above requires {wanted} numbers (the frame's and {wanted - 1} values), this line has"
         raise FormatError(file, f"{problem} {len(values)}", line=line)
     frame = _Frame(int(values[0]), np.full(FAP_COUNT, np.nan))
     try:

@@ -72,7 +72,7 @@ def read_fap_json(path: str | Path) -> FapStream:
             version=_text(document, "file_version"),
         )
     except (ParameterError, TypeError, OverflowError, ValueError) as error:
-        raise document.refuse(f"does not fit together: {error}") from error
+        raise document.refuse(f"is inconsistent: {error}") from error
 
 
 def _frames(document: KeyedTable) -> Floats:
@@ -80,7 +80,7 @@ def _frames(document: KeyedTable) -> Floats:
     names, rows = document.texts("faps"), document.cells.get("frames")
     unknown = [name for name in names if name not in NUMBERS]
     if unknown or len(set(names)) != len(names):
-        raise document.refuse(f"must name low-level FAPs, each once; look at {unknown or list(names)!r:.60}", "faps")
+        raise document.refuse(f"must name low-level FAPs, each only once: check {unknown or list(names)!r:.60}", "faps")
     if not isinstance(rows, list):
         raise document.refuse("must be a list of rows", "frames")
     frames = np.full((len(rows), FAP_COUNT), np.nan)
@@ -89,7 +89,7 @@ def _frames(document: KeyedTable) -> Floats:
         if not isinstance(row, list) or len(row) != len(names):
             raise FormatError(document.path, f"must be a list of {len(names)} numbers", key=f"frames.{index}")
         if not all(value is None or (isinstance(value, int | float) and math.isfinite(value)) for value in row):
-            raise FormatError(document.path, "must hold finite numbers, or null", key=f"frames.{index}")
+            raise FormatError(document.path, "must contain finite numbers, or null", key=f"frames.{index}")
         frames[index, places] = [np.nan if value is None else float(value) for value in row]
     return frames
 

@@ -59,7 +59,7 @@ class FapStream:
         if frames.ndim != 2 or frames.shape[1] != FAP_COUNT:
             raise ParameterError("frames", f"must have the shape (T, {FAP_COUNT})", frames.shape)
         if np.isinf(frames).any():
-            raise ParameterError("frames", "must be finite, or NaN where masked off", "inf")
+            raise ParameterError("frames", "must be finite, or NaN where masked", "inf")
         if not (math.isfinite(self.fps) and self.fps > 0.0):
             raise ParameterError("fps", "must be a positive number of frames per second", self.fps)
         if not self.name.isprintable():
@@ -68,7 +68,7 @@ class FapStream:
             raise ParameterError("first_frame", "must be 0 or more", self.first_frame)
         for what, values in (("visemes", self.visemes), ("expressions", self.expressions)):
             if any(not 0 <= index < len(frames) for index in values):
-                raise ParameterError(what, f"must lie in the frames 0..{len(frames) - 1}", sorted(values))
+                raise ParameterError(what, f"must be frames in 0..{len(frames) - 1}", sorted(values))
         frames[:, :2] = np.nan
         stated = ~np.isnan(frames)
         stated[sorted(self.visemes), 0] = True

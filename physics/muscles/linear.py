@@ -46,7 +46,7 @@ class LinearMuscle:
                 "radius", f"must exceed the muscle's length {self.length:.4g} m (delta > 1, eq. 11)", self.radius
             )
         if not 0 < self.angle <= np.pi / 2:
-            raise ParameterError("angle", "must lie in (0, pi/2] rad", self.angle)
+            raise ParameterError("angle", "must be in (0, pi/2] rad", self.angle)
         positive("exponent", self.exponent)
         positive("scale", self.scale)
 

@@ -44,14 +44,14 @@ class SheetMuscle:
             if not np.linalg.norm(line[1] - line[0]) > 0:
                 raise ParameterError(name, "must have two different ends", line.tolist())
         if not self.fibre_length > 0:
-            raise ParameterError("insertion_line", "must lie away from the attachment line", "at its middle")
+            raise ParameterError("insertion_line", "must be apart from the attachment line", "at its middle")
         if not (np.isfinite(self.length) and self.length > self.fibre_length):
             raise ParameterError(
                 "length", f"must exceed the fibres' length {self.fibre_length:.4g} m (delta > 1, eq. 22)", self.length
             )
         across = self.attachment_line[1] - self.attachment_line[0]
         if not across @ (self.insertion_line[1] - self.insertion_line[0]) > 0:
-            raise ParameterError("insertion_line", "must run the way of the attachment line; swap its ends", "reversed")
+            raise ParameterError("insertion_line", "must run in the direction of the attachment line; swap its ends", "reversed")
         if np.linalg.norm(np.cross(across, self.direction)) < 1e-6 * np.linalg.norm(across):
             raise ParameterError("attachment_line", "must not run along the fibres", self.attachment_line.tolist())
         positive("exponent", self.exponent)

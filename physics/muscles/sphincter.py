@@ -51,7 +51,7 @@ class SphincterMuscle:
             object.__setattr__(self, name, finite_array(name, axis / length, (3,)))
         cosine = float(self.major_axis @ self.minor_axis)
         if abs(cosine) > _UNIT:
-            raise ParameterError("minor_axis", "must be at a right angle to major_axis; their product", cosine)
+            raise ParameterError("minor_axis", "must be perpendicular to major_axis (dot product 0)", cosine)
         positive("semi_major", self.semi_major)
         positive("semi_minor", self.semi_minor)
         positive("scale", self.scale)

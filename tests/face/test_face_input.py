@@ -117,8 +117,8 @@ def test_a_wrong_frame_is_refused(face: Face, frame: np.ndarray, said: str) -> N
         ({"drive": "strict"}, "natural, exact, muscles, points"),
         ({"emotion": {"happiness": 1.0}}, "joy, sadness, anger, fear, disgust, surprise"),
         ({"emotion": {"joy": np.nan}}, "emotion joy must be a share"),
-        ({"contractions": {"zygomaticus_major_l": 1.5}}, "zygomaticus_major_l must lie in 0..1"),
-        ({"contractions": {"zygomaticus_major_l": np.nan}}, "zygomaticus_major_l must lie in 0..1"),
+        ({"contractions": {"zygomaticus_major_l": 1.5}}, "zygomaticus_major_l must be in 0..1"),
+        ({"contractions": {"zygomaticus_major_l": np.nan}}, "zygomaticus_major_l must be in 0..1"),
         ({"contractions": {"biceps": 0.5}}, "must be one of .*zygomaticus_major_l"),
     ],
 )

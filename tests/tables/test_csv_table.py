@@ -33,8 +33,8 @@ def test_a_heading_alone_has_no_rows(path: Path) -> None:
     [
         (b"# only a comment\n", "is empty: it must begin with a line of column names"),
         (b"# title\nfap\n3\n", "line 2, column reason: lacks a column: it must have fap, reason"),
-        (b"fap,reason\n3\n", "line 2: has 1 cells where the heading has 2: is the file cut off here?"),
-        (b"fap,reason\n3,a,b\n", "line 2: has 3 cells where the heading has 2"),
+        (b"fap,reason\n3\n", "line 2: has 1 cells, but the heading has 2: is the file cut off here?"),
+        (b"fap,reason\n3,a,b\n", "line 2: has 3 cells, but the heading has 2"),
         (b"fap,reason\n3,\xff\n", "byte 13: is not UTF-8 text: save it as UTF-8"),
     ],
 )

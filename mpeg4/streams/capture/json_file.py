@@ -68,11 +68,11 @@ def read_json_frames(path: str | Path) -> list[JsonFrame]:
     try:
         text = read_bytes(file).decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise FormatError(file, "is not UTF-8 text", offset=error.start) from error
+        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
     document = _parsed(file, text)
     listed = document.get("frames", [document]) if isinstance(document, dict) else document
     if not isinstance(listed, list) or not listed:
-        raise FormatError(file, "must hold a list of frames, or an object with that list under 'frames'")
+        raise FormatError(file, "must contain a list of frames, or an object with that list under 'frames'")
     frames = []
     for number, entries in enumerate(listed):
         if not isinstance(entries, dict):
@@ -128,5 +128,5 @@ def times_of(frames: list[JsonFrame], rate: float) -> list[float]:
         return [number / rate for number in range(len(frames))]
     for number, frame in enumerate(frames):
         if math.isnan(seconds[number]) or (number > 0 and seconds[number] <= seconds[number - 1]):
-            raise frame.refuse("time", "must come after the frame before: sort the frames by time")
+            raise frame.refuse("time", "must be later than the frame before: sort the frames by time")
     return [second - seconds[0] for second in seconds]

@@ -55,7 +55,7 @@ def load_key_names(preset: str | Path = "arkit") -> Mapping[str, KeyShape]:
     bundled = str(preset) in key_preset_names()
     path = KEY_PRESETS / f"{preset}.toml" if bundled else Path(preset)
     if not bundled and path.suffix.lower() != ".toml":
-        raise FormatError(path, f"is no preset of key names: use {', '.join(key_preset_names())}, or a .toml file")
+        raise FormatError(path, f"is not a preset of key names: use {', '.join(key_preset_names())}, or a .toml file")
     rows = read_toml(path).tables("keys")
     return MappingProxyType({name: _key(name, row, shapes) for name, row in rows.items()})
 

@@ -60,10 +60,10 @@ def landmarks_from_json(frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, 
     listed = [_listed(frame) for frame in frames]
     count = max((len(entries) for entries in listed), default=0)
     if count < FEWEST:
-        problem = f"has {count} landmarks a frame, but a face mesh has {FEWEST} or more: is it another kind of file?"
+        problem = f"has {count} landmarks per frame, but a face mesh has {FEWEST} or more: is this the right file?"
         raise FormatError(frames[0].path, problem)
     if count > MOST:
-        raise FormatError(frames[0].path, f"has {count} landmarks in one frame: keep those of one face")
+        raise FormatError(frames[0].path, f"has {count} landmarks in one frame: keep one face")
     raw = np.full((len(frames), count, 3), np.nan)
     for frame, entries, row in zip(frames, listed, raw, strict=True):
         if entries and len(entries) != count:
@@ -111,7 +111,7 @@ def landmarks_from_csv(table: TableFile, *, aspect: float = 16.0 / 9.0, rate: fl
     if np.isnan(times).all():
         times = np.arange(len(raw)) / (rate or USUAL_RATE)
     if (np.diff(times) <= 0.0).any() or np.isnan(times).any():
-        raise FormatError(table.path, "has times that do not rise from frame to frame: sort its rows")
+        raise FormatError(table.path, "has times that do not increase from frame to frame: sort the rows by time")
     return Landmarks(times - times[0], _upright(raw, aspect))
 
 
@@ -155,9 +155,9 @@ def _long(table: TableFile) -> tuple[Floats, Floats]:
     counted, place = np.unique(frames, return_inverse=True)
     count = int(which.max()) + 1
     if count < FEWEST:
-        raise FormatError(table.path, f"has {count} landmarks a frame, but a face mesh has {FEWEST} or more")
+        raise FormatError(table.path, f"has {count} landmarks per frame, but a face mesh has {FEWEST} or more")
     if count * len(counted) > 2 * len(which) + MOST:
-        raise FormatError(table.path, "has frames that lack most of their landmarks: mend the column frame")
+        raise FormatError(table.path, "has frames with most landmarks missing: correct the column frame")
     raw = np.full((len(counted), count, 3), np.nan)
     raw[place, which.astype(np.int64)] = np.stack([table.numbers(axis) for axis in "xyz"], axis=1)
     times = np.full(len(counted), np.nan)

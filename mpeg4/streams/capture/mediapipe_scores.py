@@ -34,7 +34,7 @@ def read_scores(frames: list[JsonFrame], *, rate: float | None = None) -> Sample
     known = {name for score in scores for name in score} & set(arkit_columns().gains)
     if not known:
         raise FormatError(
-            frames[0].path, "has no blend shapes of ARKit's names: ask MediaPipe for output_face_blendshapes"
+            frames[0].path, "has no blend shapes with ARKit's names: turn on output_face_blendshapes in MediaPipe"
         )
     columns = {name: np.array([score.get(name, math.nan) for score in scores]) for name in known}
     values = arkit_columns().frames(columns)
@@ -58,7 +58,7 @@ def _scores(frame: JsonFrame) -> dict[str, float]:
     scores = {}
     for entry in found:
         if not isinstance(entry, dict) or not _is_score(entry):
-            raise frame.refuse("blendshapes", f"must hold a name and a score, but there is {str(entry)[:40]!r}")
+            raise frame.refuse("blendshapes", f"must contain a name and a score, but it contains {str(entry)[:40]!r}")
         name = next(str(entry[key]) for key in SCORE_NAMES if entry.get(key))
         scores[name.lower()] = frame.number_at(f"blendshapes.{name}", entry["score"])
     return scores

@@ -45,7 +45,7 @@ def read_openface(table: TableFile, *, sure: float = SURE) -> Samples:
     if not scores and not all(name in table for name in POSE):
         raise FormatError(table.path, "has neither AUxx_r columns nor pose_Rx: run FeatureExtraction with -aus", line=1)
     if "face_id" in table and len(set(table.texts("face_id"))) > 1:
-        raise FormatError(table.path, "holds several faces (face_id): keep the rows of one")
+        raise FormatError(table.path, "contains several faces (face_id): keep the rows of one face")
     frames = np.full((len(table.rows), FAP_COUNT), np.nan)
     if scores:
         frames = columns.frames(scores)
@@ -64,7 +64,7 @@ def _times(table: TableFile) -> Floats:
     times = table.numbers("timestamp") if "timestamp" in table else table.numbers("frame") / 30.0
     for row in range(len(times)):
         if not np.isfinite(times[row]) or (row > 0 and times[row] <= times[row - 1]):
-            problem = f"timestamp {times[row]:g} does not come after the one before: sort the rows by time"
+            problem = f"timestamp {times[row]:g} is not later than the one before: sort the rows by time"
             raise FormatError(table.path, problem, line=table.lines[row])
     return times
 

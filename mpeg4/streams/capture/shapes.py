@@ -79,7 +79,7 @@ def _load(path: Path) -> Mapping[str, CaptureShape]:
     for name, row in read_toml(path).tables("shapes").items():
         row.only(*SHAPE_KEYS)
         if "over" in row and row.text("over") not in shapes:
-            raise row.refuse(f"must be a shape that stands above, but it is {row.text('over')!r}", "over")
+            raise row.refuse(f"must be a shape that is defined above, but it is {row.text('over')!r}", "over")
         over = row.text("over") if "over" in row else None
         shape = CaptureShape(name, fap_frame(row), read_contractions(row), row.text("source"), over)
         shapes[name] = shape
@@ -99,7 +99,7 @@ def fap_frame(row: TomlTable) -> Floats:
     frame = np.full(FAP_COUNT, np.nan)
     for number in faps:
         if not (number.isdecimal() and 3 <= int(number) <= FAP_COUNT):
-            raise row.refuse(f"must name FAPs 3 to {FAP_COUNT}, but there is {number!r}", "faps")
+            raise row.refuse(f"must name FAPs 3 to {FAP_COUNT}, but it contains {number!r}", "faps")
         frame[int(number) - 1] = faps.number(number)
     frame.flags.writeable = False
     return frame

@@ -51,7 +51,7 @@ class TableFile:
         """
         place = self._places.get(name.lower())
         if place is None:
-            raise FormatError(self.path, f"has no column {name}: is it the file that you mean?", line=1)
+            raise FormatError(self.path, f"has no column {name}: is this the right file?", line=1)
         return [row[place] for row in self.rows]
 
     def numbers(self, name: str) -> Floats:

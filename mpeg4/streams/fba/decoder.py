@@ -97,7 +97,7 @@ def decode_fba(
             raise error
         damage.append(error)
     if not reading.frames:
-        raise damage[0] if damage else FormatError(path, "holds no frame", offset=len(data))
+        raise damage[0] if damage else FormatError(path, "contains no frame", offset=len(data))
     return Decoded(_stream(reading, Path(path).stem), tuple(damage))
 
 
@@ -121,7 +121,7 @@ def _decoded(reading: _Reading, progress: Callable[[int, int], None] | None) -> 
                     progress(bits.byte, len(bits.data))
             _read_plane(reading)
         except EndOfBits:
-            yield "ends before its end code: it is cut off or damaged"
+            yield "ends before its end code: the stream is cut off or damaged"
         except (Damage, ParameterError) as error:
             yield str(error)
         else:
@@ -171,9 +171,9 @@ def _read_plane(reading: _Reading) -> None:
     bits = reading.bits
     intra, objects = bool(bits.get()), bits.get(2)
     if objects & BODY:
-        raise Damage("holds body animation (BAP), which is not decoded: take the face's stream alone")
+        raise Damage("contains body animation (BAP), which is not supported: use a stream of the face alone")
     if not objects & FACE:
-        raise Damage("has a frame of neither face nor body: it is damaged")
+        raise Damage("has a frame that is neither face nor body: the stream is damaged")
     clock = read_clock(bits) if intra else Clock(None, None)
     reading.rate = reading.rate or clock.rate
     index = reading.last + read_skip(bits) + 1
@@ -184,7 +184,7 @@ def _read_plane(reading: _Reading) -> None:
     if clock.seconds is not None:
         index = _timed(reading, index, clock.seconds)
     if index >= LONGEST:
-        raise Damage(f"makes more than {LONGEST} frames: cut it")
+        raise Damage(f"gives more than {LONGEST} frames: shorten the stream")
     flags = read_levels(bits, reading.coding, intra=intra)
     _keep(reading, reading.coding, index, flags)
     reading.last, reading.lost = index, False

@@ -55,7 +55,7 @@ def encode_fba(
     if not refresh > 0.0:
         raise ParameterError("refresh", "must be more than 0 seconds", refresh)
     if not len(stream.frames):
-        raise ParameterError("stream", "must hold at least one frame", 0)
+        raise ParameterError("stream", "must contain at least one frame", 0)
     rate = Rate.nearest(stream.fps)
     bits = BitWriter()
     bits.put(SEQUENCE_START, 32)

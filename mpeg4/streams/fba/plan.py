@@ -62,7 +62,7 @@ def _begun(picture: Picture, quantiser: int) -> Run:
         reach = limit_of(LARGEST_LIMIT_CODE, 1) * channel.step_at(min(quantiser, 1))
         if abs(value) > reach:
             remedy = "choose quantiser 1 or more" if quantiser == 0 else "no quantiser can code more"
-            rule = f"must lie within {reach} FAP units in frame {picture.index} ({remedy})"
+            rule = f"must be within {reach} FAP units in frame {picture.index} ({remedy})"
             raise ParameterError(channel.name, rule, value)
         levels[place] = min(max(levels[place], -largest), largest)  # limits are whole levels, rounded down
     return Run([picture], [levels], [level * step for level, step in zip(levels, steps, strict=True)])

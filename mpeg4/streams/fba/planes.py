@@ -51,7 +51,7 @@ def read_clock(bits: BitReader) -> Clock:
         return Clock(rate, None)
     seconds = read_time(bits)
     if seconds is None:
-        raise Damage("has a time code without its marker bit: it is damaged")
+        raise Damage("has a time code without its marker bit: the stream is damaged")
     return Clock(rate, seconds)
 
 
@@ -89,7 +89,7 @@ def read_coding(bits: BitReader, before: Limits) -> Coding:
             mask[number - 1] = bits.get() if some else kind is MaskType.ALL
     bits.get()  # suggested gender
     if bits.get():
-        raise Damage("is coded in DCT mode, which is not decoded: have it coded in predictive mode")
+        raise Damage("uses DCT coding, which is not supported: encode it in predictive mode")
     flags = [bits.get() for _ in range(4)]
     channels = channels_of(mask)
     kinds = (before.intra_high, before.intra_low, before.inter_high, before.inter_low)
@@ -116,7 +116,7 @@ def _read_limits(bits: BitReader, sent: set[int], old: tuple[int, ...]) -> tuple
 def _read_marker(bits: BitReader, where: str) -> None:
     """A bit that must be 1."""
     if not bits.get():
-        raise Damage(f"lacks a marker bit in {where}: it is damaged")
+        raise Damage(f"lacks a marker bit in {where}: the stream is damaged")
 
 
 def _model(channel: Channel, limits: Limits, quantiser: int, *, intra: bool) -> Model:

@@ -63,7 +63,7 @@ class Rate:
         ParameterError : it lies beyond what can be coded.
         """
         if not 1.0 / SIXTEENTHS <= fps <= LARGEST_RATE:
-            raise ParameterError("fps", f"must lie in {1.0 / SIXTEENTHS}..{LARGEST_RATE} for an FBA stream", fps)
+            raise ParameterError("fps", f"must be in {1.0 / SIXTEENTHS}..{LARGEST_RATE} for an FBA stream", fps)
         rates = []
         for slowed in (False, True):
             sixteenths = round(fps * SIXTEENTHS / (NTSC if slowed else 1.0))

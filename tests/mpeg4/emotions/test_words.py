@@ -165,7 +165,7 @@ def test_an_unknown_word_is_refused_with_a_suggestion(word: str, hint: str) -> N
 
 
 def test_a_word_like_no_other_lists_what_is_known() -> None:
-    with pytest.raises(ParameterError, match=r"known are .*afraid.*worried"):
+    with pytest.raises(ParameterError, match=r"use one of .*afraid.*worried"):
         expression("xyzzy")
     with pytest.raises(ParameterError, match="emotion word"):
         find_word(3)  # type: ignore[arg-type]

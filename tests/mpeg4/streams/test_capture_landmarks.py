@@ -117,7 +117,7 @@ def test_damaged_json_names_frame_and_landmark(
         (["0,0,1,1,1", "0,1.5,1,1,1"], "line 3"),
         (["0,0,1,1,1", "0,-1,1,1,1"], "line 3"),
         (["0,0,1,1,1"], "1 landmarks"),
-        (["0,477,1,1,1", "1,477,1,1,1", "2,477,1,1,1", "3,477,1,1,1"], "lack most"),
+        (["0,477,1,1,1", "1,477,1,1,1", "2,477,1,1,1", "3,477,1,1,1"], "most landmarks missing"),
     ],
 )
 def test_damaged_long_tables_are_refused(rows: list[str], named: str, tmp_path: Path) -> None:

@@ -122,7 +122,7 @@ MASKS = ((4, 5), *[(0b100, 3)] * 10)  # quantiser 4; ten groups, none sent
 @pytest.mark.parametrize(
     ("fields", "says"),
     [
-        ((*HEADER, *MASKS, (0, 1), (1, 1)), "DCT mode"),
+        ((*HEADER, *MASKS, (0, 1), (1, 1)), "uses DCT coding"),
         (((1, 1), (2, 2)), "body animation"),
         (((1, 1), (3, 2)), "body animation"),
         (((1, 1), (0, 2)), "neither face nor body"),
@@ -131,7 +131,7 @@ MASKS = ((4, 5), *[(0b100, 3)] * 10)  # quantiser 4; ten groups, none sent
         (((1, 1), (1, 2), (1, 1), (0, 12)), "frame rate 0"),
         (((1, 1), (1, 2), (0, 1), (1, 1), (0, 18)), "time code without its marker"),
         (((1, 1), (1, 2), (0, 1), (0, 1), (1, 1), (2**2800 - 1, 2800)), "skips more than"),
-        ((), "holds no frame"),
+        ((), "contains no frame"),
     ],
 )
 def test_foreign_streams_are_refused_by_name(fields: tuple[tuple[int, int], ...], says: str) -> None:
