@@ -92,7 +92,7 @@ def find_points_steps(
     topologies: Sequence[Topology] | None = None,
 ) -> Generator[FitProgress, None, FoundPoints]:
     """`find_points` as a generator: yields `FitProgress(fraction, text)`, returns the points; close it to cancel."""
-    yield FitProgress(0.0, "reading the mesh")
+    yield FitProgress(0.0, "Reading the mesh")
     places = checked_vertices(vertices)
     faces = _checked_faces(polygons, len(places))
     template = fit_template()
@@ -105,7 +105,7 @@ def find_points_steps(
         start = Start(_located_by_clicks(surface, clicked, template), None)
     else:
         located = yield from part_of(locate(surface), 0.02, 0.55)
-        yield FitProgress(0.55, "what is crooked")
+        yield FitProgress(0.55, "Checking for a crooked face")
         start = better_start(located)
     return (yield from part_of(_fitted_points(start, clicked), 0.6, 1.0))
 

@@ -119,7 +119,7 @@ def _chosen(
         chosen.update({check_archetype(name): number for name, number in asked.items()})
     elif asked is not None:
         if entry is None or entry.category is None:
-            rule = "must map archetypes to variant numbers if the expression is between two archetypes, such as {'fear': 8}"
+            rule = "must map archetypes to numbers for an expression between two, such as {'fear': 8}"
             raise ParameterError("variants", rule, asked)
         chosen[entry.category] = asked
     return chosen

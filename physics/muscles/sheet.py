@@ -51,7 +51,7 @@ class SheetMuscle:
             )
         across = self.attachment_line[1] - self.attachment_line[0]
         if not across @ (self.insertion_line[1] - self.insertion_line[0]) > 0:
-            raise ParameterError("insertion_line", "must run in the direction of the attachment line; swap its ends", "reversed")
+            raise ParameterError("insertion_line", "must point like the attachment line; swap its ends", "reversed")
         if np.linalg.norm(np.cross(across, self.direction)) < 1e-6 * np.linalg.norm(across):
             raise ParameterError("attachment_line", "must not run along the fibres", self.attachment_line.tolist())
         positive("exponent", self.exponent)

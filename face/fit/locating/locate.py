@@ -61,7 +61,7 @@ def locate(surface: Surface, *, refuse: bool = True) -> Generator[FitProgress, N
     ------
     ModelError : when nothing in the mesh looks like a face; states the score, the limit and the remedy.
     """
-    yield FitProgress(0.0, "planes of symmetry")
+    yield FitProgress(0.0, "Finding planes of symmetry")
     cloud = sample(surface, WHOLE)
     if len(cloud) == 0:
         raise ModelError("no face found: the mesh has no area; feature points need a surface")
@@ -72,7 +72,7 @@ def locate(surface: Surface, *, refuse: bool = True) -> Generator[FitProgress, N
         turned = yield from part_of(_best_place(surface, cloud, guesses), 0.9, 0.95)
         place = min((other for other in (place, turned) if other), key=lambda other: other.score.value, default=None)
     if place is not None and place.score.value > GOOD_SCORE:
-        yield FitProgress(0.95, "whether the mouth is open")
+        yield FitProgress(0.95, "Checking for an open mouth")
         place = _opened(place)
     return accepted(place, refuse=refuse)
 
@@ -84,7 +84,7 @@ def _guesses_of_whole(surface: Surface, cloud: Cloud) -> Generator[FitProgress, 
     planes = symmetry_planes(cloud.positions[:: WHOLE // SYMMETRY])
     guesses: list[Guess] = []
     for number, plane in enumerate(planes):
-        yield FitProgress(0.25 + 0.75 * number / len(planes), "which way the face looks")
+        yield FitProgress(0.25 + 0.75 * number / len(planes), "Finding the direction of the face")
         guesses += search_plane(cloud, area, diagonal, plane)
     return best_guesses(guesses)
 
@@ -95,10 +95,10 @@ def _best_place(
     """The place among some guesses that looks most like a face."""
     found: list[Located] = []
     for number, guess in enumerate(guesses[:ALIGNED]):
-        yield FitProgress(0.8 * number / len(guesses[:ALIGNED]), "how large the face is")
+        yield FitProgress(0.8 * number / len(guesses[:ALIGNED]), "Finding the size of the face")
         found.append(_aligned(surface, cloud, guess.pose))
     found.sort(key=lambda place: place.score.value)
-    yield FitProgress(0.8, "a closer look")
+    yield FitProgress(0.8, "Comparing the best places")
     best = [aligned_again(place.surface, place.pose) for place in _distinct(found)[:FINALISTS]]
     return min(best, key=lambda place: place.score.value, default=None)
 

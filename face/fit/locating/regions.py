@@ -47,7 +47,7 @@ def guesses_at_ends(surface: Surface, cloud: Cloud) -> Generator[FitProgress, No
     places = [(end, reach * radius) for reach in REACHES for end in found]
     guesses: list[Guess] = []
     for number, (end, reach) in enumerate(places):
-        yield FitProgress(number / len(places), "a head that is turned")
+        yield FitProgress(number / len(places), "Searching for a turned head")
         if (np.linalg.norm(cloud.positions - end, axis=1) < reach).mean() > LARGEST_SHARE:
             continue
         guesses += _guesses_in(surface.part((np.linalg.norm(corners - end, axis=2) < reach).any(axis=1)))

@@ -58,7 +58,6 @@ def read_fap_csv(table: TableFile) -> Samples:
     times = table.numbers("timestamp")
     for row in range(len(times)):
         if not np.isfinite(times[row]) or (row > 0 and times[row] <= times[row - 1]):
-            raise FormatError(
-                table.path, "has a timestamp that is not later than the one before: sort the rows by time", line=table.lines[row]
-            )
+            problem = "has a timestamp that is not later than the one before: sort the rows by time"
+            raise FormatError(table.path, problem, line=table.lines[row])
     return Samples(times, frames)

@@ -79,7 +79,8 @@ def _times(table: TableFile, rate: float | None) -> Floats:
         times = table.numbers(name) * units[name]
     for row in range(1, len(times)):
         if not times[row] > times[row - 1]:
-            raise FormatError(table.path, "has a time that is not later than the one before: sort the rows by time", line=table.lines[row])
+            problem = "has a time that is not later than the one before: sort the rows by time"
+            raise FormatError(table.path, problem, line=table.lines[row])
     since: Floats = times - times[0]
     return since
 

@@ -35,9 +35,9 @@ class Samples:
 
     def __post_init__(self) -> None:
         if self.times.shape != (len(self.frames),) or len(self.times) == 0:
-            raise ParameterError("times", f"must contain one time for each of the {len(self.frames)} frames", self.times.shape)
+            raise ParameterError("times", f"must be one for each of {len(self.frames)} frames", self.times.shape)
         if not np.isfinite(self.times).all() or (np.diff(self.times) <= 0.0).any():
-            raise ParameterError("times", "must be finite and rise from sample to sample", "unordered times")
+            raise ParameterError("times", "must be finite and increase from sample to sample", "unordered times")
 
     @property
     def fps(self) -> float:

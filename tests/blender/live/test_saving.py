@@ -36,9 +36,7 @@ def answer() -> None:
             return
 
 
-def test_a_preview_comes_back_after_saving_and_is_not_in_the_file(
-    head: Any, listening: None, tmp_path: Path
-) -> None:
+def test_a_preview_comes_back_after_saving_and_is_not_in_the_file(head: Any, listening: None, tmp_path: Path) -> None:
     live.ask(head)
     answer()
     assert preview.is_shown(head)
