@@ -53,6 +53,13 @@ class KeyedTable(Cells):
             raise self.refuse("must be a list of tables" + self._written("[[{}]]", name), name)
         return [type(self)(self.path, entry, f"{self._dotted(name)}.{n}") for n, entry in enumerate(entries)]
 
+    def entries(self, name: str) -> Self:
+        """A list of anything but tables, as a table of its entries by place: "0", "1", ..."""
+        entries = self.cells.get(name)
+        if not isinstance(entries, list):
+            raise self._broken(name, "a list")
+        return type(self)(self.path, {str(n): entry for n, entry in enumerate(entries)}, self._dotted(name))
+
     def _number(self, name: str) -> object:
         return self.cells.get(name)
 

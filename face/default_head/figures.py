@@ -5,17 +5,13 @@ The file holds the left half in millimetres, as its measurements were taken; `re
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
-
-import numpy as np
 
 from ...arrays import Floats
-from ...errors import FormatError
 from ...resources import PRESETS
+from ...tables import TomlTable, read_toml
 from .cage import EAR_RIM, EAR_RINGS, EYE_RIM, MOUTH_RIM, ROWS, grid_name, grid_nodes, on_midline, ring_name
 
 DEFAULT_FIGURES = PRESETS / "heads" / "default.toml"
@@ -132,161 +128,104 @@ def read_figures(path: str | Path = DEFAULT_FIGURES) -> HeadFigures:
     ------
     FormatError : names the file, the key and what is expected there.
     """
-    path = Path(path)
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except tomllib.TOMLDecodeError as error:
-        raise FormatError(path, f"not valid TOML: {error}") from error
-    except OSError as error:
-        raise FormatError(path, f"cannot be read: {error.strerror}") from error
-    return _TableReader(path, table).head()
+    table = read_toml(path)
+    table.choice("unit", ("mm",))
+    eyeball, tongue, brow = table.table("eyeball"), table.table("tongue"), table.table("brow")
+    line = brow.numbers("line", None, 3) * MM
+    points, pairs = _feature_points(table.table("feature_points"))
+    return HeadFigures(
+        nodes=_nodes(table),
+        eyeball=EyeballFigures(
+            _vector(eyeball, "centre"),
+            _length(eyeball, "radius"),
+            _length(eyeball, "iris_radius"),
+            _length(eyeball, "pupil_radius"),
+        ),
+        teeth_upper=_teeth(table.table("teeth_upper")),
+        teeth_lower=_teeth(table.table("teeth_lower")),
+        tongue=TongueFigures(_vector(tongue, "centre"), _vector(tongue, "semi_axes"), _length(tongue, "groove")),
+        brow=BrowFigures(line[:, :2], line[:, 2], _length(brow, "lift")),
+        condyle=_vector(table.table("jaw"), "condyle"),
+        neck_pivot=_vector(table.table("neck"), "pivot"),
+        materials=tuple(_material(name, row) for name, row in table.tables("materials").items()),
+        points=points,
+        point_pairs=pairs,
+    )
 
 
-class _TableReader:
-    """Takes values out of one TOML table; every complaint names the file and the key."""
+def _nodes(table: TomlTable) -> dict[str, Floats]:
+    """Every measured node of the left half; midline nodes must lie on it."""
+    nodes: dict[str, Floats] = {}
+    for row in range(ROWS):
+        columns = grid_nodes(row)
+        values = table.table("grid").numbers(f"r{row:02d}", len(columns), 3)
+        nodes |= {grid_name(row, c): p for c, p in zip(columns, values, strict=True)}
+    for i in range(3):
+        nodes |= {f"cap{i}_{j}": p for j, p in enumerate(table.table("cap").numbers(f"cap{i}", 7, 3), start=1)}
+    families = (
+        ("eye", MEASURED_EYE_RINGS, len(EYE_RIM)),
+        ("mouth", MEASURED_MOUTH_RINGS, len(MOUTH_RIM)),
+        ("ear", EAR_RINGS, len(EAR_RIM)),
+        ("ear", ("CTR",), 4),
+    )
+    for family, rings, count in families:
+        for ring in rings:
+            values = table.table(family).numbers(ring, count, 3)
+            nodes |= {ring_name(family[:3] + ring, k): p for k, p in enumerate(values)}
+    for name, point in nodes.items():
+        if (point[0] != 0.0) if on_midline(name) else (point[0] <= 0.0):
+            rule = "must have x = 0 (it lies on the midline)" if on_midline(name) else "must have x > 0 (left half)"
+            raise table.refuse(f"{rule}, but x is {point[0]:g}", name)
+    return {name: point * MM for name, point in nodes.items()}
 
-    def __init__(self, path: Path, table: Mapping[str, Any]) -> None:
-        self.path, self.table = path, table
 
-    def head(self) -> HeadFigures:
-        """The whole table."""
-        if self.value("unit") != "mm":
-            raise FormatError(self.path, 'must be "mm": give the figures in millimetres', key="unit")
-        points, pairs = self.feature_points()
-        eyeball = EyeballFigures(
-            self.vector("eyeball.centre"),
-            self.length("eyeball.radius"),
-            self.length("eyeball.iris_radius"),
-            self.length("eyeball.pupil_radius"),
-        )
-        brow = self.array("brow.line", (None, 3)) * MM
-        return HeadFigures(
-            nodes=self.nodes(),
-            eyeball=eyeball,
-            teeth_upper=self.teeth("teeth_upper"),
-            teeth_lower=self.teeth("teeth_lower"),
-            tongue=TongueFigures(
-                self.vector("tongue.centre"), self.vector("tongue.semi_axes"), self.length("tongue.groove")
-            ),
-            brow=BrowFigures(brow[:, :2], brow[:, 2], self.length("brow.lift")),
-            condyle=self.vector("jaw.condyle"),
-            neck_pivot=self.vector("neck.pivot"),
-            materials=self.materials(),
-            points=points,
-            point_pairs=pairs,
-        )
+def _feature_points(table: TomlTable) -> tuple[dict[str, PointFigures], dict[str, str]]:
+    """Feature points on the skin; left and right of a pair share one line."""
+    points: dict[str, PointFigures] = {}
+    pairs: dict[str, str] = {}
+    for name in table:
+        entry = table.table(name)
+        nodes = entry.texts("nodes")
+        if len(nodes) not in (1, 2, 4):
+            raise entry.refuse("must be 1, 2 or 4 names of nodes", "nodes")
+        uv = None
+        if "uv" in entry:
+            u, v = entry.numbers("uv", 2)
+            if len(nodes) != 4 or not (0.0 <= u <= 1.0 and 0.0 <= v <= 1.0):
+                raise entry.refuse("needs 4 nodes and two numbers between 0 and 1", "uv")
+            uv = (float(u), float(v))
+        left, *right = name.split(" ")
+        points[left] = PointFigures(nodes, uv)
+        if right:
+            pairs[left] = right[0]
+    return points, pairs
 
-    def nodes(self) -> dict[str, Floats]:
-        """Every measured node of the left half; midline nodes must lie on it."""
-        nodes: dict[str, Floats] = {}
-        for row in range(ROWS):
-            columns = grid_nodes(row)
-            values = self.array(f"grid.r{row:02d}", (len(columns), 3))
-            nodes |= {grid_name(row, c): p for c, p in zip(columns, values, strict=True)}
-        for i in range(3):
-            values = self.array(f"cap.cap{i}", (7, 3))
-            nodes |= {f"cap{i}_{j}": p for j, p in enumerate(values, start=1)}
-        families = (
-            ("eye", MEASURED_EYE_RINGS, len(EYE_RIM)),
-            ("mouth", MEASURED_MOUTH_RINGS, len(MOUTH_RIM)),
-            ("ear", EAR_RINGS, len(EAR_RIM)),
-            ("ear", ("CTR",), 4),
-        )
-        for family, rings, count in families:
-            for ring in rings:
-                values = self.array(f"{family}.{ring}", (count, 3))
-                nodes |= {ring_name(family[:3] + ring, k): p for k, p in enumerate(values)}
-        for name, point in nodes.items():
-            if (point[0] != 0.0) if on_midline(name) else (point[0] <= 0.0):
-                rule = "must have x = 0 (it lies on the midline)" if on_midline(name) else "must have x > 0 (left half)"
-                raise FormatError(self.path, f"{rule}, but x is {point[0]:g}", key=name)
-        return {name: point * MM for name, point in nodes.items()}
 
-    def feature_points(self) -> tuple[dict[str, PointFigures], dict[str, str]]:
-        """Feature points on the skin; left and right of a pair share one line."""
-        points: dict[str, PointFigures] = {}
-        pairs: dict[str, str] = {}
-        for name in cast("Mapping[str, Any]", self.value("feature_points")):
-            key = f'feature_points."{name}"'
-            entry = self.table["feature_points"][name]
-            nodes = entry.get("nodes") if isinstance(entry, dict) else None
-            if not isinstance(nodes, list) or len(nodes) not in (1, 2, 4):
-                raise FormatError(self.path, "needs nodes = [...] with 1, 2 or 4 node names", key=key)
-            uv = entry.get("uv")
-            if uv is not None:
-                u, v = self.numbers(uv, (2,), f"{key}.uv")
-                if len(nodes) != 4 or not (0.0 <= u <= 1.0 and 0.0 <= v <= 1.0):
-                    raise FormatError(self.path, "uv needs 4 nodes and two numbers between 0 and 1", key=key)
-                uv = (float(u), float(v))
-            left, *right = name.split(" ")
-            points[left] = PointFigures(tuple(map(str, nodes)), uv)
-            if right:
-                pairs[left] = right[0]
-        return points, pairs
+def _material(name: str, row: TomlTable) -> MaterialFigures:
+    """One material."""
+    red, green, blue = (float(value) for value in row.numbers("colour", 3))
+    if not all(0.0 <= value <= 1.0 for value in (red, green, blue)):
+        raise row.refuse("must be three numbers between 0 and 1", "colour")
+    return MaterialFigures(name, (red, green, blue), row.number("roughness", least=0.0, most=1.0))
 
-    def materials(self) -> tuple[MaterialFigures, ...]:
-        """Materials in the order of the file."""
-        found = []
-        for name in cast("Mapping[str, Any]", self.value("materials")):
-            red, green, blue = self.array(f"materials.{name}.colour", (3,))
-            roughness = self.number(f"materials.{name}.roughness")
-            if not all(0.0 <= v <= 1.0 for v in (red, green, blue, roughness)):
-                raise FormatError(self.path, "colour and roughness must lie between 0 and 1", key=f"materials.{name}")
-            found.append(MaterialFigures(name, (float(red), float(green), float(blue)), roughness))
-        return tuple(found)
 
-    def teeth(self, key: str) -> TeethFigures:
-        """One dental arch."""
-        return TeethFigures(
-            self.length(f"{key}.half_width"),
-            self.length(f"{key}.depth"),
-            self.number(f"{key}.back_y") * MM,
-            self.number(f"{key}.edge_z") * MM,
-            self.number(f"{key}.gum_z") * MM,
-            self.array(f"{key}.crown_widths", (7,)) * MM,
-        )
+def _teeth(row: TomlTable) -> TeethFigures:
+    """One dental arch."""
+    return TeethFigures(
+        _length(row, "half_width"),
+        _length(row, "depth"),
+        row.number("back_y") * MM,
+        row.number("edge_z") * MM,
+        row.number("gum_z") * MM,
+        row.numbers("crown_widths", 7) * MM,
+    )
 
-    def value(self, key: str) -> Any:
-        """The value under a dotted key."""
-        found: Any = self.table
-        for part in key.split("."):
-            if not isinstance(found, dict) or part not in found:
-                raise FormatError(self.path, "is missing", key=key)
-            found = found[part]
-        return found
 
-    def number(self, key: str) -> float:
-        """A finite number."""
-        value = self.value(key)
-        if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
-            raise FormatError(self.path, f"must be a finite number, but it is {value!r}", key=key)
-        return float(value)
+def _length(row: TomlTable, name: str) -> float:
+    """A length, given in millimetres."""
+    return row.number(name, above=0.0) * MM
 
-    def length(self, key: str) -> float:
-        """A positive length, given in millimetres."""
-        value = self.number(key)
-        if value <= 0.0:
-            raise FormatError(self.path, f"must be greater than 0, but it is {value!r}", key=key)
-        return value * MM
 
-    def vector(self, key: str) -> Floats:
-        """A position or size, given in millimetres."""
-        return self.array(key, (3,)) * MM
-
-    def array(self, key: str, shape: tuple[int | None, ...]) -> Floats:
-        """Finite numbers of a given shape (None: any count), in the unit of the file."""
-        return self.numbers(self.value(key), shape, key)
-
-    def numbers(self, value: object, shape: tuple[int | None, ...], key: str) -> Floats:
-        """Finite numbers of a given shape out of a value already found."""
-        wanted = " x ".join("N" if n is None else str(n) for n in shape)
-        try:
-            found = np.array(value, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise FormatError(self.path, f"must be {wanted} numbers", key=key) from error
-        if found.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, found.shape, strict=True)):
-            got = " x ".join(map(str, found.shape))
-            raise FormatError(self.path, f"must be {wanted} numbers, but it is {got}", key=key)
-        if not np.isfinite(found).all():
-            raise FormatError(self.path, "must hold finite numbers only", key=key)
-        return found
+def _vector(row: TomlTable, name: str) -> Floats:
+    """(3,) a position or size, given in millimetres."""
+    return row.numbers(name, 3) * MM

@@ -6,21 +6,18 @@ own FAP units, so nothing is tuned again. Source of the figures: presets/anatomy
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ...arrays import Floats, Ints
-from ...errors import FormatError
 from ...mpeg4 import FAPS
+from ...tables import TomlTable, read_csv, read_toml
 from ..mesh.fap_units import TEMPLATE_FAPU, unit_length
 from ..mesh.template import ANATOMY, MM
-from ..tables import read_toml
 
 RANGE_COLUMNS = ("fap", "low_mm", "high_mm", "low_linear", "high_linear")
 
@@ -85,46 +82,17 @@ class Synergies:
         return np.array([template_millimetres(int(n)) for n in self.numbers])
 
 
-def _number(path: Path, key: str, value: object) -> float:
-    """A finite number of a table."""
-    try:
-        number = float(value) if isinstance(value, int | float | str) and not isinstance(value, bool) else np.nan
-    except ValueError:
-        number = np.nan
-    if not np.isfinite(number):
-        raise FormatError(path, f"must be a number, not {value!r}", key=key)
-    return number
-
-
 def _ranges(path: Path) -> dict[str, Floats]:
     """Columns of the range table by name."""
-    with path.open(encoding="utf-8") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    for column in RANGE_COLUMNS:
-        if not rows or column not in rows[0]:
-            raise FormatError(path, f"needs the columns {', '.join(RANGE_COLUMNS)} and source", key=column)
-    columns = {
-        column: np.array([_number(path, f"FAP {row['fap']}, {column}", row[column]) for row in rows])
-        for column in RANGE_COLUMNS
-    }
-    for number, below, above, low, high in zip(*columns.values(), strict=True):
-        if number not in FAPS:
-            raise FormatError(path, "names a FAP that does not exist", key=f"FAP {number:g}")
-        if not below < 0.0 < above:
-            raise FormatError(path, "must reach below and above 0", key=f"FAP {number:g}")
-        if not (0.0 < low < 1.0 and 0.0 < high < 1.0):
-            raise FormatError(path, "low_linear and high_linear must lie between 0 and 1", key=f"FAP {number:g}")
-    return columns
-
-
-def _table(path: Path, raw: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    """A table under a dotted key."""
-    found: Any = raw
-    for part in key.split("."):
-        found = found.get(part) if isinstance(found, dict) else None
-    if not isinstance(found, dict):
-        raise FormatError(path, "must be a table", key=key)
-    return found
+    rows = read_csv(path, *RANGE_COLUMNS, "source")
+    for row in rows:
+        if row.integer("fap") not in FAPS:
+            raise row.refuse("names a FAP that does not exist", "fap")
+        if not row.number("low_mm") < 0.0 < row.number("high_mm"):
+            raise row.refuse("low_mm and high_mm must reach below and above 0")
+        if not (0.0 < row.number("low_linear") < 1.0 and 0.0 < row.number("high_linear") < 1.0):
+            raise row.refuse("low_linear and high_linear must lie between 0 and 1")
+    return {column: np.array([row.number(column) for row in rows]) for column in RANGE_COLUMNS}
 
 
 def _halves(paired: bool) -> tuple[str, ...]:
@@ -132,56 +100,47 @@ def _halves(paired: bool) -> tuple[str, ...]:
     return ("_l", "_r") if paired else ("",)
 
 
-def _units(path: Path, raw: Mapping[str, Any], row_of: Mapping[int, int]) -> dict[str, Floats]:
+def _units(raw: TomlTable, row_of: Mapping[int, int]) -> dict[str, Floats]:
     """Half unit -> (m,) mm per amount."""
     columns: dict[str, Floats] = {}
-    for unit, entry in _table(path, raw, "units").items():
-        key = f"units.{unit}"
-        if not isinstance(entry, dict) or not isinstance(entry.get("paired"), bool):
-            raise FormatError(path, "needs paired = true or false", key=key)
-        for half in _halves(entry["paired"]):
+    for unit, entry in raw.tables("units").items():
+        faps = entry.table("faps")
+        for half in _halves(entry.flag("paired")):
             column = np.zeros(len(row_of))
-            for name, value in _table(path, raw, f"{key}.faps").items():
+            for name in faps:
                 fap = int(name) if name.isdigit() else 0
                 target = mirror_fap(fap) if half == "_r" and fap in FAPS else fap
                 if target not in row_of:
-                    raise FormatError(path, f"names FAP {name}, which has no range", key=key)
+                    raise entry.refuse(f"names FAP {name}, which has no range", "faps")
                 sign = -1.0 if half == "_r" and fap in SIDEWAYS else 1.0
-                column[row_of[target]] += (
-                    sign * _number(path, f"{key}.faps.{name}", value) * template_millimetres(target)
-                )
+                column[row_of[target]] += sign * faps.number(name) * template_millimetres(target)
             columns[unit + half] = column
     return columns
 
 
-def _sums(path: Path, raw: Mapping[str, Any], units: Sequence[str]) -> dict[str, Floats]:
+def _sums(raw: TomlTable, units: Sequence[str]) -> dict[str, Floats]:
     """Half sum -> (k,) amounts of half units; a unit in the middle gives half of itself to either half."""
     at = {name: i for i, name in enumerate(units)}
     columns: dict[str, Floats] = {}
-    for emotion in _table(path, raw, "sums"):
-        key = f"sums.{emotion}"
+    for emotion, amounts in raw.tables("sums").items():
         for half in ("_l", "_r"):
             column = np.zeros(len(units))
-            for unit, value in _table(path, raw, key).items():
-                amount = _number(path, f"{key}.{unit}", value)
+            for unit in amounts:
                 if unit + half in at:
-                    column[at[unit + half]] = amount
+                    column[at[unit + half]] = amounts.number(unit)
                 elif unit in at:
-                    column[at[unit]] = amount / 2.0
+                    column[at[unit]] = amounts.number(unit) / 2.0
                 else:
-                    raise FormatError(path, f"names unit {unit}, which is not in units", key=key)
+                    raise amounts.refuse(f"names unit {unit}, which is not in units", unit)
             columns[emotion + half] = column
     return columns
 
 
-def _hidden(path: Path, raw: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+def _hidden(raw: TomlTable) -> dict[str, dict[str, float]]:
     """Unit -> muscle -> metres per amount."""
     return {
-        unit: {
-            muscle: MM * _number(path, f"hidden.{unit}.{muscle}", value)
-            for muscle, value in _table(path, raw, f"hidden.{unit}").items()
-        }
-        for unit in _table(path, raw, "hidden")
+        unit: {muscle: MM * amounts.number(muscle) for muscle in amounts}
+        for unit, amounts in raw.tables("hidden").items()
     }
 
 
@@ -195,10 +154,9 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
     """
     ranges = _ranges(folder / "ranges.csv")
     numbers = ranges["fap"].astype(np.int64)
-    path = folder / "synergies.toml"
-    raw = read_toml(path)
-    units = _units(path, raw, {int(n): i for i, n in enumerate(numbers)})
-    sums = _sums(path, raw, tuple(units))
+    raw = read_toml(folder / "synergies.toml")
+    units = _units(raw, {int(n): i for i, n in enumerate(numbers)})
+    sums = _sums(raw, tuple(units))
     return Synergies(
         numbers=numbers,
         low=ranges["low_mm"],
@@ -210,5 +168,5 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
         unit_spread=np.array([UNIT_PRIORS.get(name.split("_")[0], UNIT_PRIOR) for name in units]),
         sums=np.column_stack(list(sums.values())),
         sum_names=tuple(sums),
-        hidden=_hidden(path, raw),
+        hidden=_hidden(raw),
     )

@@ -8,21 +8,20 @@ parts that come after the known one (clothes, eyes, teeth) do not matter. Tables
 from __future__ import annotations
 
 import hashlib
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ...arrays import Floats, Ints
-from ...errors import FormatError, ModelError
+from ...errors import ModelError
 from ...files import write_whole
 from ...mpeg4 import FEATURE_POINTS
 from ...physics.mesh import Polygons, unique_edges
 from ...resources import PRESETS
+from ...tables import TomlTable, read_toml, toml_text
 
 #: The tables that come with Risorius.
 FOLDER = PRESETS / "topologies"
@@ -103,42 +102,36 @@ def read_topology(path: str | Path) -> Topology:
     ------
     FormatError : says which entry is missing or wrong.
     """
-    path = Path(path)
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise FormatError(path, f"is no readable table ({error})") from error
-    for key, kind in (
-        ("name", str),
-        ("source", str),
-        ("vertices", int),
-        ("edges", int),
-        ("sha1", str),
-        ("points", dict),
-    ):
-        if not isinstance(table.get(key), kind):
-            raise FormatError(path, f"needs an entry of type {kind.__name__}", key=key)
-    points = {name: _read_point(path, name, place, table["vertices"]) for name, place in table["points"].items()}
-    return Topology(table["name"], table["source"], table["vertices"], table["edges"], table["sha1"], points)
+    table = read_toml(path)
+    count, points = table.integer("vertices", least=1), table.table("points")
+    return Topology(
+        name=table.text("name"),
+        source=table.text("source", ""),
+        vertices=count,
+        edges=table.integer("edges", least=0),
+        digest=table.text("sha1"),
+        points={name: _read_point(points, name, count) for name in points},
+    )
 
 
-def _read_point(path: Path, name: str, place: Any, vertex_count: int) -> TopologyPoint:
+def _read_point(points: TomlTable, name: str, vertex_count: int) -> TopologyPoint:
     """A vertex, or [[vertices], [weights]]."""
-    key = f'points."{name}"'
     if name not in FEATURE_POINTS:
-        raise FormatError(path, "is no feature point; the standard names them 2.1 to 11.6", key=key)
-    indices, weights = place if isinstance(place, list) and len(place) == 2 else ([place], [1.0])
-    try:
-        point = TopologyPoint(np.array(indices, dtype=np.int64), np.array(weights, dtype=np.float64))
-    except (TypeError, ValueError) as error:
-        raise FormatError(path, "must be a vertex, or [[vertices], [weights]]", key=key) from error
-    if point.vertices.ndim != 1 or point.vertices.shape != point.weights.shape or len(point.vertices) == 0:
-        raise FormatError(path, "needs as many weights as vertices", key=key)
-    if point.vertices.min() < 0 or point.vertices.max() >= vertex_count:
-        raise FormatError(path, f"names a vertex outside 0..{vertex_count - 1}", key=key)
-    if abs(point.weights.sum() - 1.0) > 1e-6:
-        raise FormatError(path, "must have weights that add up to 1", key=key)
-    return point
+        raise points.refuse("is not a feature point; the standard names them 2.1 to 11.6", name)
+    if not isinstance(points.cells[name], list):
+        vertex = points.integer(name, least=0, most=vertex_count - 1)
+        return TopologyPoint(np.array([vertex], dtype=np.int64), np.ones(1))
+    if len(points.cells[name]) != 2:
+        raise points.refuse("must be a vertex, or [[vertices], [weights]]", name)
+    place = points.entries(name)
+    vertices, weights = place.numbers("0"), place.numbers("1")
+    if len(vertices) == 0 or len(vertices) != len(weights):
+        raise points.refuse("needs as many weights as vertices", name)
+    if (vertices != np.rint(vertices)).any() or vertices.min() < 0 or vertices.max() >= vertex_count:
+        raise points.refuse(f"names a vertex outside 0..{vertex_count - 1}", name)
+    if abs(weights.sum() - 1.0) > 1e-6:
+        raise points.refuse("must have weights that add up to 1", name)
+    return TopologyPoint(vertices.astype(np.int64), weights)
 
 
 def topology_of(
@@ -165,8 +158,8 @@ def write_topology(path: str | Path, topology: Topology) -> None:
     FormatError : the file cannot be written.
     """
     lines = [
-        f"name = {_quoted(topology.name)}",
-        f"source = {_quoted(topology.source)}",
+        f"name = {toml_text(topology.name)}",
+        f"source = {toml_text(topology.source)}",
         f"vertices = {topology.vertices}",
         f"edges = {topology.edges}",
         f'sha1 = "{topology.digest}"',
@@ -179,9 +172,3 @@ def write_topology(path: str | Path, topology: Topology) -> None:
         else:
             lines.append(f'"{name}" = [{point.vertices.tolist()}, {[round(w, 12) for w in point.weights.tolist()]}]')
     write_whole(path, "\n".join(lines) + "\n")
-
-
-def _quoted(text: str) -> str:
-    """A TOML string."""
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", " ")
-    return f'"{escaped}"'

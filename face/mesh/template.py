@@ -7,13 +7,13 @@ interpolation with a linear kernel and an affine part, see the transfer step of 
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 
 import numpy as np
 
 from ...arrays import Floats
 from ...resources import PRESETS
+from ...tables import read_csv
 
 MM = 1e-3
 
@@ -30,10 +30,8 @@ WARP_SMOOTHING = 3.0
 
 def _read_points() -> dict[str, Floats]:
     """Rows of presets/anatomy/template_points.csv in metres of head space."""
-    path = ANATOMY / "template_points.csv"
-    with path.open(encoding="utf-8") as stream:
-        rows = csv.DictReader(line for line in stream if not line.startswith("#"))
-        return {row["feature_point"]: MM * np.array([float(row[a]) for a in "xyz"]) for row in rows}
+    rows = read_csv(ANATOMY / "template_points.csv")
+    return {row.text("feature_point"): MM * np.array([row.number(axis) for axis in "xyz"]) for row in rows}
 
 
 #: Feature point -> (3,) position in head space (metres) on the template face.

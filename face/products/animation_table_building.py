@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -14,6 +13,7 @@ from numpy.typing import ArrayLike
 from ...arrays import Floats, Ints
 from ...errors import ParameterError
 from ...mpeg4 import FAP_COUNT, FAPS, GROUPS
+from ...tables import read_csv
 from ..bodies.direct_faps import ANGLE_UNIT
 from ..drive.synergies import load_synergies, template_millimetres
 from ..drive.wishes import Drive
@@ -59,9 +59,8 @@ def table_ranges() -> Mapping[int, tuple[float, float]]:
         int(number): (float(low) / template_millimetres(int(number)), float(high) / template_millimetres(int(number)))
         for number, low, high in zip(data.numbers, data.low, data.high, strict=True)
     }
-    with (ANATOMY / "table_ranges.csv").open(encoding="utf-8") as stream:
-        for row in csv.DictReader(line for line in stream if not line.startswith("#")):
-            ranges[int(row["fap"])] = float(row["low"]), float(row["high"])
+    for row in read_csv(ANATOMY / "table_ranges.csv"):
+        ranges[row.integer("fap", least=3, most=FAP_COUNT)] = row.number("low"), row.number("high")
     return ranges
 
 

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ...arrays import Floats
-from ...errors import FormatError
+from ...tables import TomlTable, read_toml
 from ..mesh.template import ANATOMY, MM
-from ..tables import read_toml
 
-_WORDS = ("sides", "look", "lines_mm", "of", "reason")
-_FIGURES = ("spacing_mm", "width_mm", "depth_mm", "onset", "full", "wander")
+KEYS = (
+    "sides", "look", "lines_mm", "of", "reason", "spacing_mm", "width_mm", "depth_mm", "onset", "full", "wander",
+)  # fmt: skip
 
 
 class Look(StrEnum):
@@ -56,45 +55,40 @@ class CreaseRow:
     reason: str
 
 
-def _line(points: Any, *, joined: bool) -> list[Floats]:
-    """The one or two lines that an entry stands for."""
-    line = np.array(points, dtype=np.float64) * MM
-    if line.ndim != 2 or line.shape[1] != 3 or len(line) < 2:
-        raise ValueError("a line needs two or more points of three numbers")
-    if not joined:
-        return [line]
-    mirrored = line * np.array([-1.0, 1.0, 1.0])
-    return [np.concatenate([mirrored[:0:-1], line])] if line[0, 0] == 0.0 else [line, mirrored]
+def _lines(row: TomlTable, *, joined: bool) -> Iterator[Floats]:
+    """The lines of a crease; those of a joined one on both sides."""
+    entries = row.entries("lines_mm")
+    for place in entries:
+        line = entries.numbers(place, None, 3) * MM
+        if len(line) < 2:
+            raise entries.refuse("must be two or more points", place)
+        mirrored = line * np.array([-1.0, 1.0, 1.0])
+        if not joined:
+            yield line
+        elif line[0, 0] == 0.0:
+            yield np.concatenate([mirrored[:0:-1], line])
+        else:
+            yield from (line, mirrored)
 
 
-def _row(path: Path, name: str, raw: Mapping[str, Any]) -> CreaseRow:
+def _crease(name: str, row: TomlTable) -> CreaseRow:
     """The crease of a table's entry."""
-    key = f"creases.{name}"
-    if set(raw) != {*_WORDS, *_FIGURES}:
-        raise FormatError(path, f"a crease has {', '.join((*_WORDS, *_FIGURES))} and nothing else", key=key)
-    if raw["sides"] not in ("pair", "joined"):
-        raise FormatError(path, f'sides must be "pair" or "joined", not {raw["sides"]!r}', key=key)
-    try:
-        look = Look(raw["look"])
-        lines = [line for points in raw["lines_mm"] for line in _line(points, joined=raw["sides"] == "joined")]
-        spacing, width, depth, onset, full, wander = (float(raw[figure]) for figure in _FIGURES)
-    except (ValueError, TypeError) as problem:
-        raise FormatError(path, str(problem), key=key) from None
-    if not lines or min(spacing, width, depth) <= 0.0 or not 0.0 <= onset < full or wander < 0.0:
-        raise FormatError(path, "needs lines, positive spacing, width and depth, and onset below full", key=key)
+    row.only(*KEYS)
+    paired = row.choice("sides", ("pair", "joined")) == "pair"
+    onset = row.number("onset", least=0.0)
     return CreaseRow(
         name=name,
-        paired=raw["sides"] == "pair",
-        look=look,
-        lines=tuple(lines),
-        spacing=spacing * MM,
-        width=width * MM,
-        depth=depth * MM,
+        paired=paired,
+        look=row.choice("look", Look),
+        lines=tuple(_lines(row, joined=not paired)),
+        spacing=MM * row.number("spacing_mm", above=0.0),
+        width=MM * row.number("width_mm", above=0.0),
+        depth=MM * row.number("depth_mm", above=0.0),
         onset=onset,
-        full=full,
-        of=str(raw["of"]),
-        wander=wander,
-        reason=str(raw["reason"]),
+        full=row.number("full", above=onset),
+        of=row.text("of"),
+        wander=row.number("wander", least=0.0),
+        reason=row.text("reason"),
     )
 
 
@@ -105,9 +99,7 @@ def read_creases(path: Path = ANATOMY / "creases.toml") -> list[CreaseRow]:
     ------
     FormatError : names the file, the key and the rule that is broken.
     """
-    rows = [_row(path, name, entry) for name, entry in read_toml(path).get("creases", {}).items()]
-    names = {row.name for row in rows}
-    for row in rows:
-        if row.of not in names:
-            raise FormatError(path, f"of must name a crease of the table, not {row.of!r}", key=f"creases.{row.name}")
-    return rows
+    entries = read_toml(path).tables("creases")
+    for entry in entries.values():
+        entry.choice("of", entries)
+    return [_crease(name, entry) for name, entry in entries.items()]

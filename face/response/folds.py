@@ -8,21 +8,19 @@ their places.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
 from ...arrays import Floats, Ints
-from ...errors import FormatError
 from ...physics.mesh import Sparse
+from ...tables import TomlTable, read_toml
 from ..mesh.template import ANATOMY, MM, TemplateWarp
 from ..skin.outer import OuterSkin, smoothstep
-from ..tables import read_toml
 
 #: Points along a line: for its course, and where compression is taken.
 COURSE, GAUGES = 49, 9
@@ -42,8 +40,6 @@ SHARED = 0.6
 
 #: Radius round feature points that a fold spares, metres.
 SPARED = 4.0 * MM
-
-_FIGURES = ("width_mm", "depth_mm", "lean", "gauge_mm", "onset", "full")
 
 
 @dataclass(frozen=True)
@@ -68,22 +64,18 @@ class FoldRow:
     full: float
 
 
-def _rows(path: Path, name: str, raw: Mapping[str, Any]) -> list[FoldRow]:
+def _rows(name: str, row: TomlTable) -> list[FoldRow]:
     """The one or two folds of a table's entry."""
-    key = f"folds.{name}"
-    if raw.get("sides") not in ("pair", "joined"):
-        raise FormatError(path, f'sides must be "pair" or "joined", not {raw.get("sides")!r}', key=key)
-    if set(raw) != {"sides", "line_mm", *_FIGURES}:
-        raise FormatError(path, f"a fold has sides, line_mm, {', '.join(_FIGURES)} and nothing else", key=key)
-    line = np.array(raw["line_mm"], dtype=np.float64) * MM
-    if line.ndim != 2 or line.shape[1] != 3 or len(line) < 2:
-        raise FormatError(path, "line_mm needs two or more points of three numbers", key=key)
-    width, depth, lean, gauge, onset, full = (float(raw[figure]) for figure in _FIGURES)
-    if min(width, depth, gauge) <= 0.0 or not 0.0 <= onset < full:
-        raise FormatError(path, "width, depth and gauge must be positive, onset below full", key=key)
-    figures = (width * MM, depth * MM, lean, gauge * MM, onset, full)
+    row.only("sides", "line_mm", "width_mm", "depth_mm", "lean", "gauge_mm", "onset", "full")
+    sides = row.choice("sides", ("pair", "joined"))
+    line = row.numbers("line_mm", None, 3) * MM
+    if len(line) < 2:
+        raise row.refuse("must be two or more points", "line_mm")
+    width, depth, gauge = (MM * row.number(key, above=0.0) for key in ("width_mm", "depth_mm", "gauge_mm"))
+    onset = row.number("onset", least=0.0)
+    figures = (width, depth, row.number("lean"), gauge, onset, row.number("full", above=onset))
     mirrored = line * np.array([-1.0, 1.0, 1.0])
-    if raw["sides"] == "joined":
+    if sides == "joined":
         across = np.concatenate([mirrored[::-1], line[1:] if line[0, 0] == 0.0 else line])
         return [FoldRow(name, across, *figures)]
     return [FoldRow(f"{name}_l", line, *figures), FoldRow(f"{name}_r", mirrored, *figures)]
@@ -96,8 +88,7 @@ def read_folds(path: Path = ANATOMY / "folds.toml") -> list[FoldRow]:
     ------
     FormatError : names the file, the key and the rule that is broken.
     """
-    raw = read_toml(path)
-    return [fold for name, entry in raw.get("folds", {}).items() for fold in _rows(path, name, entry)]
+    return [fold for name, row in read_toml(path).tables("folds").items() for fold in _rows(name, row)]
 
 
 def _resample(line: Floats, count: int) -> Floats:

@@ -22,6 +22,7 @@ word = "joy"
 word = 3
 [points]
 "8.4" = "far"
+lines = [[[1, 2]], [[3, 4], [5, "six"]]]
 """
 
 
@@ -41,6 +42,16 @@ def test_tables_are_found_by_name(table: TomlTable) -> None:
     assert table.table("absent", optional=True).cells == {}
     assert table.tables("absent", optional=True) == {}
     assert table.listed("absent") == []
+
+
+def test_lists_are_read_by_place(table: TomlTable) -> None:
+    lines = table.table("points").entries("lines")
+    assert list(lines) == ["0", "1"]
+    assert lines.numbers("0", None, 2).tolist() == [[1.0, 2.0]]
+    with pytest.raises(FormatError, match=r"key points\.lines\.1: must be N x 2 finite numbers"):
+        lines.numbers("1", None, 2)
+    with pytest.raises(FormatError, match=r"key unit: must be a list, but it is 'mm'"):
+        table.entries("unit")
 
 
 def test_refusals_name_the_dotted_key(table: TomlTable) -> None:

@@ -10,9 +10,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ....arrays import Floats
-from ....errors import FormatError
 from ....physics.mesh import vertex_normals
 from ....resources import PRESETS
+from ....tables import read_csv
 from ...mesh.points import closest_on_triangles
 from ..doubt import DOUBTFUL_SCORE
 from ..surface.margins import Margin
@@ -199,13 +199,4 @@ def _confidence(
 @lru_cache(maxsize=1)
 def usual_errors() -> Mapping[str, float]:
     """Feature point -> its median error in metres over the heads that the finding was measured on (docs/fit.md)."""
-    errors: dict[str, float] = {}
-    for number, line in enumerate(ERRORS_FILE.read_text(encoding="utf-8").splitlines(), 1):
-        if not line or line.startswith(("#", "point,")):
-            continue
-        try:
-            name, median = line.split(",")
-            errors[name] = float(median) * 1e-3
-        except ValueError as error:
-            raise FormatError(ERRORS_FILE, f"expected `point,median_mm`, but found {line!r}", line=number) from error
-    return errors
+    return {row.text("point"): 1e-3 * row.number("median_mm", above=0.0) for row in read_csv(ERRORS_FILE)}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
@@ -11,8 +10,8 @@ from functools import lru_cache
 import numpy as np
 
 from ....arrays import Floats
-from ....errors import FormatError
 from ....resources import PRESETS
+from ....tables import read_csv
 
 FILE = PRESETS / "anatomy" / "point_proportions.csv"
 
@@ -75,15 +74,16 @@ def read_proportions() -> tuple[Proportion, ...]:
     ------
     FormatError : a row that is none.
     """
-    rows = []
-    lines = FILE.read_text(encoding="utf-8").splitlines()
-    for number, line in enumerate(lines, 1):
-        if not line or line.startswith(("#", "point,")):
-            continue
-        try:
-            point, view, origin, start, end, *figures = next(csv.reader([line]))
-            along, across, share = (float(figure) for figure in figures)
-            rows.append(Proportion(point, View[view.upper()], origin, start, end, along, across, share))
-        except (ValueError, KeyError) as error:
-            raise FormatError(FILE, f"expected point,view,origin,... but found {line!r}", line=number) from error
-    return tuple(rows)
+    return tuple(
+        Proportion(
+            point=row.text("point"),
+            view=View[row.choice("view", ("front", "side")).upper()],
+            origin=row.text("origin"),
+            start=row.text("from"),
+            end=row.text("to"),
+            along=row.number("along"),
+            across=row.number("across"),
+            share=row.number("share", least=0.0, most=1.0),
+        )
+        for row in read_csv(FILE)
+    )

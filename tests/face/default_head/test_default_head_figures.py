@@ -52,17 +52,17 @@ def test_the_source_notice_lies_beside_the_table() -> None:
 @pytest.mark.parametrize(
     ("before", "after", "key", "problem"),
     [
-        ("[eyeball]", "[eyebal]", "eyeball.centre", "missing"),
-        ("radius = 15.1", "radius = -15.1", "eyeball.radius", "greater than 0"),
-        ("radius = 15.1", 'radius = "15.1"', "eyeball.radius", "finite number"),
-        ("radius = 15.1", "radius = nan", "eyeball.radius", "finite number"),
-        ("semi_axes = [19.5, 25.0, 6.5]", "semi_axes = [19.5, 25.0]", "tongue.semi_axes", "3 numbers, but it is 2"),
-        ("semi_axes = [19.5, 25.0, 6.5]", 'semi_axes = ["a", 1, 2]', "tongue.semi_axes", "3 numbers"),
+        ("[eyeball]", "[eyebal]", "eyeball", "must be a table: begin it with [eyeball]"),
+        ("radius = 15.1", "radius = -15.1", "eyeball.radius", "a number above 0, but it is -15.1"),
+        ("radius = 15.1", 'radius = "15.1"', "eyeball.radius", "must be a number"),
+        ("radius = 15.1", "radius = nan", "eyeball.radius", "must be a number"),
+        ("semi_axes = [19.5, 25.0, 6.5]", "semi_axes = [19.5, 25.0]", "tongue.semi_axes", "3 finite numbers, but"),
+        ("semi_axes = [19.5, 25.0, 6.5]", 'semi_axes = ["a", 1, 2]', "tongue.semi_axes", "3 finite numbers"),
         ("skin = { colour = [0.", "skin = { colour = [1.", "materials.skin", "between 0 and 1"),
         ('"2.1" = { nodes = ["r18c00"] }', '"2.1" = { nodes = [] }', '"2.1"', "1, 2 or 4"),
         ("uv = [0.35, 0.06]", "uv = [1.35, 0.06]", "2.13", "between 0 and 1"),
         ('unit = "mm"', "unit = mm", "", "not valid TOML"),
-        ('unit = "mm"', 'unit = "m"', "unit", 'must be "mm"'),
+        ('unit = "mm"', 'unit = "m"', "unit", "must be one of mm, but it is 'm'"),
     ],
 )
 def test_a_mistake_names_file_key_and_rule(tmp_path: Path, before: str, after: str, key: str, problem: str) -> None:

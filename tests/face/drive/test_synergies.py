@@ -12,7 +12,7 @@ from risorius.face.drive.synergies import load_synergies
 from risorius.face.mesh.template import ANATOMY
 
 WRONG = {
-    "ranges.csv: no column": ("ranges.csv", "low_mm", "lowest", "columns"),
+    "ranges.csv: no column": ("ranges.csv", "low_mm", "lowest", "lacks a column"),
     "ranges.csv: no number": ("ranges.csv", "3,-2.5,", "3,wide,", "number"),
     "ranges.csv: one-sided": ("ranges.csv", "3,-2.5,", "3,2.5,", "below and above 0"),
     "ranges.csv: share": ("ranges.csv", "3,-2.5,32.0,0.8", "3,-2.5,32.0,1.5", "between 0 and 1"),

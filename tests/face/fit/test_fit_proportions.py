@@ -66,14 +66,21 @@ def test_every_row_of_the_table_tells_about_the_place_of_the_default_heads_point
             assert np.linalg.norm((told - places[name])[picture]) < 4e-3, name
 
 
-@pytest.mark.parametrize("row", ["5.3,above,3.7,8.3,3.7,0,0,1", "5.3,front,3.7,8.3,3.7,0,x,1", "5.3,front,3.7"])
-def test_a_damaged_row_is_named(row: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("row", "told"),
+    [
+        ("5.3,above,3.7,8.3,3.7,0,0,1", "column view: must be one of front, side, but it is 'above'"),
+        ("5.3,front,3.7,8.3,3.7,0,x,1", "column across: must be a number, but it is 'x'"),
+        ("5.3,front,3.7", "has 3 cells where the heading has 8"),
+    ],
+)
+def test_a_damaged_row_is_named(row: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     table = tmp_path / "wrong.csv"
-    table.write_text(f"# a table\npoint,view,origin\n{row}\n")
+    table.write_text(f"# a table\npoint,view,origin,from,to,along,across,share\n{row}\n")
     monkeypatch.setattr(proportions, "FILE", table)
     read_proportions.cache_clear()
     try:
-        with pytest.raises(FormatError, match=r"5\.3"):
+        with pytest.raises(FormatError, match=f"wrong.csv, line 3.*{told}"):
             read_proportions()
     finally:
         read_proportions.cache_clear()
