@@ -18,7 +18,7 @@ from .parts import overlay as parts_overlay
 from .points import drag as points_drag
 from .points import hover as points_hover
 from .points import overlay as points_overlay
-from .preview import live as preview_live
+from .preview import events as preview_events
 from .read import live as read_live
 from .show import overlay as show_overlay
 from .timeline import colours as timeline_colours
@@ -42,7 +42,7 @@ ATTACHED = (
     timeline_colours.attach,
     timeline_drawing.attach,
     timeline_drag.attach,
-    preview_live.attach,
+    preview_events.attach,
     show_overlay.attach,
     read_live.attach,
 )

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import bpy
 
 from ..changes import changed
 from ..names import fill_soon
-
-#: Contractions that the faces show now, as the preview has found them: object's name in the session -> muscle -> 0..1.
-shown: dict[int, Mapping[str, float]] = {}
+from ..session import session
 
 
 class RISORIUS_PG_by_hand(bpy.types.PropertyGroup):
@@ -71,7 +68,8 @@ def _get(item: Any) -> float:
     index = obj.risorius.muscles.by_hand.find(item.name)
     if index >= 0:
         return float(obj.risorius.muscles.by_hand[index].contraction)
-    return float(shown.get(obj.session_uid, {}).get(item.name, 0.0))
+    shown = session().previews.shown.get(obj.session_uid)
+    return 0.0 if shown is None else float(shown.contractions.get(item.name, 0.0))
 
 
 def _set(item: Any, value: float) -> None:

@@ -17,41 +17,27 @@ from ...errors import RisoriusError
 from ...scene.live.live_face import uid_of
 from ...scene.live.reading import FaceReader, Reading
 from ..active import reading_reason
+from ..session import session
 
 #: Least seconds between two readings, and least multiple of the time that the last one took.
 PACE, SHARE = 0.1, 4.0
 
 
-class _Live:
-    """The face that is read, its last reading, and whether a panel has shown that."""
-
-    def __init__(self) -> None:
-        self.reader: FaceReader | None = None
-        self.reading: Reading | None = None
-        self.of: tuple[int, int] | None = None  # object and mesh
-        self.trouble = ""
-        self.is_stale = True
-        self.was_drawn = False
-        self.last, self.cost = -float("inf"), 0.0
-
-
-_live = _Live()
-
-
 def shown(obj: Any) -> tuple[Reading | None, str]:
     """The last reading of `obj`, or None, and why there is none; called by a panel while it is drawn."""
-    _live.was_drawn = True
-    if _live.of != _ids(obj):
-        _live.of, _live.reading, _live.trouble, _live.is_stale = _ids(obj), None, "", True
-    if _live.is_stale:
+    read = session().read
+    read.was_drawn = True
+    if read.ids != _ids(obj):
+        read.ids, read.reading, read.trouble, read.is_stale = _ids(obj), None, "", True
+    if read.is_stale:
         _soon()
-    return _live.reading, _live.trouble
+    return read.reading, read.trouble
 
 
 def ask() -> None:
     """Something has changed: read again, soon, if a panel shows it."""
-    _live.is_stale = True
-    if _live.was_drawn:
+    session().read.is_stale = True
+    if session().read.was_drawn:
         _soon()
 
 
@@ -59,24 +45,26 @@ def refresh(obj: Any) -> None:
     """Read `obj` now."""
     from ... import api
 
-    _live.is_stale, _live.was_drawn, _live.of = False, False, _ids(obj)
-    _live.trouble = reading_reason(obj) or ""
-    if _live.trouble:
-        _live.reader = _live.reading = None
+    read = session().read
+    read.is_stale, read.was_drawn, read.ids = False, False, _ids(obj)
+    read.trouble = reading_reason(obj) or ""
+    if read.trouble:
+        read.reader = read.reading = None
         return
     try:
-        if _live.reader is None or not _live.reader.is_of(obj):
-            _live.reader = FaceReader(obj)
+        if read.reader is None or not read.reader.is_of(obj):
+            read.reader = FaceReader(obj)
         rule = bpy.context.scene.risorius.read.rule
         graph = bpy.context.evaluated_depsgraph_get()
-        _live.reading = _live.reader.read(graph, rule=rule, words=api.WORDS)
+        read.reading = read.reader.read(graph, rule=rule, words=api.WORDS)
     except RisoriusError as refusal:
-        _live.reading, _live.trouble = None, str(refusal)
+        read.reading, read.trouble = None, str(refusal)
 
 
 def forget() -> None:
     """Let go of the face, as after an undo or when another file is opened."""
-    _live.reader = _live.reading = _live.of = None
+    read = session().read
+    read.reader = read.reading = read.ids = None
     ask()
 
 
@@ -93,17 +81,18 @@ def _soon() -> None:
 
 def _wait(now: float) -> float:
     """Seconds until the next reading."""
-    return max(0.0, _live.last + max(PACE, SHARE * _live.cost) - now)
+    read = session().read
+    return max(0.0, read.last + max(PACE, SHARE * read.cost) - now)
 
 
 def _read() -> None:
     """Timer: read the active face, and have the panels drawn again."""
-    obj = bpy.context.object
-    if not _live.is_stale or obj is None or obj.type != "MESH" or bpy.app.is_job_running("RENDER"):
+    obj, read = bpy.context.object, session().read
+    if not read.is_stale or obj is None or obj.type != "MESH" or bpy.app.is_job_running("RENDER"):
         return
-    _live.last = time.monotonic()
+    read.last = time.monotonic()
     refresh(obj)
-    _live.cost = time.monotonic() - _live.last
+    read.cost = time.monotonic() - read.last
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             for region in area.regions if area.type == "VIEW_3D" else ():
@@ -118,11 +107,12 @@ def _after_frame(*_: Any) -> None:
 
 def _after_update(_scene: Any, depsgraph: Any = None) -> None:
     """Something was evaluated anew: the face, perhaps."""
-    if not _live.was_drawn or _live.of is None:
-        _live.is_stale = True
+    read = session().read
+    if not read.was_drawn or read.ids is None:
+        read.is_stale = True
         return
     graph = depsgraph if depsgraph is not None else bpy.context.evaluated_depsgraph_get()
-    if any(update.id.original.session_uid in _live.of for update in graph.updates):
+    if any(update.id.original.session_uid in read.ids for update in graph.updates):
         ask()
 
 
@@ -152,7 +142,6 @@ def attach(undo: ExitStack) -> None:
 
 
 def _clear_up() -> None:
-    """Nothing is due any more, and nothing is known."""
+    """Nothing is due any more."""
     if bpy.app.timers.is_registered(_read):
         bpy.app.timers.unregister(_read)
-    _live.__init__()  # type: ignore[misc]

@@ -51,9 +51,10 @@ def _draw() -> None:
     if face is not None and state.muscles:
         with _before(obj, viewport, UNDER_SKIN):
             _draw_muscles(obj, face, visible.vertices)
-    if face is not None and state.paths:
+    shows = live.shown(obj)
+    if face is not None and shows is not None and shows.paths is not None and state.paths:
         with _before(obj, viewport, IN_SKIN):
-            _draw_paths(face)
+            _draw_paths(shows.paths)
     gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")
 
@@ -88,7 +89,8 @@ def edges_of(mesh: Any) -> Ints:
 
 def _draw_muscles(obj: Any, face: LiveFace, shown: Floats) -> None:
     """Lines from the bone to where the skin is now; the more they are contracted, the redder and thicker."""
-    contractions = {**face.contractions, **by_hand_of(obj)}
+    shows = live.shown(obj)
+    contractions = {**(shows.contractions if shows is not None else {}), **by_hand_of(obj)}
     by_width: dict[int, list[tuple[Floats, Floats]]] = {}
     for name, strands in face.muscle_strands(shown).items():
         contraction = contractions.get(name, 0.0)
@@ -101,11 +103,10 @@ def _draw_muscles(obj: Any, face: LiveFace, shown: Floats) -> None:
         _draw_lines(by_width[level], SLACK + (CONTRACTED - SLACK) * level / LEVELS)
 
 
-def _draw_paths(face: LiveFace) -> None:
+def _draw_paths(paths: Floats) -> None:
     """The way of the skin, (k, T, 3)."""
-    if face.paths is not None:
-        shades = colours.of_time(np.linspace(0.0, 1.0, face.paths.shape[1]))
-        _draw_lines([(path, shades) for path in face.paths], PATH)
+    shades = colours.of_time(np.linspace(0.0, 1.0, paths.shape[1]))
+    _draw_lines([(path, shades) for path in paths], PATH)
 
 
 def _draw_lines(lines: list[tuple[Floats, Floats]], width: float) -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
@@ -23,6 +25,16 @@ if TYPE_CHECKING:
 
 #: Stops on a traced way, and distance of the traced vertices, metres.
 STOPS, SPACING = 7, 7e-3
+#: Expressions that are kept in full, so that a timeline plays without posing the face in every frame.
+KEPT_APEXES = 24
+
+
+@dataclass(frozen=True, eq=False)
+class LivePose:
+    """What a face would show: displacement (V, 3) of all its vertices, metres; muscle name -> contraction, 0..1."""
+
+    displacement: Floats
+    contractions: Mapping[str, float]
 
 
 def uid_of(obj: Any) -> int:
@@ -42,11 +54,7 @@ def print_of(target: Target) -> str:
 
 
 class LiveFace:
-    """A face that shows itself on its own objects without changing them; see `preview`.
-
-    `contractions` are those of the last sketch or pose; `paths` (k, T, 3) the skin's ways into the last traced
-    expression, in the head mesh's own coordinates, or None.
-    """
+    """A face that shows itself on its own objects without changing them; see `preview`."""
 
     def __init__(self, target: Target) -> None:
         """Read the face.
@@ -59,8 +67,7 @@ class LiveFace:
         self._source = target.source()
         self._face = face_of(self._source)
         self._sketcher = self._face.sketcher()
-        self.contractions: Mapping[str, float] = {}
-        self.paths: Floats | None = None
+        self._apexes: OrderedDict[str, Floats] = OrderedDict()
 
     def is_of(self, target: Target) -> bool:
         """Whether the face is still as it was read."""
@@ -71,7 +78,7 @@ class LiveFace:
         for fraction, text in self._face.prepare():
             yield Progress(fraction, text)
 
-    def moved(
+    def pose(
         self,
         frame: Floats,
         *,
@@ -79,20 +86,44 @@ class LiveFace:
         emotion: EmotionShares | None = None,
         contractions: Mapping[str, float] | None = None,
         exact: bool = False,
-    ) -> Floats:
-        """(V, 3) displacement for one frame of FAPs, metres: a sketch (`Face.sketcher`), or in balance as a bake is."""
+    ) -> LivePose:
+        """The face for one frame of FAPs: a sketch (`Face.sketcher`), or in balance as a bake is."""
         show = self._face.pose if exact else self._sketcher.sketch
         shown = show(frame, drive=drive, emotion=emotion, contractions=contractions)
-        self.contractions = shown.contractions
-        moved: Floats = shown.positions - self._source.vertices
-        return moved
+        return LivePose(shown.positions - self._source.vertices, shown.contractions)
 
-    def trace(self, frame: Floats, **asked: Any) -> None:
-        """Find the skin's ways from rest to a frame of FAPs; keywords as for `moved`."""
-        rest, contractions = self._source.vertices[self._traced], self.contractions
-        stops = [self.moved(share * frame, **asked)[self._traced] for share in np.linspace(0.0, 1.0, STOPS)[1:]]
-        self.contractions = contractions
-        self.paths = self._local(np.stack([rest, *[rest + moved for moved in stops]], axis=1))
+    def apex(
+        self,
+        frame: Floats,
+        *,
+        drive: str,
+        emotion: EmotionShares | None = None,
+        contractions: Mapping[str, float] | None = None,
+    ) -> Floats:
+        """(V, 3) displacement of a sketch, metres; those last asked for are kept."""
+        name = repr((frame.tolist(), drive, emotion, contractions))
+        found = self._apexes.pop(name, None)
+        if found is None:
+            found = self.pose(frame, drive=drive, emotion=emotion, contractions=contractions).displacement
+        self._apexes[name] = found
+        while len(self._apexes) > KEPT_APEXES:
+            self._apexes.popitem(last=False)
+        return found
+
+    def paths_to(
+        self,
+        frame: Floats,
+        *,
+        drive: str,
+        emotion: EmotionShares | None = None,
+        contractions: Mapping[str, float] | None = None,
+    ) -> Floats:
+        """(k, T, 3) the skin's ways from rest to a frame of FAPs, in the head mesh's own coordinates."""
+        rest, stops = self._source.vertices[self._traced], [np.zeros((len(self._traced), 3))]
+        for share in np.linspace(0.0, 1.0, STOPS)[1:]:
+            pose = self.pose(share * frame, drive=drive, emotion=emotion, contractions=contractions)
+            stops.append(pose.displacement[self._traced])
+        return self._local(np.stack([rest + moved for moved in stops], axis=1))
 
     @cached_property
     def _traced(self) -> Ints:
@@ -120,7 +151,7 @@ class LiveFace:
         local: Floats = (places - to_metres[:3, 3]) @ np.linalg.inv(to_metres[:3, :3]).T
         return local
 
-    def show(self, target: Target, moved: Floats) -> None:
-        """Show a displacement on the objects of the face, which may be others than those read where undo made them."""
+    def show(self, target: Target, displacement: Floats) -> None:
+        """Show a displacement (V, 3) on the objects of the face: after an undo they are others than those read."""
         for piece, obj in zip(self._source.pieces, target.objects(), strict=True):
-            preview.show(obj, piece.local_positions(moved))
+            preview.show(obj, piece.local_positions(displacement))

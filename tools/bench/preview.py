@@ -40,8 +40,8 @@ def drag(face: LiveFace, target: Target, steps: int) -> list[float]:
     times = []
     for profile in profiles:
         begin = time.process_time()
-        moved = face.moved(profile.frame(), drive="natural", emotion=profile.weights)
-        face.show(target, moved)
+        pose = face.pose(profile.frame(), drive="natural", emotion=profile.weights)
+        face.show(target, pose.displacement)
         bpy.context.view_layer.update()
         times.append(time.process_time() - begin)
     return times

@@ -12,6 +12,7 @@ import pytest
 import risorius.api as api
 from risorius.errors import SceneError
 from risorius.operators.read import live, ops, panel
+from risorius.operators.session import begin_session
 from risorius.scene.faces import face_of, read_face
 from risorius.scene.live import belief_curves
 from risorius.scene.live.reading import FaceReader, read_animation
@@ -175,8 +176,8 @@ def test_other_vertices_are_refused_with_the_modifier_named(smiling: Any) -> Non
     assert "Fewer" in live.shown(smiling)[1]
 
 
-def test_the_panel_shows_beliefs_faps_and_features(smiling: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(live, "_live", live._Live())
+def test_the_panel_shows_beliefs_faps_and_features(smiling: Any) -> None:
+    begin_session()
     assert "Reading ..." in labels(panel.RISORIUS_PT_read)
     live.refresh(smiling)
     beliefs = api.recognise(measured(smiling))
@@ -201,7 +202,7 @@ def test_the_panel_shows_beliefs_faps_and_features(smiling: Any, monkeypatch: py
 
 def test_nothing_is_read_for_a_panel_that_nobody_sees(smiling: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[int] = []
-    monkeypatch.setattr(live, "_live", live._Live())
+    begin_session()
     monkeypatch.setattr(live, "_soon", lambda: asked.append(1))
     bpy.context.scene.frame_set(3)
     assert asked == []
@@ -230,7 +231,7 @@ def test_a_bone_that_is_posed_is_heard_of(smiling: Any, monkeypatch: pytest.Monk
     asked: list[int] = []
     bone = with_bone(smiling)
     bpy.context.view_layer.update()
-    monkeypatch.setattr(live, "_live", live._Live())
+    begin_session()
     live.refresh(smiling)
     monkeypatch.setattr(live, "_soon", lambda: asked.append(1))
     live.shown(smiling)
@@ -240,9 +241,8 @@ def test_a_bone_that_is_posed_is_heard_of(smiling: Any, monkeypatch: pytest.Monk
     assert asked
 
 
-def test_a_face_that_takes_long_to_read_is_read_less_often(monkeypatch: pytest.MonkeyPatch) -> None:
-    state = live._Live()
-    monkeypatch.setattr(live, "_live", state)
+def test_a_face_that_takes_long_to_read_is_read_less_often() -> None:
+    state = begin_session().read
     assert live._wait(now=100.0) == 0.0
     state.last, state.cost = 100.0, 0.01
     assert live._wait(now=100.0) == pytest.approx(live.PACE)

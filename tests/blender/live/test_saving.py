@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 import pytest
-from risorius.operators.preview import live
+from risorius.operators.preview import events, live
 from risorius.scene.live import preview
 
 pytestmark = pytest.mark.smoke
@@ -18,14 +18,12 @@ pytestmark = pytest.mark.smoke
 def listening(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The preview as in a window, where it hears of what Blender does; its timer is `answer`."""
     monkeypatch.setattr(live, "is_on", lambda: True)
-    handlers = live._handlers()
+    handlers = events.handlers()
     for event, action in handlers:
         event.append(action)
     yield
     for event, action in handlers:
         event.remove(action)
-    if bpy.app.timers.is_registered(live._answer):
-        bpy.app.timers.unregister(live._answer)
     live.end()
 
 

@@ -38,13 +38,12 @@ def test_a_live_face_traces_paths_and_moves_strands_in_the_meshs_own_coordinates
     head.location = (1.0, 2.0, 3.0)
     bpy.context.view_layer.update()
     face, wanted = LiveFace(target_of(head)), wanted_of(head)
-    face.trace(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights)
-    assert face.paths is not None
-    assert face.paths.shape[1:] == (STOPS, 3)
+    paths = face.paths_to(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights)
+    assert paths.shape[1:] == (STOPS, 3)
     rest = rest_vertices(head.data)
-    for start in face.paths[::50, 0]:
+    for start in paths[::50, 0]:
         assert np.linalg.norm(rest - start, axis=1).min() < 1e-6
-    assert np.linalg.norm(np.diff(face.paths, axis=1), axis=2).sum(axis=1).max() > 3e-3
+    assert np.linalg.norm(np.diff(paths, axis=1), axis=2).sum(axis=1).max() > 3e-3
     strands = face.muscle_strands(rest)
     low, high = rest.min(axis=0) - 5e-3, rest.max(axis=0) + 5e-3
     assert all((lines > low).all() and (lines < high).all() for lines in strands.values())
@@ -67,8 +66,8 @@ def test_the_preview_shows_on_the_object_and_goes_without_a_trace(head: Any) -> 
 
     before = state()
     face, wanted = LiveFace(target_of(head)), wanted_of(head)
-    moved = face.moved(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights, exact=True)
-    face.show(target_of(head), moved)
+    pose = face.pose(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights, exact=True)
+    face.show(target_of(head), pose.displacement)
     shown = meshes.evaluated_vertices(head)
     posed = api.default_face().pose(wanted.frame, emotion=wanted.profile.weights)
     np.testing.assert_allclose(shown, posed.positions, atol=2e-6)

@@ -1,0 +1,88 @@
+"""What is known of the faces of the open file while the user works. Nothing of it is saved.
+
+One object holds it all, and another file gets another object: nothing of the last one is left over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ..arrays import Floats
+from ..scene.live.held_faces import DueLooks, HeldFaces
+from ..scene.live.reading import FaceReader, Reading
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """What a preview shows: muscle name -> contraction, 0..1; and the skin's ways there (k, T, 3), if wanted."""
+
+    contractions: Mapping[str, float]
+    paths: Floats | None = None
+
+
+@dataclass
+class Previews:
+    """The faces that are previewed, by their numbers (`uid_of`).
+
+    Attributes
+    ----------
+    faces : held ready. due : to be shown next.
+    shown : what each shows.
+    hidden : those that showed a preview before the file was saved or changed by undo.
+    trouble : why the last one could not be shown.
+    object_count : how many objects the file had when it was last looked at.
+    """
+
+    faces: HeldFaces = field(default_factory=HeldFaces)
+    due: DueLooks = field(default_factory=DueLooks)
+    shown: dict[int, Shown] = field(default_factory=dict)
+    hidden: frozenset[int] = frozenset()
+    trouble: str = ""
+    object_count: int = 0
+
+
+@dataclass
+class ReadFace:
+    """The face that a panel reads.
+
+    Attributes
+    ----------
+    ids : numbers of its object and mesh. reader : holds it ready. reading : the last one.
+    trouble : why there is no reading.
+    is_stale : whether something has changed since. was_drawn : whether a panel has shown it since.
+    last, cost : when it was last read, and how long that took, s.
+    """
+
+    ids: tuple[int, int] | None = None
+    reader: FaceReader | None = None
+    reading: Reading | None = None
+    trouble: str = ""
+    is_stale: bool = True
+    was_drawn: bool = False
+    last: float = -float("inf")
+    cost: float = 0.0
+
+
+@dataclass
+class Session:
+    """All that is known of the open file's faces."""
+
+    previews: Previews = field(default_factory=Previews)
+    read: ReadFace = field(default_factory=ReadFace)
+
+
+_session = Session()
+
+
+def session() -> Session:
+    """The session of the open file."""
+    return _session
+
+
+def begin_session() -> Session:
+    """A new session, as when another file is opened; the work of the last one stops."""
+    global _session
+    _session.previews.faces.stop()
+    _session = Session()
+    return _session
