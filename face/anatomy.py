@@ -75,7 +75,7 @@ class Anatomy:
         parts = self.mesh.parts
         polygons = [p for p in self.mesh.polygons if (parts[p] == Part.SKIN).all()]
         if not polygons:
-            raise ModelError("the face has no polygon of skin")
+            raise ModelError("the face has no skin polygons: check its parts")
         return polygons
 
     @cached_property

@@ -201,15 +201,15 @@ class Face:
         A first pose does the same by itself; this is for whoever shows progress.
         """
         anatomy, poser = self.anatomy, self._poser
-        yield 0.0, "Laying out the skin"
+        yield 0.0, "Preparing the skin"
         _ = anatomy.skin, anatomy.muscles
-        yield 0.1, "Finding what each muscle does"
+        yield 0.1, "Computing what each muscle does"
         _ = anatomy.actuators
         yield 0.5, "Relating muscles to FAPs"
         _ = anatomy.inverse
-        yield 0.7, "Finding where lips and lids meet"
+        yield 0.7, "Preparing contact of lips and lids"
         _ = poser.anatomy.contact
-        yield 0.9, "Relaxing the skin"
+        yield 0.9, "Solving the skin"
         poser.sketch(np.full(FAP_COUNT, np.nan), Drive.NATURAL, None, None, Memory())
 
     def sketcher(self) -> Sketcher:

@@ -19,7 +19,7 @@ def checked_frame(frame: ArrayLike) -> Floats:
         raise ParameterError("frame", f"must have {FAP_COUNT} values, index = FAP number - 1", array.shape)
     if np.isinf(array).any():
         number = int(np.flatnonzero(np.isinf(array))[0]) + 1
-        raise ParameterError(f"FAP {number}", "must be finite, or NaN where silent", float(array[number - 1]))
+        raise ParameterError(f"FAP {number}", "must be finite, or NaN where not stated", float(array[number - 1]))
     return array
 
 
@@ -32,7 +32,7 @@ def checked_frames(frames: ArrayLike) -> Floats:
     if len(wrong):
         moment, index = wrong[0]
         raise ParameterError(
-            f"FAP {index + 1} of frame {moment}", "must be finite, or NaN where silent", float(array[moment, index])
+            f"FAP {index + 1} of frame {moment}", "must be finite, or NaN where not stated", float(array[moment, index])
         )
     return array
 

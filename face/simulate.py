@@ -138,7 +138,7 @@ class Simulation:
                 try:
                     motion = self._frame(motion, before, aim, moment.frame)
                 except SolverError as error:
-                    raise SolverError(f"the face's motion was not solved: {error}", frame=number) from error
+                    raise SolverError(f"the motion could not be solved: {error}", frame=number) from error
             before = aim
             displacement = motion.skin.positions - self.skin.rest
             state = SkinState(displacement, aim.elastic, JawMotion(*motion.jaw[0].tolist()))

@@ -20,7 +20,7 @@ class Progress:
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.fraction <= 1.0:
-            raise ParameterError("fraction", "must lie in [0, 1]", self.fraction)
+            raise ParameterError("fraction", "must be in [0, 1]", self.fraction)
 
 
 #: A generator that yields Progress and returns T. Closing it before its end undoes whatever it had begun.

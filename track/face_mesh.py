@@ -44,7 +44,7 @@ def find_landmarks(pictures: Pictures, *, progress: Progress | None = None) -> L
             if not pictures.live:
                 raise
     if not times or all(np.isnan(face).all() for face in positions):
-        raise ModelError(f"{pictures.name}: no picture shows a face: it must be seen from the front, well lit, large")
+        raise ModelError(f"{pictures.name}: no image shows a face: it must be large, well lit and seen from the front")
     return Landmarks(np.array(times), np.array(positions))
 
 

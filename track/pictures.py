@@ -65,7 +65,7 @@ def open_pictures(sources: Sequence[str | Path], *, fps: float | None = None, se
         if value is not None and not (math.isfinite(value) and value > 0.0):
             raise ParameterError(name, "must be a positive number", value)
     if not sources:
-        raise ParameterError("sources", "must name a film, pictures, a folder or a camera", ())
+        raise ParameterError("sources", "must be a video, images, a folder or a camera", ())
     cv2 = needed("cv2")
     camera = CAMERA.fullmatch(str(sources[0])) if len(sources) == 1 else None
     if camera is not None:
@@ -98,12 +98,12 @@ def _files(source: str | Path) -> list[Path]:
     path = Path(source)
     if path.is_dir():
         found = [file for file in path.iterdir() if file.suffix.lower() in PICTURE_KINDS]
-        missing = f"holds no pictures ({', '.join(PICTURE_KINDS)})"
+        missing = f"contains no images ({', '.join(PICTURE_KINDS)})"
     elif path.is_file():
         return [path]
     else:
         found = [Path(name) for name in glob.glob(str(source))]
-        missing = "is not there: name a film, pictures, a folder or `camera`"
+        missing = "does not exist: give a video, images, a folder or `camera`"
     if not found:
         raise FormatError(source, missing)
     return sorted(found, key=lambda file: [(int(d or 0), t) for d, t in re.findall(r"(\d+)|(\D+)", str(file))])
@@ -113,7 +113,7 @@ def _picture(cv2: Any, file: Path) -> Picture:
     """One picture of a file."""
     seen = cv2.imdecode(np.frombuffer(file.read_bytes() or b"\0", dtype=np.uint8), cv2.IMREAD_COLOR)
     if seen is None:
-        raise FormatError(file, "is no picture that can be read: convert it to .png, or leave it out")
+        raise FormatError(file, "is not a readable image: convert it to .png, or leave it out")
     return _in_rgb(seen)
 
 
@@ -127,7 +127,7 @@ def _film(cv2: Any, file: Path, fps: float | None, seconds: float | None) -> Pic
     film = cv2.VideoCapture(str(file))
     told = film.get(cv2.CAP_PROP_FPS)
     if not film.isOpened():
-        raise FormatError(file, "is no film that can be read: convert it to .mp4, or write its pictures to a folder")
+        raise FormatError(file, "is not a readable video: convert it to .mp4, or extract its frames to a folder")
     rate = fps or (told if math.isfinite(told) and told > 0.0 else USUAL_RATE)
     count = int(max(film.get(cv2.CAP_PROP_FRAME_COUNT), 0)) or None
     most = round(seconds * rate) if seconds else None
@@ -144,7 +144,7 @@ def _film(cv2: Any, file: Path, fps: float | None, seconds: float | None) -> Pic
         finally:
             film.release()
         if number == 0:
-            raise FormatError(file, "is a film without pictures: is it damaged?")
+            raise FormatError(file, "is a video without frames: is it damaged?")
 
     return Pictures(_printable(file.stem), rate, min(filter(None, (count, most)), default=None), False, frames())
 
@@ -153,7 +153,9 @@ def _camera(cv2: Any, number: int, fps: float | None, seconds: float | None) -> 
     """What a camera sees from now on."""
     camera = cv2.VideoCapture(number)
     if not camera.isOpened():
-        raise RisoriusError(f"camera {number} cannot be opened: plug it in, close what uses it, or try camera:1")
+        raise RisoriusError(
+            f"camera {number} cannot be opened: connect it, close programs that use it, or try camera:1"
+        )
     told = camera.get(cv2.CAP_PROP_FPS)
 
     def frames() -> Iterator[tuple[float, Picture]]:

@@ -73,7 +73,7 @@ def track_landmarks(
     ParameterError : an option outside its rule. ModelError : no picture shows a whole face.
     """
     if not 0.0 <= least <= 1.0:
-        raise ParameterError("least", "must lie in 0..1", least)
+        raise ParameterError("least", "must be in 0..1", least)
     if isinstance(neutral, str) and neutral != GENERIC:
         raise ParameterError("neutral", f'must be two times in seconds, or "{GENERIC}"', neutral)
     generic = neutral == GENERIC or len(landmarks.times) == 1

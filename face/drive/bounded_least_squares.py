@@ -57,4 +57,4 @@ def bounded_least_squares(matrix: Floats, right: Floats, lower: Floats, upper: F
         else:
             wrong = wrong[-1:]
         held[wrong] = np.where(low, -1, np.where(high, 1, 0))[wrong]
-    raise SolverError("the bounded least-squares problem did not settle", step=ROUNDS)
+    raise SolverError("the bounded least-squares problem did not converge", step=ROUNDS)

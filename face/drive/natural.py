@@ -78,11 +78,11 @@ class Plan:
         if np.isnan(goal):
             return "not planned"
         if np.isnan(asked):
-            return "the profile is silent; it follows from the action units that explain the rest"
+            return "not in the profile; it follows from the action units that explain the request"
         if abs(limited - asked) > 0.02 * abs(asked) + 1.0:
-            return "held back by its anatomical range"
+            return "limited by its anatomical range"
         if abs(goal - limited) > 0.1 * abs(limited) + 5.0:
-            return "weighed against other requests"
+            return "balanced against other requests"
         return "as asked"
 
 

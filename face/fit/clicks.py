@@ -33,7 +33,7 @@ def checked_clicks(clicks: Mapping[str, object] | None, template: FitTemplate) -
     checked: dict[str, Floats] = {}
     for name, place in (clicks or {}).items():
         if name not in template.names:
-            known = "lies on no skin" if name in FEATURE_POINTS else "is no feature point"
+            known = "is not on the skin" if name in FEATURE_POINTS else "is not a feature point"
             raise ParameterError(
                 "clicks", f"must name points of the skin such as {', '.join(ASKED)}; {name} {known}", name
             )
@@ -60,7 +60,7 @@ def pose_from_clicks(clicks: Mapping[str, Floats], template: FitTemplate) -> Hea
     a, b = source - source.mean(axis=0), target - target.mean(axis=0)
     spread = np.linalg.svd(b, compute_uv=False)
     if not spread[1] > THIN * spread[0]:
-        raise ModelError(f"the clicked points lie on one line or in one spot; click {', '.join(ASKED)}")
+        raise ModelError(f"the clicked points are on one line or in one place; click {', '.join(ASKED)}")
     u, values, vt = np.linalg.svd(b.T @ a)
     flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(u @ vt)))])
     rotation = u @ flip @ vt
@@ -71,8 +71,8 @@ def pose_from_clicks(clicks: Mapping[str, Floats], template: FitTemplate) -> Hea
     if mean > FARTHEST:
         worst = max(misses, key=lambda name: misses[name])
         raise ModelError(
-            f"the clicked points form no face: they miss one by {1e3 * mean:.0f} mm on average, {worst} most; "
-            f"click again, and mind that left is the subject's left (the viewer's right)"
+            f"the clicked points do not form a face: they differ from one by {1e3 * mean:.0f} mm on average, {worst} "
+            f"most; click again (left is the subject's left, the viewer's right)"
         )
     return pose
 

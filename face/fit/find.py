@@ -173,7 +173,7 @@ def _welded(vertices: Floats, polygons: Polygons) -> Surface:
     surface = Surface.from_polygons(vertices, polygons)
     size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
     if not size > 0.0:
-        raise ModelError("no face found: all vertices lie in one place")
+        raise ModelError("no face found: all vertices are in one place")
     cells = np.round((vertices - vertices.min(axis=0)) / (SAME_PLACE * size)).astype(np.int64)
     _, first, same = np.unique(cells, axis=0, return_index=True, return_inverse=True)
     triangles: Ints = first[np.ravel(same)][surface.triangles]
@@ -189,7 +189,7 @@ def _located_by_clicks(surface: Surface, clicked: Mapping[str, Floats], template
     pose = pose_from_clicks(clicked, template)
     cloud = box_cloud(surface, pose, HEAD_BOX, HEAD)
     if len(cloud) == 0:
-        raise ModelError("the clicked points lie off the mesh: click on its surface")
+        raise ModelError("the clicked points are off the mesh: click on its surface")
     if looks_backwards(cloud, pose):
         surface = surface.flipped()
         cloud = box_cloud(surface, pose, HEAD_BOX, HEAD)

@@ -117,7 +117,7 @@ def read_topology(path: str | Path) -> Topology:
 def _read_point(points: TomlTable, name: str, vertex_count: int) -> TopologyPoint:
     """A vertex, or [[vertices], [weights]]."""
     if name not in FEATURE_POINTS:
-        raise points.refuse("is not a feature point; the standard names them 2.1 to 11.6", name)
+        raise points.refuse("is not a feature point; the standard uses 2.1 to 11.6", name)
     if not isinstance(points.cells[name], list):
         vertex = points.integer(name, least=0, most=vertex_count - 1)
         return TopologyPoint(np.array([vertex], dtype=np.int64), np.ones(1))

@@ -25,7 +25,7 @@ def checked_vertices(vertices: ArrayLike) -> Floats:
     wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
     if len(wrong):
         raise ModelError(
-            f"{len(wrong)} vertices are NaN or infinite, the first is vertex {wrong[0]}: mend the mesh or delete them"
+            f"{len(wrong)} vertices are NaN or infinite, the first is vertex {wrong[0]}: repair the mesh or delete them"
         )
     return array
 
@@ -40,7 +40,7 @@ def checked_polygons(polygons: Sequence[Sequence[int]] | ArrayLike, vertex_count
             raise ModelError(f"polygon {number} needs at least three corners")
         outside = polygon[(polygon < 0) | (polygon >= vertex_count)]
         if len(outside):
-            raise ModelError(f"polygon {number} names vertex {outside[0]}, but the mesh has {vertex_count} vertices")
+            raise ModelError(f"polygon {number} uses vertex {outside[0]}, but the mesh has {vertex_count} vertices")
     return faces
 
 
@@ -79,9 +79,7 @@ def checked_parts(
     """Given parts, checked, or derived ones."""
     nose = points["9.3"]
     if not nose.is_bound:
-        raise ModelError(
-            "feature point 9.3 (nose tip) does not lie on the mesh: give a vertex or a point on the surface"
-        )
+        raise ModelError("feature point 9.3 (nose tip) is not on the mesh: give a vertex or a point on the surface")
     if parts is None:
         return derive_parts(head, polygons, landmarks, int(nose.vertices[0]))
     array = np.array(parts, dtype=np.int64)
@@ -99,7 +97,7 @@ def checked_axes(axes: ArrayLike) -> Floats:
     array = np.array(axes, dtype=np.float64)
     if array.shape != (3, 3) or not np.allclose(array @ array.T, np.eye(3), atol=1e-6) or np.linalg.det(array) < 0.0:
         raise ModelError(
-            "axes must be three unit vectors at right angles, to the subject's left, up and forward; "
+            "axes must be three perpendicular unit vectors: the subject's left, up, forward; "
             "left x up must point forward"
         )
     return array

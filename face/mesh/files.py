@@ -46,7 +46,7 @@ def read_mesh(path: str | Path) -> MeshFile:
     """
     path = Path(path)
     if path.suffix.lower() not in SUFFIXES:
-        raise FormatError(path, f"only {' and '.join(SUFFIXES)} are read without Blender; export the mesh as .obj")
+        raise FormatError(path, f"only {' and '.join(SUFFIXES)} can be read without Blender; export the mesh as .obj")
     if not path.is_file():
         raise FormatError(path, "there is no such file")
     return _read_npz(path) if path.suffix.lower() == ".npz" else _read_obj(path)

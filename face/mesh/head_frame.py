@@ -80,7 +80,7 @@ def head_frame(points: Mapping[str, Floats], axes: Floats | None = None) -> Head
     ens0 = eyes[:, 1].mean()
     scale = (es0 / TEMPLATE_FAPU.es0 + ens0 / TEMPLATE_FAPU.ens0) / 2.0
     if not scale > 0.0:
-        raise ModelError("the pupils 3.5 and 3.6 lie below the nose or are swapped: 3.5 is the subject's left eye")
+        raise ModelError("the pupils 3.5 and 3.6 are below the nose or swapped: 3.5 is the subject's left eye")
     return HeadFrame(axes=axes, origin=origin, scale=float(scale))
 
 
@@ -95,7 +95,7 @@ def _axes(points: Mapping[str, Floats]) -> Floats:
     target = target - target.mean(axis=0)
     spread = np.linalg.svd(target, compute_uv=False)
     if not np.isfinite(spread).all() or spread[1] < 1e-3 * spread[0] or spread[0] == 0.0:
-        raise ModelError("the feature points lie on one line or in one spot: they do not form a face")
+        raise ModelError("the feature points are on one line or in one place: they do not form a face")
     fitted: Floats = _rotation_between(source, target).T
     modelled = np.rint(fitted)
     if not np.array_equal(modelled @ modelled.T, np.eye(3)):  # far from any axes: no rotation at all

@@ -59,7 +59,7 @@ def _path(graph: Sparse, stops: Sequence[int], names: Sequence[str]) -> Ints:
             continue
         distance, previous = dijkstra(graph, indices=np.array(end), return_predecessors=True)
         if not np.isfinite(distance[start]):
-            raise ModelError(f"feature points {a} and {b} lie on separate pieces of the mesh: no lip or lid joins them")
+            raise ModelError(f"feature points {a} and {b} are on separate pieces of the mesh, not on one lip or lid")
         at = start
         while at != end:
             at = int(previous[at])
@@ -121,5 +121,5 @@ def outer_faces(polygons: Sequence[Ints], openings: Sequence[Opening], seed: int
     _, labels = connected_components(graph, directed=False)
     home = next((face for face, polygon in enumerate(polygons) if seed in polygon), None)
     if home is None:
-        raise ModelError("the nose tip 9.3 lies on no polygon of the skin")
+        raise ModelError("the nose tip 9.3 is not on a polygon of the skin")
     return np.asarray(labels == labels[home])

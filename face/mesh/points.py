@@ -155,10 +155,10 @@ def bind_points(
     """
     unknown = sorted(set(points) - set(FEATURE_POINTS))
     if unknown:
-        raise ModelError(f"no such feature point: {', '.join(unknown)}; the standard names them 2.1 to 11.6")
+        raise ModelError(f"no such feature point: {', '.join(unknown)}; the standard uses 2.1 to 11.6")
     missing = [name for name in REQUIRED if name not in points]
     if missing:
-        raise ModelError(f"the face lacks the feature points {', '.join(missing)}: add them to the points given")
+        raise ModelError(f"the face lacks the feature points {', '.join(missing)}: add them")
     anywhere = _Surface(vertices, triangles)
     on_skin = anywhere if skin is None else _Surface(vertices, triangles[skin[triangles].all(axis=1)])
     bound: dict[str, BoundPoint] = {}
@@ -166,9 +166,7 @@ def bind_points(
         if isinstance(source, int | np.integer):
             index = int(source)
             if not 0 <= index < len(vertices):
-                raise ModelError(
-                    f"feature point {name} names vertex {index}, but the mesh has {len(vertices)} vertices"
-                )
+                raise ModelError(f"feature point {name} uses vertex {index}, but the mesh has {len(vertices)} vertices")
             bound[name] = BoundPoint(name, vertices[index].copy(), np.array([index]), np.ones(1))
             continue
         position = np.asarray(source, dtype=np.float64)

@@ -57,9 +57,9 @@ class AnimationTable:
         if not (np.isfinite(self.unit) and self.unit > 0.0):
             raise ParameterError("unit", "must be positive", self.unit)
         if self.borders.ndim != 1 or len(self.borders) < 2 or (np.diff(self.borders) <= 0).any():
-            raise ParameterError("borders", "must be two or more numbers that rise", self.borders.tolist())
+            raise ParameterError("borders", "must be two or more numbers in ascending order", self.borders.tolist())
         if 0 not in self.borders:
-            raise ParameterError("borders", "must hold 0", self.borders.tolist())
+            raise ParameterError("borders", "must contain 0", self.borders.tolist())
         if self.vertices.ndim != 1 or (self.vertices < 0).any() or len(np.unique(self.vertices)) != len(self.vertices):
             raise ParameterError("vertices", "must be different indices", self.vertices.shape)
         expected = (len(self.borders) - 1, len(self.vertices), 3)

@@ -176,7 +176,7 @@ def _neutral_frames(shapes: Floats, seen: Bools, neutral: tuple[int, int] | None
         raise ParameterError("neutral", f"must be in frames 0..{len(shapes) - 1}, the first before the last", neutral)
     chosen = first + np.flatnonzero(seen[first : last + 1])
     if len(chosen) == 0:
-        raise ParameterError("neutral", "must hold a frame with a face", neutral)
+        raise ParameterError("neutral", "must contain a frame with a face", neutral)
     return np.asarray(chosen, dtype=np.int64)
 
 

@@ -134,7 +134,7 @@ def bake_expression(
     source = target.source()
     yield Progress(0.1, "Placing the muscles")
     face = face_of(source)
-    yield Progress(0.5, f"Relaxing the skin into {clip}")
+    yield Progress(0.5, f"Solving the skin for {clip}")
     pose = face.pose(frame, drive=drive, emotion=emotion, contractions=contractions)
     yield Progress(0.95, "Writing the shape key")
     shapes = (np.asarray(pose.positions) - source.vertices)[None]

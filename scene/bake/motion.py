@@ -67,7 +67,7 @@ class FapMotion:
 
     def __post_init__(self) -> None:
         if len(self.frames) == 0:
-            raise ParameterError("frames", "must hold at least one frame", len(self.frames))
+            raise ParameterError("frames", "must contain at least one frame", len(self.frames))
 
     def frame_count(self, fps: float) -> int:
         """The stream's own frames."""

@@ -61,7 +61,7 @@ def bake_strips(
     face = face_of(source)
     moved = []
     for number, shape in enumerate(shapes):
-        yield Progress(0.2 + 0.75 * number / len(shapes), f"Relaxing the skin into {shape.clip}")
+        yield Progress(0.2 + 0.75 * number / len(shapes), f"Solving the skin for {shape.clip}")
         pose = face.pose(shape.frame, drive=drive, emotion=shape.emotion, contractions=shape.contractions)
         moved.append((np.asarray(pose.positions) - source.vertices)[None])
     marks = crease_marks.prepare(source, creases)

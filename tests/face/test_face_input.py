@@ -50,15 +50,15 @@ REFUSALS: dict[str, tuple[Callable[[HeadMesh], dict[str, Any]], str]] = {
     "two corners": (lambda h: {"polygons": [*h.polygons, (0, 1)]}, "at least three corners"),
     "index too high": (
         lambda h: {"polygons": [(0, 1, len(h.vertices))]},
-        r"polygon 0 names vertex (\d+), but the mesh has \1 vertices",
+        r"polygon 0 uses vertex (\d+), but the mesh has \1 vertices",
     ),
-    "index negative": (lambda h: {"polygons": [(0, 1, -2)]}, "polygon 0 names vertex -2"),
+    "index negative": (lambda h: {"polygons": [(0, 1, -2)]}, "polygon 0 uses vertex -2"),
     "points missing": (
         lambda h: {"points": {n: p for n, p in h.points.items() if n not in ("8.4", "2.1")}},
         r"lacks the feature points 2\.1, 8\.4",
     ),
     "unknown point": (lambda h: {"points": dict(h.points) | {"8.99": 3}}, r"no such feature point: 8\.99"),
-    "point beyond mesh": (lambda h: {"points": dict(h.points) | {"8.3": 10**6}}, "8.3 names vertex 1000000"),
+    "point beyond mesh": (lambda h: {"points": dict(h.points) | {"8.3": 10**6}}, "8.3 uses vertex 1000000"),
     "point of two numbers": (lambda h: {"points": dict(h.points) | {"3.1": (0.0, 1.0)}}, "feature point 3.1 must be"),
     "point NaN": (lambda h: {"points": dict(h.points) | {"3.1": (0.0, 1.0, np.nan)}}, "feature point 3.1 must be"),
     "corners swapped": (lambda h: {"points": swapped(h, ("8.3", "8.4"))}, r"8\.3 and 8\.4 are swapped.*left"),
@@ -68,8 +68,8 @@ REFUSALS: dict[str, tuple[Callable[[HeadMesh], dict[str, Any]], str]] = {
     ),
     "lids swapped": (lambda h: {"points": swapped(h, ("3.2", "3.4"))}, r"3\.2 and 3\.4 are swapped.*above"),
     "lips swapped": (lambda h: {"points": swapped(h, ("8.1", "8.2"))}, r"8\.1 and 8\.2 are swapped.*above"),
-    "points in line": (on_one_line, "lie on one line"),
-    "nose off the mesh": (far_nose, r"9\.3 \(nose tip\) does not lie on the mesh"),
+    "points in line": (on_one_line, "are on one line"),
+    "nose off the mesh": (far_nose, r"9\.3 \(nose tip\) is not on the mesh"),
     "parts too few": (lambda h: {"parts": h.parts[:-1]}, "one number per vertex"),
     "parts unknown": (lambda h: {"parts": np.full(len(h.vertices), 9)}, "numbers of Part"),
     "no skin": (lambda h: {"parts": np.full(len(h.vertices), int(Part.OTHER))}, "no skin"),
@@ -103,7 +103,7 @@ def test_missing_pupils_are_placed_in_the_eyes_openings(head: HeadMesh, face: Fa
     [
         (np.zeros(66), "68 values"),
         (np.zeros((2, 68)), "68 values"),
-        (np.where(np.arange(68) == 4, np.inf, np.nan), r"FAP 5 must be finite, or NaN where silent, but it is inf"),
+        (np.where(np.arange(68) == 4, np.inf, np.nan), r"FAP 5 must be finite, or NaN where not stated, but it is inf"),
     ],
 )
 def test_a_wrong_frame_is_refused(face: Face, frame: np.ndarray, said: str) -> None:

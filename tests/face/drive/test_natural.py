@@ -237,7 +237,7 @@ def test_the_face_does_what_is_planned_and_no_more_than_anatomy_where_it_was_ask
             assert done == pytest.approx(goal, abs=2.0 if silent else 0.5), (word, number)
             if not silent and number not in JAW_CARRIES:
                 assert DATA.low[row] - 0.5 <= done <= DATA.high[row] + 0.5, (word, number)
-    assert pose.reasons[31] == "held back by its anatomical range"
+    assert pose.reasons[31] == "limited by its anatomical range"
 
 
 def test_a_louder_request_is_a_louder_face() -> None:

@@ -132,14 +132,14 @@ def test_clicks_place_a_face_that_is_refused(shared_head: Callable) -> None:
 def test_clicks_that_make_no_sense(head: HeadMesh) -> None:
     truth = places(head.vertices, head.points)
     swapped = {"3.7": truth["3.12"], "3.12": truth["3.7"], "8.3": truth["2.1"], "9.3": truth["11.4"]}
-    with pytest.raises(ModelError, match="no face"):
+    with pytest.raises(ModelError, match="do not form a face"):
         api.find_points(head.vertices, head.polygons, swapped, topologies=())
     line = {name: np.array([0.0, 0.0, 0.01 * k]) for k, name in enumerate(ASKED)}
     with pytest.raises(ModelError, match="one line"):
         api.find_points(head.vertices, head.polygons, line, topologies=())
-    with pytest.raises(ParameterError, match=r"9\.99 is no feature point"):
+    with pytest.raises(ParameterError, match=r"9\.99 is not a feature point"):
         api.find_points(head.vertices, head.polygons, {"9.99": (0.0, 0.0, 0.0)})
-    with pytest.raises(ParameterError, match="lies on no skin"):
+    with pytest.raises(ParameterError, match="is not on the skin"):
         api.find_points(head.vertices, head.polygons, {"6.1": (0.0, 0.0, 0.0)})
     with pytest.raises(ParameterError, match="three finite"):
         api.find_points(head.vertices, head.polygons, {"3.7": (0.0, np.nan, 0.0)})
