@@ -20,7 +20,7 @@ build: ## what users install, in dist/; ARGS="--platform linux-x64 --blender 5.1
 	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/build.py $(ARGS)
 
 bench: ## speed and accuracy figures
-	@$(SETUP) bpy-4.5 && for script in tools/bench/*.py; do echo "== $$script"; .venv-bpy-4.5/bin/python "$$script" || exit 1; done
+	@$(SETUP) bpy-4.5 && .venv-bpy-4.5/bin/python tools/bench_speed.py $(ARGS)
 
 bench-faithful: ## how faithful the faces are: tables and contact sheets in out/faithful/; ARGS="--help" for parts of it
 	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/bench_faithful.py $(ARGS)

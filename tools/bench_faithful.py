@@ -30,12 +30,13 @@ from faithful.figures import (
     scans_explained_by_points,
     scans_explained_without,
 )
-from faithful.heads import HEADS, IDENTITIES, ROOT, heads_folder, load_face
+from faithful.heads import HEADS, IDENTITIES, heads_folder, load_face
 from faithful.report import Results, page
+from places import OUT
 from risorius.api import ADDITIONS, Drive, Mechanism
 from risorius.errors import RisoriusError
 
-OUT = ROOT / "out" / "faithful"
+SHEETS = OUT / "faithful"
 
 #: Heads that are pictured: two identities stand for the others.
 PICTURED = ("default", "ict", "makehuman", "identity-0", "identity-3")
@@ -136,7 +137,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--no-tables", action="store_true")
     parser.add_argument("--no-pictures", action="store_true")
     parser.add_argument("--fine", action="store_true", help="smoother pictures of the apexes, in four times the time")
-    parser.add_argument("--out", type=Path, default=OUT, help="folder for faithful.md and the pictures")
+    parser.add_argument("--out", type=Path, default=SHEETS, help="folder for faithful.md and the pictures")
     parser.add_argument("--page", type=Path, help="write the tables to this file too")
     parser.add_argument("--jobs", type=int, default=min(os.cpu_count() or 1, 4), help="processes at once")
     given = parser.parse_args(arguments)

@@ -156,22 +156,22 @@ def moved_row(start: MuscleRow, figure_steps: Sequence[tuple[Figure, float]]) ->
     for figure, steps in figure_steps:
         step, least, most = STEPS[figure.kind]
         value = getattr(row, figure.field)
+        changed: dict[str, Any]
         if figure.kind == "place":
             reach = np.clip(steps * step, -FARTHEST, FARTHEST)
-            row = replace(row, **{figure.field: value + reach * np.eye(3)[figure.entry]})
+            changed = {figure.field: value + reach * np.eye(3)[figure.entry]}
         elif figure.kind == "direction":
-            turned = value + np.eye(3)[figure.entry] * steps * step
-            row = replace(row, **{figure.field: turned})
+            changed = {figure.field: value + np.eye(3)[figure.entry] * steps * step}
         elif figure.kind == "radii":
             radii = list(value)
             radii[figure.entry] = float(np.clip(radii[figure.entry] * np.exp(steps * step), least, most))
-            row = replace(row, **{figure.field: tuple(radii)})
+            changed = {figure.field: tuple(radii)}
         elif figure.kind == "prior":
             prior = float(np.clip(value * np.exp(steps * step), least, most))
-            row = replace(row, prior=prior, amplitude=max(prior, row.amplitude))
+            changed = {"prior": prior, "amplitude": max(prior, row.amplitude)}
         else:
-            changed: dict[str, Any] = {figure.field: float(np.clip(value + steps * step, least, most))}
-            row = replace(row, **changed)
+            changed = {figure.field: float(np.clip(value + steps * step, least, most))}
+        row = replace(row, **changed)
     return row
 
 

@@ -18,13 +18,10 @@ import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "tools" / "window"))
+from places import DOCS, ROOT, shared_folder
+from window.driver import Window, WindowError, call
 
-from driver import Window, WindowError, call  # noqa: E402  (found only now)
-
-SHARED = Path(os.environ.get("RISORIUS_SHARED") or ROOT.parent / "shared")
-PICTURES = ROOT / "docs" / "pictures"
+PICTURES = DOCS / "pictures"
 #: Quality of the JPEG files, and seconds for the window to draw what was changed.
 QUALITY, DRAWN = 85, 1.5
 VIEW = "bl_ext.user_default.risorius.operators.wheel.view"
@@ -139,7 +136,7 @@ def baked(session: Session) -> None:
 
 def own_head(session: Session) -> None:
     """A head of the user's: points found, parts told apart."""
-    mesh = SHARED / "heads" / "makehuman.npz"
+    mesh = shared_folder() / "heads" / "makehuman.npz"
     session.fresh()
     session.window.ask(
         "import numpy as np\n"
@@ -223,7 +220,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", nargs="*", choices=PICTURED, default=list(PICTURED), help="which pictures")
     arguments = parser.parse_args()
-    tool = SHARED / "tools" / "blender-gui"
+    tool = shared_folder() / "tools" / "blender-gui"
     if not tool.is_file() or not hasattr(os, "geteuid") or os.geteuid() != 0:
         print(f"The pictures need {tool} and root: set RISORIUS_SHARED to the folder that has it.", file=sys.stderr)
         return 1

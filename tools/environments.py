@@ -18,9 +18,8 @@ import venv
 from dataclasses import dataclass
 from pathlib import Path
 
+from places import ROOT
 from system_libraries import MissingLibraries, ensure_system_libraries
-
-ROOT = Path(__file__).resolve().parent.parent
 
 
 @dataclass(frozen=True)

@@ -12,16 +12,16 @@ from __future__ import annotations
 import argparse
 import time
 
-from evidence_faces import ROOT, faces, shared_folder
-from evidence_page import Figures, page
-from evidence_plots import draw_confusions, draw_samples, draw_shapes
-from evidence_poses import DRAWS, Series, gather
-from evidence_samples import read_samples
-from evidence_scans import gather_scans
-from evidence_verdicts import Way, all_verdicts
+from places import DOCS, OUT, ROOT, shared_folder
+from recognition.faces import faces
+from recognition.page import Figures, page
+from recognition.plots import draw_confusions, draw_samples, draw_shapes
+from recognition.poses import DRAWS, Series, gather
+from recognition.samples import read_samples
+from recognition.scans import gather_scans
+from recognition.verdicts import Way, all_verdicts
 
-PAGE, CACHE = ROOT / "docs" / "evidence.md", ROOT / "out" / "evidence"
-PICTURES = PAGE.parent / "pictures"
+PAGE, CACHE, PICTURES = DOCS / "evidence.md", OUT / "evidence", DOCS / "pictures"
 
 SCANS, PAGE_PART = "scans", "page"
 PARTS = (*map(str, Series), SCANS, PAGE_PART)

@@ -9,21 +9,20 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import risorius.api as api
+from places import DOCS, ROOT, shared_folder
 from risorius.arrays import Floats
 from risorius.face.drive.synergies import load_synergies
 from risorius.face.mesh.fap_units import unit_length
 from risorius.face.pose import Poser
 from risorius.face.response.actuators import LID_NAMES
 
-ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "faps.md"
+PAGE = DOCS / "faps.md"
 
 #: Units asked of a length and of an angle; less where that leaves the range in which a natural face follows.
 LENGTH_UNITS, ANGLE_UNITS, RANGE_SHARE = 100.0, 10000.0, 0.3
@@ -206,8 +205,8 @@ def table(faces: Mapping[str, api.Face]) -> Iterator[str]:
 def main() -> None:
     """Write the page."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    shared = Path(os.environ.get("RISORIUS_SHARED") or ROOT.parent / "shared")
-    parser.add_argument("--heads", type=Path, default=shared / "heads", help="folder with ict.npz and ict.fp.json")
+    default = shared_folder() / "heads"
+    parser.add_argument("--heads", type=Path, default=default, help="folder with ict.npz and ict.fp.json")
     folder = parser.parse_args().heads
     faces = {"default head": api.default_face()}
     ict = ict_face(folder)

@@ -13,95 +13,22 @@ from __future__ import annotations
 
 import argparse
 import multiprocessing
-import os
-import re
 import time
-from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from fit_hard import hard_heads
-from fit_heads import SharedHeads, TrueHead
-from risorius.arrays import Floats
-
-ROOT = Path(__file__).resolve().parent.parent
-OUT = ROOT / "out" / "fit"
-PARTS = ("known", "second", "hard", "reserved")
-EMOTIONS = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
-
-#: Meshes above this size take minutes a picture.
-LARGEST = 100_000
-#: Pixels of a picture; the overview's are half as large.
-WIDTH, HEIGHT = 260, 312
-
-
-@dataclass(frozen=True)
-class Strip:
-    """What the overview shows of a head: its name, a remark, and pictures (height, width, 3)."""
-
-    name: str
-    remark: str
-    pictures: Sequence[Floats]
-
-
-def chosen(folder: Path, part: str) -> Iterator[TrueHead]:
-    """The heads of a set that can be pictured."""
-    heads = SharedHeads(folder)
-    sets = {
-        "known": heads.known,
-        "second": heads.second,
-        "hard": lambda: hard_heads(heads),
-        "reserved": heads.reserved,
-    }
-    return (head for head in sets[part]() if len(head.vertices) <= LARGEST)
-
-
-def picture(folder: Path, part: str, name: str, out: Path) -> Strip:
-    """Write the sheet of one head; a job of its own."""
-    _silence_blender()
-    from fit_portrait import portrait
-
-    head = next(head for head in chosen(folder, part) if head.name == name)
-    return portrait(
-        head,
-        EMOTIONS,
-        out / (re.sub(r"[^\w.]+", "-", f"{part} {name}").strip("-") + ".png"),
-        width=WIDTH,
-        height=HEIGHT,
-    )
-
-
-def write_overview(strips: Sequence[Strip], part: str, out: Path) -> Path:
-    """One sheet of all heads."""
-    from faithful.sheet import Cell, write_grid
-
-    high, wide = HEIGHT // 2, WIDTH // 2
-    blank = np.zeros((high, wide, 3))
-    cells = []
-    for strip in strips:
-        small = [p.reshape(high, 2, wide, 2, 3).mean(axis=(1, 3)) for p in strip.pictures]
-        cells.append(Cell(strip.name, strip.remark, [*small, *[blank] * (len(EMOTIONS) + 1 - len(small))]))
-    heading = f"{part}: points found, then {', '.join(EMOTIONS)}"
-    return write_grid(cells, out / f"overview-{part}.png", columns=2, heading=heading)
-
-
-def _silence_blender() -> None:
-    """Blender tells of every picture on the process's own output."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    for stream in (1, 2):
-        os.dup2(nowhere, stream)
+from fit.sets import SETS
+from fit.sheet import Strip, chosen, picture, write_overview
+from places import OUT, shared_folder
 
 
 def main() -> None:
     """Picture the sets that are asked for."""
     parser = argparse.ArgumentParser(description="Contact sheets of found points and of the faces that they make.")
-    default = Path(os.environ.get("RISORIUS_SHARED") or ROOT.parent / "shared") / "heads"
-    parser.add_argument("--heads", type=Path, default=default)
-    parser.add_argument("--part", nargs="*", choices=PARTS, default=PARTS)
+    parser.add_argument("--heads", type=Path, default=shared_folder() / "heads")
+    parser.add_argument("--part", nargs="*", choices=SETS, default=list(SETS))
     parser.add_argument("--only", default="", help="the heads whose names contain this, without an overview")
-    parser.add_argument("--out", type=Path, default=OUT)
+    parser.add_argument("--out", type=Path, default=OUT / "fit")
     parser.add_argument("--jobs", type=int, default=2, help="processes at once")
     given = parser.parse_args()
     out = given.out.resolve()

@@ -12,15 +12,14 @@ import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-
 
 def provide_scipy() -> None:
     """Make SciPy importable: Blender's own, or one fetched for this Python (never NumPy: Blender brings it)."""
     try:
         import scipy  # noqa: F401
     except ImportError:
-        folder = ROOT / ".cache" / f"scipy-{sys.version_info.major}.{sys.version_info.minor}"
+        python = f"{sys.version_info.major}.{sys.version_info.minor}"
+        folder = Path(__file__).resolve().parent.parent / ".cache" / f"scipy-{python}"
         sys.path.append(str(folder))
         if (folder / "scipy").is_dir():
             return

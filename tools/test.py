@@ -17,9 +17,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 
-from environments import ENVIRONMENTS, ROOT, SetUpError, ensure, ensure_link
+from environments import ENVIRONMENTS, SetUpError, ensure, ensure_link
+from places import OUT, ROOT
 
-REPORTS = ROOT / "out" / "test-reports"
+REPORTS = OUT / "test-reports"
 TIME_LIMIT = 1500  # s for one step: a hang must not eat the whole run
 PURE = ("tests", "--ignore=tests/blender", "--ignore=tests/gui", "--ignore=tests/tools/release/test_install.py")
 IN_BLENDER = ("tests/blender", "tests/test_layers.py", "tests/tools/release/test_install.py")
@@ -53,7 +54,7 @@ class Step:
 
 def command(*arguments: str, folder: Path = ROOT) -> Count:
     """One command that either passes or fails."""
-    environment = {**os.environ, "MYPYPATH": os.pathsep.join((".", "window", str(ROOT / ".typecheck")))}
+    environment = {**os.environ, "MYPYPATH": os.pathsep.join((".", str(ROOT / ".typecheck")))}
     done = subprocess.run(arguments, cwd=folder, env=environment, timeout=TIME_LIMIT, check=False)
     return Count(failed=1) if done.returncode else Count(passed=1)
 

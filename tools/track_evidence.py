@@ -14,8 +14,9 @@ import argparse
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-OUT = ROOT / "out" / "track"
+from places import DOCS, OUT
+
+FILMS = OUT / "track"
 
 HEADS = ("default", "ict")
 NEUTRAL = "neutral"
@@ -53,7 +54,7 @@ def picture_what_was_read(out: Path) -> None:
     """Show the emotions of one head played on another."""
     from tracking.sheet import write_sheet
 
-    print(write_sheet(out / "emotions" / "ict-0", ROOT / "docs" / "pictures" / "tracking.jpg"))
+    print(write_sheet(out / "emotions" / "ict-0", DOCS / "pictures" / "tracking.jpg"))
 
 
 STEPS = {"films": make_films, "read": read_films, "sheet": picture_what_was_read}
@@ -63,7 +64,7 @@ def main(argv: list[str] | None = None) -> int:
     """Run one step."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("step", choices=STEPS)
-    parser.add_argument("--out", type=Path, default=OUT, help="where the pictures are (default: out/track)")
+    parser.add_argument("--out", type=Path, default=FILMS, help="where the pictures are (default: out/track)")
     arguments = parser.parse_args(argv)
     STEPS[arguments.step](arguments.out)
     return 0

@@ -22,6 +22,7 @@ import bpy
 import numpy as np
 import risorius.api as api
 from faithful.sheet import Cell, write_grid
+from places import OUT
 from risorius.api import Face
 from risorius.arrays import Floats, Ints
 from risorius.face.products.trajectories import sampled_vertices
@@ -32,7 +33,6 @@ from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.lettering import read_picture
 from risorius.scene.pictures.studio import Look, render_frame, studio
 
-ROOT = Path(__file__).resolve().parent.parent
 EMOTIONS = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
 
 #: Frames per second of the simulation, and seconds after the onset in which the skin comes to rest.
@@ -143,7 +143,7 @@ def main(arguments: Sequence[str]) -> int:
     """Write the picture; 0 when it is there."""
     parser = argparse.ArgumentParser(description="Paths of the skin from rest to the six expressions.")
     parser.add_argument("--timing", default="posed", choices=list(api.load_timings()))
-    parser.add_argument("--out", type=Path, default=ROOT / "out" / "trajectories.png")
+    parser.add_argument("--out", type=Path, default=OUT / "trajectories.png")
     chosen = parser.parse_args(arguments)
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     face, timing = api.default_face(), api.load_timings()[chosen.timing]

@@ -11,12 +11,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from places import ROOT
+from window.driver import call
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools" / "window"))
 OPENGL = ("libgl1", "libegl1", "libglx-mesa0")
-
-from driver import call  # noqa: E402  (found only now)
 
 
 @pytest.fixture(scope="session")

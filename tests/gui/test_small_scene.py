@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from driver import Window
+from places import ROOT
+from window.driver import Window
 
-ROOT = Path(__file__).resolve().parents[2]
 PICTURES = ROOT / "out" / "test-reports" / "scene"
 HEIGHT = 900
 

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from driver import call
+from places import ROOT
+from window.driver import call
 
-ROOT = Path(__file__).resolve().parents[2]
 PICTURE = ROOT / "out" / "test-reports" / "window.png"
 PATIENCE = 200.0  # s for the script in the window to get done
 

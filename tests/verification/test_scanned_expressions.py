@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-import importlib
-import sys
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
+from faithful.figures import scans_explained
 
 
 @pytest.fixture(scope="module")
 def explained(shared: Path) -> Iterator[Callable[[str], dict[str, float]]]:
     """Shape -> share of its motion that the pose from its FAPs explains, by head."""
-    sys.path.insert(0, str(ROOT / "tools"))
-    try:
-        figures = importlib.import_module("faithful.figures")
-    finally:
-        sys.path.remove(str(ROOT / "tools"))
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("RISORIUS_SHARED", str(shared))
-        yield cache(figures.scans_explained)
+        yield cache(scans_explained)
 
 
 def test_scanned_expressions_come_back_from_their_faps(explained: Callable[[str], dict[str, float]]) -> None:

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import json
-import os
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 import risorius.api as api
+from places import shared_folder
 from risorius.api import Face, Part
 from risorius.arrays import Bools, Floats, Ints
 from risorius.errors import FormatError, ParameterError
 from risorius.face.mesh.points import PointSource
 from risorius.face.mesh.segmentation import pieces
 from risorius.face.mesh.template import MM
-
-ROOT = Path(__file__).resolve().parents[2]
 
 #: Vertices of the ICT skin, which other identities have too; the rest is sockets, teeth, eyeballs.
 ICT_SKIN = 11248
@@ -28,13 +26,13 @@ _PARTS = {0: Part.SKIN, 5: Part.SKIN, 7: Part.SKIN, 1: Part.EYEBALL_L, 2: Part.E
 
 
 def heads_folder() -> Path:
-    """The folder of the heads: $RISORIUS_SHARED/heads, or ../shared/heads beside the checkout.
+    """The folder of the shared heads.
 
     Raises
     ------
     FormatError : it is not there.
     """
-    folder = Path(os.environ.get("RISORIUS_SHARED") or ROOT.parent / "shared") / "heads"
+    folder = shared_folder() / "heads"
     if not folder.is_dir():
         raise FormatError(folder, "there are no heads: set RISORIUS_SHARED to the folder that has heads/ict.npz")
     return folder

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 import risorius.api as api
+from places import DOCS
 from risorius.track import CameraFap, Track
 from risorius.track.tracking import LEAST
 
@@ -14,7 +14,7 @@ from .emotions import RULES, Recognised
 from .figures import FilmFigures
 from .known import EMOTIONS
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "tracking.md"
+PAGE = DOCS / "tracking.md"
 START, END = "<!-- measured: {} -->", "<!-- end of {} -->"
 
 

@@ -18,8 +18,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from places import ROOT
+
 SERVED = Path(__file__).with_name("served.py")
-ROOT = SERVED.parents[2]
 #: Seconds for an answer, and for what is waited for.
 ANSWER, PATIENCE = 60.0, 120.0
 HEIGHT = 900

@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
-import importlib
-import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
 import risorius.api as api
+from fit import shapes
 from risorius.errors import FormatError, ModelError, ParameterError
 from risorius.face.default_head import HeadMesh
 from risorius.face.fit.clicks import ASKED
 from risorius.face.fit.topologies import FOLDER
 
-ROOT = Path(__file__).resolve().parents[3]
 EARS_AND_SKULL = ("10.", "11.")
-
-
-@pytest.fixture(scope="module")
-def shapes() -> Iterator[ModuleType]:
-    """The meshes that are no faces."""
-    sys.path.insert(0, str(ROOT / "tools"))
-    yield importlib.import_module("fit_shapes")
-    sys.path.remove(str(ROOT / "tools"))
 
 
 def turned(x: float, y: float, z: float) -> np.ndarray:
@@ -108,7 +97,7 @@ def test_a_whole_body_y_up_in_centimetres_becomes_a_face(shared: Path, shared_he
 
 
 @pytest.mark.parametrize("name", ["cube", "symmetric rock", "half a face"])
-def test_what_is_no_face_is_refused(shapes: ModuleType, name: str) -> None:
+def test_what_is_no_face_is_refused(name: str) -> None:
     vertices, polygons = shapes.NON_FACES[name]()
     with pytest.raises(ModelError, match=r"click its feature points 3\.7") as refused:
         api.find_points(vertices, polygons)

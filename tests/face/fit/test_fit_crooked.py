@@ -2,31 +2,15 @@
 
 from __future__ import annotations
 
-import importlib
-import sys
-from collections.abc import Iterator
-from pathlib import Path
-from types import ModuleType
-
 import numpy as np
-import pytest
 import risorius.api as api
+from fit import heads
 from risorius.face.fit.locating.crooked import FAR, NEAR, pose_of
 from risorius.face.fit.locating.flow import find_flow, smooth_field
 from risorius.face.fit.locating.head_pose import HeadPose
 from risorius.face.fit.template.picture import picture
 from risorius.face.fit.template.template import fit_template
 from scipy.spatial.transform import Rotation
-
-ROOT = Path(__file__).resolve().parents[3]
-
-
-@pytest.fixture(scope="module")
-def heads() -> Iterator[ModuleType]:
-    """The heads that finding is measured on."""
-    sys.path.insert(0, str(ROOT / "tools"))
-    yield importlib.import_module("fit_heads")
-    sys.path.remove(str(ROOT / "tools"))
 
 
 def crooked(places: np.ndarray) -> np.ndarray:
@@ -71,7 +55,7 @@ def test_a_pose_is_made_of_places() -> None:
     np.testing.assert_allclose(found.origin, true.origin, atol=0.2)
 
 
-def test_points_of_a_head_that_is_bent_by_centimetres(heads: ModuleType) -> None:
+def test_points_of_a_head_that_is_bent_by_centimetres() -> None:
     head = heads.bent_default_head(23)
     found = api.find_points(head.vertices, head.polygons, topologies=())
     names = [name for name in found.positions if name in head.points and not name.startswith(("10.", "11."))]

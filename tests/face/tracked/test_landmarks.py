@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 from risorius import api
 from risorius.errors import ModelError, ParameterError
 from risorius.face.face import Face
@@ -17,7 +18,6 @@ from risorius.mpeg4.streams.capture import Landmarks
 from risorius.mpeg4.streams.capture.rotation import euler_matrix
 from scipy.spatial.transform import Rotation
 
-ROOT = Path(__file__).resolve().parents[3]
 INDEX: dict[str, int] = tomllib.loads((ROOT / "presets/topologies/mediapipe_468.toml").read_text())["points"]
 PUPILS = {"3.5": 473, "3.6": 468}
 FRAMES = 40

@@ -20,8 +20,8 @@ NETWORK = {"socket", "ssl", "http", "urllib", "ftplib", "smtplib", "requests", "
 HIDDEN_CODE = {"marshal", "pickle", "shelve", "code", "runpy", "imp"}
 CAMERAS = {"cv2", "imageio", "mediapipe"}
 
-#: The two modules that find their tables beside themselves. All else asks them, and nothing is written there.
-READ_BESIDE_THEMSELVES = {"resources.py", "mpeg4/tables.py"}
+#: The module that finds its tables beside itself. All else asks it, and nothing is written there.
+READ_BESIDE_ITSELF = {"resources.py"}
 
 
 def dotted(node: ast.AST) -> str:
@@ -129,7 +129,7 @@ def test_sources_keep_the_rule(
 
 
 def test_nothing_is_written_beside_the_sources(trees: dict[str, ast.AST]) -> None:
-    assert {name for name, tree in trees.items() if own_place(tree)} == READ_BESIDE_THEMSELVES
+    assert {name for name, tree in trees.items() if own_place(tree)} == READ_BESIDE_ITSELF
 
 
 def test_the_only_permission_is_the_one_that_is_used(small_zip: Path, trees: dict[str, ast.AST]) -> None:

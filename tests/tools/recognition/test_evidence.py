@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
-import sys
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -13,19 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 import risorius.api as api
+from recognition import page as page_of
+from recognition import plots, poses, samples, scans, shapes, verdicts
 from risorius.mpeg4 import FEATURES, Rule
-
-ROOT = Path(__file__).resolve().parents[2]
-
-
-@pytest.fixture(scope="module")
-def tool() -> Iterator[Callable[[str], ModuleType]]:
-    """A module of tools/ by its name."""
-    sys.path.insert(0, str(ROOT / "tools"))
-    try:
-        yield importlib.import_module
-    finally:
-        sys.path.remove(str(ROOT / "tools"))
 
 
 @dataclass
@@ -48,17 +35,16 @@ class PerfectFace:
         return np.array([np.mean([positions[n - 1] / share for n, share in f.shares.items()]) for f in FEATURES])
 
 
-def posed(tool: Callable[[str], ModuleType], series: str, *, draws: int = 1, name: str = "default") -> Any:
+def posed(series: str, *, draws: int = 1, name: str = "default") -> Any:
     """A series on a perfect face."""
-    poses = tool("evidence_poses")
     return poses.pose_all(PerfectFace(), poses.Series(series), name=name, draws=draws, seed=len(name))
 
 
-def test_every_profile_is_posed_at_every_activation(tool: Callable[[str], ModuleType]) -> None:
-    measured = posed(tool, "natural", draws=2)
+def test_every_profile_is_posed_at_every_activation() -> None:
+    measured = posed("natural", draws=2)
     assert len(measured.faps) == 25 * 4 * 2
     for index in range(0, 200, 2):
-        profile = tool("evidence_poses").scaled(
+        profile = poses.scaled(
             api.Archetype(measured.asked[index]), measured.variants[index], measured.shares[index]
         )
         for number, (low, high) in profile.ranges.items():
@@ -66,23 +52,22 @@ def test_every_profile_is_posed_at_every_activation(tool: Callable[[str], Module
     assert not np.array_equal(measured.faps[0], measured.faps[1])
 
 
-def test_activations_are_held_to_the_wheel(tool: Callable[[str], ModuleType]) -> None:
-    scaled = tool("evidence_poses").scaled
+def test_activations_are_held_to_the_wheel() -> None:
+    scaled = poses.scaled
     assert scaled(api.Archetype.SURPRISE, 1, 1.3).activation == 7.0
     assert scaled(api.Archetype.SURPRISE, 1, 0.6).activation == pytest.approx(0.6 * 6.5)
 
 
 @pytest.mark.parametrize(("series", "drive"), [("natural", "natural"), ("exact", "exact"), ("untold", "natural")])
-def test_only_untold_poses_are_not_told_the_emotion(tool: Callable[[str], ModuleType], series: str, drive: str) -> None:
-    poses, face = tool("evidence_poses"), PerfectFace()
+def test_only_untold_poses_are_not_told_the_emotion(series: str, drive: str) -> None:
+    face = PerfectFace()
     measured = poses.pose_all(face, poses.Series(series), name="default", draws=1, seed=0)
     for asked, (used, emotion) in zip(measured.asked, face.told, strict=True):
         assert used == drive
         assert emotion == (None if series == "untold" else {asked: 1.0})
 
 
-def test_what_was_measured_is_not_measured_again(tool: Callable[[str], ModuleType], tmp_path: Path) -> None:
-    poses = tool("evidence_poses")
+def test_what_was_measured_is_not_measured_again(tmp_path: Path) -> None:
     built = []
 
     def build() -> PerfectFace:
@@ -100,23 +85,22 @@ def test_what_was_measured_is_not_measured_again(tool: Callable[[str], ModuleTyp
     assert len(half.faps) == len(half.asked) == len(first.faps) / 2
 
 
-def test_verdicts_are_counted(tool: Callable[[str], ModuleType]) -> None:
-    counting = tool("evidence_verdicts")
-    names = counting.EMOTIONS
+def test_verdicts_are_counted() -> None:
+    names = verdicts.EMOTIONS
     asked = np.repeat(names, 4)
     said = asked.copy()
-    said[0], said[1] = names[2], counting.NOTHING
-    assert counting.correct(asked, said) == (22 / 24, 0.5)
-    shares = counting.confusion(asked, said)
+    said[0], said[1] = names[2], verdicts.NOTHING
+    assert verdicts.correct(asked, said) == (22 / 24, 0.5)
+    shares = verdicts.confusion(asked, said)
     np.testing.assert_allclose(shares.sum(axis=1), 1.0)
     assert shares[0].tolist() == [0.5, 0.0, 0.25, 0.0, 0.0, 0.0, 0.25]
     believed = np.zeros((2, 6))
     believed[0, 3] = 0.1
-    assert counting.verdicts(believed).tolist() == [names[3], counting.NOTHING]
+    assert verdicts.verdicts(believed).tolist() == [names[3], verdicts.NOTHING]
 
 
-def test_every_shape_is_half_one_width_away(tool: Callable[[str], ModuleType]) -> None:
-    for shape in tool("evidence_shapes").Shape:
+def test_every_shape_is_half_one_width_away() -> None:
+    for shape in shapes.Shape:
         values = shape.at(np.array([0.0, 0.5, 1.0, 3.0]))
         assert values[0] == 1.0
         assert values[2] == pytest.approx(0.5)
@@ -124,8 +108,7 @@ def test_every_shape_is_half_one_width_away(tool: Callable[[str], ModuleType]) -
 
 
 @pytest.mark.parametrize("rule", Rule)
-def test_with_the_choice_in_use_it_says_what_recognise_says(tool: Callable[[str], ModuleType], rule: Rule) -> None:
-    shapes = tool("evidence_shapes")
+def test_with_the_choice_in_use_it_says_what_recognise_says(rule: Rule) -> None:
     random = np.random.default_rng(5)
     faps = random.normal(scale=200.0, size=(30, 68))
     faps[random.random(faps.shape) < 0.3] = np.nan
@@ -135,11 +118,9 @@ def test_with_the_choice_in_use_it_says_what_recognise_says(tool: Callable[[str]
     assert (shapes.believed(faps, flat) >= shapes.believed(faps, shapes.own(rule))).any()
 
 
-def test_halves_share_no_face_and_no_variant(tool: Callable[[str], ModuleType], monkeypatch: Any) -> None:
-    shapes = tool("evidence_shapes")
+def test_halves_share_no_face_and_no_variant(monkeypatch: Any) -> None:
     monkeypatch.setattr(shapes, "CHOICES", tuple(shapes.own(rule) for rule in Rule))
-    poses = tool("evidence_poses")
-    parts = [posed(tool, "exact", name=name) for name in ("a", "b", "c")]
+    parts = [posed("exact", name=name) for name in ("a", "b", "c")]
     columns = {key: np.concatenate([vars(part)[key] for part in parts]) for key in vars(parts[0]) if key != "seconds"}
     seen = []
     monkeypatch.setattr(shapes, "score", lambda measured, _: seen.append(measured) or (1.0, 1.0))
@@ -153,10 +134,9 @@ def test_halves_share_no_face_and_no_variant(tool: Callable[[str], ModuleType], 
         assert len(own_on.faps) == len(judged_on.faps)
 
 
-def test_combinations_are_made_of_known_units(tool: Callable[[str], ModuleType]) -> None:
-    scans = tool("evidence_scans")
+def test_combinations_are_made_of_known_units() -> None:
     emotions = {each.emotion for each in scans.combinations()}
-    assert emotions == set(tool("evidence_verdicts").EMOTIONS)
+    assert emotions == set(verdicts.EMOTIONS)
     for each in scans.combinations():
         assert set(each.units) <= set(scans.units())
     nose = next(each for each in scans.combinations() if str(each) == "9")
@@ -164,16 +144,14 @@ def test_combinations_are_made_of_known_units(tool: Callable[[str], ModuleType])
     assert nose not in scans.shown()
 
 
-def test_of_two_units_on_one_scan_the_stronger_counts(tool: Callable[[str], ModuleType]) -> None:
-    scans = tool("evidence_scans")
+def test_of_two_units_on_one_scan_the_stronger_counts() -> None:
     both = scans.Combination("anger", "here", {23: 0.5, 24: 0.8, 7: 1.0, 25: 1.0, 26: 1.0})
     assert both.weights() == {"mouthPress": 0.8, "jawOpen": 0.5}
     assert both.missing() == [7]
     assert str(both) == "23*0.5+24*0.8+7+25+26"
 
 
-def test_scans_are_named_as_they_are(tool: Callable[[str], ModuleType], shared: Path) -> None:
-    scans = tool("evidence_scans")
+def test_scans_are_named_as_they_are(shared: Path) -> None:
     displacements = scans._displacements(shared / "heads")
     assert len(displacements) == len(scans.shown())
     sizes = [np.linalg.norm(each, axis=1).max() for each in displacements]
@@ -189,21 +167,20 @@ def _sides(scans: ModuleType, shared: Path) -> tuple[np.ndarray, np.ndarray]:
     return across > 0.005, across < -0.005
 
 
-def test_samples_have_a_strongest_frame(tool: Callable[[str], ModuleType], shared: Path) -> None:
-    samples = {each.name: each for each in tool("evidence_samples").read_samples(shared / "samples" / "fap")}
-    anger = samples["xface_anger.fap"]
+def test_samples_have_a_strongest_frame(shared: Path) -> None:
+    found = {each.name: each for each in samples.read_samples(shared / "samples" / "fap")}
+    anger = found["xface_anger.fap"]
     assert anger.emotion == "anger"
     frames = api.read_fap(shared / "samples" / "fap" / anger.name).frames
     assert np.nansum(np.abs(frames[anger.strongest, 2:22])) > 3.0 * np.nansum(np.abs(frames[0, 2:22]))
     for rule in Rule:
         assert anger.believed[rule].shape == (len(frames), 6)
-    assert samples["vreng_sad.fap"].stated == 18
+    assert found["vreng_sad.fap"].stated == 18
 
 
-def figures(tool: Callable[[str], ModuleType]) -> Any:
+def figures() -> Any:
     """What a run on a perfect face leaves, with one profile spoilt and scans made up."""
-    poses, scans = tool("evidence_poses"), tool("evidence_scans")
-    series = {poses.Series(name): posed(tool, name) for name in ("natural", "exact", "untold")}
+    series = {poses.Series(name): posed(name) for name in ("natural", "exact", "untold")}
     natural = series[poses.Series.NATURAL]
     natural.faces[::2] = "ict"
     natural.faps[natural.asked == "disgust"] = np.nan_to_num(api.archetype("joy", 1).frame())
@@ -221,8 +198,8 @@ def figures(tool: Callable[[str], ModuleType]) -> Any:
     course = np.zeros((4, 6))
     course[2, 0] = 0.75
     rules = dict.fromkeys(Rule, course)
-    sample = tool("evidence_samples").Sample("loud.fap", "joy", 40, 25.0, 2, rules, rules)
-    return tool("evidence_page").Figures(series, posed(tool, "words"), scanned, [sample])
+    sample = samples.Sample("loud.fap", "joy", 40, 25.0, 2, rules, rules)
+    return page_of.Figures(series, posed("words"), scanned, [sample])
 
 
 def cells(page: str, *first: str) -> list[str]:
@@ -231,11 +208,10 @@ def cells(page: str, *first: str) -> list[str]:
     return [cell.strip() for cell in line.strip("|").split("|")][len(first) :]
 
 
-def test_the_page_says_what_was_measured(tool: Callable[[str], ModuleType], monkeypatch: Any) -> None:
-    page_of = tool("evidence_page")
-    monkeypatch.setattr(tool("evidence_shapes"), "CHOICES", page_of.CHOICES[::9])
+def test_the_page_says_what_was_measured(monkeypatch: Any) -> None:
+    monkeypatch.setattr(shapes, "CHOICES", page_of.CHOICES[::9])
     monkeypatch.setattr(page_of, "best_of", lambda measured, choices: (choices[0], page_of.score(measured, choices[0])))
-    page = page_of.page(figures(tool))
+    page = page_of.page(figures())
     right, least = cells(page, "natural")[1].split(" / ")
     assert (right, least) == ("95", "0")  # 4 of 100 poses are spoilt, and one weak surprise is taken for fear
     assert cells(page, "exact")[1] == "99 / 93.8"
@@ -252,9 +228,9 @@ def test_the_page_says_what_was_measured(tool: Callable[[str], ModuleType], monk
             assert len({line.count(" | ") for line in part.splitlines() if not line.startswith("|---")}) <= 2
 
 
-def test_pictures_are_drawn(tool: Callable[[str], ModuleType], tmp_path: Path) -> None:
+def test_pictures_are_drawn(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    plots, drawn = tool("evidence_plots"), figures(tool)
+    drawn = figures()
     asked = next(iter(drawn.posed.values())).asked
     plots.draw_confusions({"one": (asked, asked), "two": (asked, asked)}, tmp_path / "confusion.png")
     plots.draw_samples([*drawn.samples, *drawn.samples], tmp_path / "samples.png")

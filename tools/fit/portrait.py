@@ -12,8 +12,6 @@ import numpy as np
 import risorius.api as api
 from faithful.sheet import Cell, write_grid
 from faithful.sitter import Sitter, View
-from fit_heads import TrueHead
-from fit_sheets import Strip
 from risorius.api import Face
 from risorius.arrays import Floats
 from risorius.errors import RisoriusError
@@ -22,6 +20,9 @@ from risorius.scene import mesh as meshes
 from risorius.scene.faces import face_of, read_face, store_points
 from risorius.scene.jobs.subjects import paint_parts
 from risorius.scene.pictures.framing import Framing, framing_of
+
+from .heads import TrueHead
+from .sheet import Strip
 
 #: Radius of a drawn point as a share of the distance between the eyes' outer corners, and the same for true places.
 DOT, TRUE_DOT = 0.024, 0.016

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import risorius.api as api
-from evidence_poses import Measured, words
 from risorius.mpeg4 import Profile
+
+from .poses import Measured, words
 
 
 def meanings() -> dict[str, str]:

@@ -6,9 +6,10 @@ import heapq
 from dataclasses import replace
 
 import numpy as np
-from fit_heads import TrueHead
-from fit_meshes import triangles_of
 from risorius.arrays import Floats, Ints
+
+from .heads import TrueHead
+from .meshes import triangles_of
 
 #: What the length of an edge adds to the cost of its collapse: it decides where the surface is flat.
 LENGTH_WEIGHT = 1e-3

@@ -2,37 +2,26 @@
 
 from __future__ import annotations
 
-import importlib
-import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import ModuleType
-from typing import Any
 
 import numpy as np
 import pytest
+from fit.decimate import decimated
+from fit.disguises import with_hair
+from fit.hard import hard_heads
+from fit.heads import SharedHeads, TrueHead
+from fit.meshes import subdivided, turned_head
+from fit.sides import wrong_sides
 from scipy.spatial import cKDTree
 
-ROOT = Path(__file__).resolve().parents[2]
-
 
 @pytest.fixture(scope="module")
-def tool() -> Iterator[Callable[[str], ModuleType]]:
-    """A module of tools/ by its name."""
-    sys.path.insert(0, str(ROOT / "tools"))
-    try:
-        yield importlib.import_module
-    finally:
-        sys.path.remove(str(ROOT / "tools"))
-
-
-@pytest.fixture(scope="module")
-def heads(tool: Callable[[str], ModuleType], shared: Path) -> Any:
+def heads(shared: Path) -> SharedHeads:
     """The shared heads."""
-    return tool("fit_heads").SharedHeads(shared / "heads")
+    return SharedHeads(shared / "heads")
 
 
-def test_the_reserved_heads_are_no_heads_of_the_other_sets(heads: Any) -> None:
+def test_the_reserved_heads_are_no_heads_of_the_other_sets(heads: SharedHeads) -> None:
     reserved = list(heads.reserved())
     assert len(reserved) == 15
     for other in [*heads.known(), *heads.second()]:
@@ -42,16 +31,16 @@ def test_the_reserved_heads_are_no_heads_of_the_other_sets(heads: Any) -> None:
                 assert np.quantile(apart, 0.9) > 2e-3, (head.name, other.name)
 
 
-def test_their_points_lie_on_their_skin(heads: Any) -> None:
+def test_their_points_lie_on_their_skin(heads: SharedHeads) -> None:
     for head in heads.reserved():
         for name in ("3.7", "8.3", "9.3"):
             nearest = np.linalg.norm(head.vertices - head.points[name], axis=1).min()
             assert nearest < 4e-3, (head.name, name)
 
 
-def test_hard_heads_keep_their_points_on_their_skin(tool: Callable[[str], ModuleType], heads: Any) -> None:
+def test_hard_heads_keep_their_points_on_their_skin(heads: SharedHeads) -> None:
     names = set()
-    for head in tool("fit_hard").hard_heads(heads):
+    for head in hard_heads(heads):
         names.add(head.name)
         if len(head.vertices) > 100_000:
             continue
@@ -61,32 +50,31 @@ def test_hard_heads_keep_their_points_on_their_skin(tool: Callable[[str], Module
     assert len(names) == 34
 
 
-def test_what_is_buried_under_hair_is_no_point(tool: Callable[[str], ModuleType], heads: Any) -> None:
+def test_what_is_buried_under_hair_is_no_point(heads: SharedHeads) -> None:
     head = heads.shared("makehuman")
-    haired = tool("fit_disguises").with_hair(head, heads.skin("makehuman"))
+    haired = with_hair(head, heads.skin("makehuman"))
     assert head.points.keys() - haired.points.keys() > {"11.1", "11.4"}
     assert np.abs(haired.vertices - head.vertices).max() > 10e-3
     for name, place in haired.points.items():
         assert np.linalg.norm(place - head.points[name]) < 2e-3, name
 
 
-def test_a_decimated_head_keeps_its_shape(tool: Callable[[str], ModuleType], heads: Any) -> None:
+def test_a_decimated_head_keeps_its_shape(heads: SharedHeads) -> None:
     head = heads.shared("makehuman")
-    fewer = tool("fit_decimate").decimated(head, 1000)
+    fewer = decimated(head, 1000)
     assert 950 <= len(fewer.vertices) <= 1050
-    subdivided = tool("fit_meshes").subdivided
     gap = cKDTree(subdivided(subdivided(head)).vertices).query(fewer.vertices)[0]
     assert np.quantile(gap, 0.95) < 2e-3
 
 
-def test_a_subdivided_head_is_the_same_surface(tool: Callable[[str], ModuleType], heads: Any) -> None:
+def test_a_subdivided_head_is_the_same_surface(heads: SharedHeads) -> None:
     head = heads.shared("mediapipe")
-    finer = tool("fit_meshes").subdivided(head)
+    finer = subdivided(head)
     assert len(finer.polygons) == sum(len(polygon) for polygon in head.polygons)
     assert _area(finer) == pytest.approx(_area(head))
 
 
-def _area(head: Any) -> float:
+def _area(head: TrueHead) -> float:
     """Area of flat polygons."""
     total = 0.0
     for polygon in head.polygons:
@@ -95,9 +83,9 @@ def _area(head: Any) -> float:
     return total
 
 
-def test_a_turned_head_keeps_its_shape_and_the_body_its_place(tool: Callable[[str], ModuleType], heads: Any) -> None:
+def test_a_turned_head_keeps_its_shape_and_the_body_its_place(heads: SharedHeads) -> None:
     body = heads.shared("makehuman_body")
-    turned = tool("fit_meshes").turned_head(body, 20.0)
+    turned = turned_head(body, 20.0)
     for a, b in (("3.7", "3.12"), ("9.3", "10.7"), ("2.1", "11.4")):
         before, after = (np.linalg.norm(x.points[a] - x.points[b]) for x in (body, turned))
         assert after == pytest.approx(before, rel=1e-9)
@@ -107,9 +95,8 @@ def test_a_turned_head_keeps_its_shape_and_the_body_its_place(tool: Callable[[st
     assert np.degrees(np.arctan2(looks[0], -looks[1])) == pytest.approx(20.0, abs=0.1)
 
 
-def test_a_lip_point_on_the_other_lip_is_counted(tool: Callable[[str], ModuleType], heads: Any) -> None:
+def test_a_lip_point_on_the_other_lip_is_counted(heads: SharedHeads) -> None:
     head = heads.shared("ict_narrow")
-    wrong_sides = tool("fit_sides").wrong_sides
     assert wrong_sides(head, head.points) == []
     upper = int(np.linalg.norm(head.vertices - head.points["2.6"], axis=1).argmin())
     assert wrong_sides(head, {**head.points, "2.8": upper}) == ["2.8"]

@@ -1,7 +1,5 @@
 """Speed of the live preview as a slider is dragged, beside Blender's own cloth and soft body on the same head.
 
-    python tools/bench/preview.py [--mesh HEAD.npz --points HEAD.fp.json] [--steps 40]
-
 Without --mesh it takes the default head, and the shared ict head where there is one. One update is everything from the
 changed choice to the mesh that Blender draws: plan, sketch, write, evaluate. Processor time, medians and 95 % of a
 drag.
@@ -11,23 +9,21 @@ Needs a Python that has bpy.
 from __future__ import annotations
 
 import argparse
-import os
 import time
 from pathlib import Path
 from typing import Any
 
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-
 import bpy
 import numpy as np
 import risorius.api as api
+from places import shared_folder
 from risorius.scene import mesh as meshes
 from risorius.scene.bake.baking import Target
 from risorius.scene.jobs.subjects import subject
 from risorius.scene.live.live_face import LiveFace
 from risorius.scene.progress import run
 
-from physics import SHARED, blender_frame
+from .solvers import blender_frame
 
 #: Drags: from weak to strong, and round the wheel.
 WORD, ANGLES = "surprise", (70.3, 256.7)
@@ -67,22 +63,19 @@ def measure(name: str, mesh: Path | None, points: Path | None, steps: int) -> No
         print(f"  Blender's {title:<10}{seconds:7.1f} ms per frame, {ratio:.1f} updates", flush=True)
 
 
-def main() -> None:
+def main(argv: list[str]) -> None:
     """Measure."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(prog="bench_speed.py preview", description=__doc__)
     parser.add_argument("--mesh", type=Path, help="an npz file of a head")
     parser.add_argument("--points", type=Path, help="its feature points, JSON")
     parser.add_argument("--steps", type=int, default=40, help="updates per drag")
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(argv)
+    shared = shared_folder() / "heads"
     heads: list[tuple[str, Any, Any]] = [("default head", None, None)]
     if arguments.mesh is not None:
         heads = [(arguments.mesh.stem, arguments.mesh, arguments.points)]
-    elif (SHARED / "heads" / "ict.npz").is_file():
-        heads.append(("ict", SHARED / "heads" / "ict.npz", SHARED / "heads" / "ict.fp.json"))
+    elif (shared / "ict.npz").is_file():
+        heads.append(("ict", shared / "ict.npz", shared / "ict.fp.json"))
     print(f"Blender {bpy.app.version_string}")
     for head in heads:
         measure(*head, arguments.steps)
-
-
-if __name__ == "__main__":
-    main()

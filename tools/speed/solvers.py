@@ -1,32 +1,26 @@
 """Speed of the skin's solvers, beside Blender's own cloth and soft body on the same mesh where bpy is importable.
 
-    python tools/bench/physics.py [--mesh HEAD.npz | --mesh grid] [--frames 50]
-
-Without --mesh it takes the skin of the shared ict head (see tests/conftest.py), or a grid of that size where there is
-none. Everything is measured in one run, on one core; times are medians.
+Without --mesh it takes the skin of the shared ict head, or a grid of that size where there is none. Everything is
+measured in one run, on one core; times are medians.
 """
 
 from __future__ import annotations
 
 import argparse
-import os
 import statistics
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-
 import numpy as np
+from places import shared_folder
 from risorius.physics import mesh
 from risorius.physics.equilibrium import EquilibriumSolver
 from risorius.physics.implicit import ImplicitSolver
 from risorius.physics.skin import Skin, State
 from risorius.physics.tissue import tissue
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-SHARED = Path(os.environ.get("RISORIUS_SHARED") or ROOT.parent / "shared")
 FPS = 25.0
 
 
@@ -124,12 +118,13 @@ def blender_frame(kind: str, vertices: Any, polygons: Any, frames: int) -> float
     return statistics.median(times)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def main(argv: list[str]) -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(prog="bench_speed.py solvers", description=__doc__)
     parser.add_argument("--mesh", help="an npz file of a head, or `grid`")
     parser.add_argument("--frames", type=int, default=50)
-    arguments = parser.parse_args()
-    default = SHARED / "heads" / "ict.npz"
+    arguments = parser.parse_args(argv)
+    default = shared_folder() / "heads" / "ict.npz"
     path = arguments.mesh or (str(default) if default.is_file() else "grid")
     vertices, polygons = grid() if path == "grid" else read_skin(Path(path))
     print(f"mesh: {Path(path).name}")
@@ -147,7 +142,3 @@ def main() -> None:
             f"{seconds / typical:.1f} times our implicit frame",
             flush=True,
         )
-
-
-if __name__ == "__main__":
-    main()

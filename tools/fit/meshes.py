@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from fit_heads import TrueHead
 from risorius.arrays import Bools, Floats, Ints
+
+from .heads import TrueHead
 
 #: Shares of the polygons that get a fin, a twin, or are turned inside out; length of the fins, metres.
 FINS, TWINS, TURNED, FIN = 0.01, 0.01, 0.03, 6e-3

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
-from evidence_poses import Measured
-from evidence_samples import Sample
-from evidence_shapes import LEAST, RELATIVE, Choice, Shape, own, score
-from evidence_verdicts import EMOTIONS, NOTHING, confusion
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from risorius.mpeg4 import Rule
+
+from .poses import Measured
+from .samples import Sample
+from .shapes import LEAST, RELATIVE, Choice, Shape, own, score
+from .verdicts import EMOTIONS, NOTHING, confusion
 
 mpl.use("Agg")
 

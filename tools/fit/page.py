@@ -1,4 +1,4 @@
-"""The page docs/fit.md, written from what `fit_report` has measured."""
+"""The page docs/fit.md, written from what `measuring` has measured."""
 
 from __future__ import annotations
 
@@ -239,7 +239,7 @@ def _time_table(read: Mapping[str, list[dict[str, Any]]]) -> list[str]:
 
 HEADING = """# How well feature points are found
 
-Written by `make fit-report` (`tools/fit_report.py`, `tools/fit_page.py`); do not edit.
+Written by `make fit-report` (`tools/fit_report.py`, `tools/fit/page.py`); do not edit.
 
 `api.find_points` fits the default head to a mesh. It uses planes of symmetry, a search over depth maps, alignment and
 an acceptance test (score at most {limit}, agreement of eyes, nose and mouth at least {relief}). Then it bends the head

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import risorius.api as api
-from evidence_verdicts import EMOTIONS
 from risorius.arrays import Floats
 from risorius.mpeg4 import FAPS, Rule, Unit
+
+from .verdicts import EMOTIONS
 
 #: File -> the emotion it is named after; the other samples show none.
 SAMPLES = {

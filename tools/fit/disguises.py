@@ -10,10 +10,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from fit_heads import TrueHead
 from risorius.arrays import Bools, Floats, Ints
 from risorius.physics.mesh import vertex_normals
 from scipy.spatial import cKDTree
+
+from .heads import TrueHead
 
 #: Points under more than this of hair cannot be seen, metres.
 BURIED = 2e-3

@@ -7,9 +7,10 @@ from enum import StrEnum
 
 import numpy as np
 import risorius.api as api
-from evidence_poses import Measured
 from risorius.arrays import Bools, Floats
 from risorius.mpeg4 import ARCHETYPES, Rule
+
+from .poses import Measured
 
 EMOTIONS = tuple(str(name) for name in ARCHETYPES)
 

@@ -11,13 +11,14 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-from evidence_faces import IDENTITIES
-from evidence_poses import Measured
-from fit_heads import SharedHeads
+from fit.heads import SharedHeads
 from risorius.api import Face
 from risorius.arrays import Floats
 
-TOOLS = Path(__file__).resolve().parent
+from .faces import IDENTITIES
+from .poses import Measured
+
+UNITS, COMBINATIONS = (Path(__file__).with_name(name) for name in ("units.csv", "combinations.csv"))
 
 #: How far the shapes are carried; 1 is the scan itself.
 STRENGTHS = (0.5, 0.75, 1.0)
@@ -61,8 +62,8 @@ class Combination:
 
 @cache
 def units() -> Mapping[int, Unit]:
-    """evidence_units.csv by number."""
-    with (TOOLS / "evidence_units.csv").open(encoding="utf-8") as file:
+    """units.csv by number."""
+    with UNITS.open(encoding="utf-8") as file:
         return {
             int(row["au"]): Unit(row["name"], row["shape"], float(row["weight"] or 0.0)) for row in csv.DictReader(file)
         }
@@ -70,8 +71,8 @@ def units() -> Mapping[int, Unit]:
 
 @cache
 def combinations() -> tuple[Combination, ...]:
-    """evidence_combinations.csv in order."""
-    with (TOOLS / "evidence_combinations.csv").open(encoding="utf-8") as file:
+    """combinations.csv in order."""
+    with COMBINATIONS.open(encoding="utf-8") as file:
         return tuple(
             Combination(row["emotion"], row["source"], dict(_unit(text) for text in row["units"].split()))
             for row in csv.DictReader(file)

@@ -13,8 +13,6 @@ from enum import StrEnum
 
 import numpy as np
 import risorius.api as api
-from evidence_poses import Measured
-from evidence_verdicts import correct, verdicts
 from risorius.arrays import Bools, Floats
 from risorius.mpeg4 import ARCHETYPES, VARIANTS, Rule
 from risorius.mpeg4.emotions.recognition import (
@@ -24,6 +22,9 @@ from risorius.mpeg4.emotions.recognition import (
     RELATIVE_WIDTH,
     UNSEEN_MEMBERSHIP,
 )
+
+from .poses import Measured
+from .verdicts import correct, verdicts
 
 
 class Shape(StrEnum):

@@ -6,11 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 import risorius.api as api
-from fit_heads import TrueHead
 from risorius.arrays import Floats
 from risorius.face.mesh.openings import edge_graph
 from risorius.physics.mesh import unique_edges
 from scipy.sparse.csgraph import dijkstra
+
+from .heads import TrueHead
 
 #: Points of upper lips and lids, and their counterparts below.
 PAIRS = (("2.2", "2.3"), ("2.6", "2.8"), ("2.7", "2.9"), ("3.1", "3.3"), ("3.2", "3.4"))

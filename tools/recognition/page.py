@@ -9,15 +9,16 @@ from dataclasses import dataclass
 
 import numpy as np
 import risorius.api as api
-from evidence_faces import FACES
-from evidence_poses import SHARES, Measured, Series
-from evidence_samples import Sample
-from evidence_scans import STRENGTHS, combinations, shown, units
-from evidence_shapes import CHOICES, Choice, Shape, best_of, held_out, own, score
-from evidence_verdicts import EMOTIONS, NOTHING, Way, all_verdicts, confusion, correct
-from evidence_words import kind, meanings, rankings
 from risorius.arrays import Bools, Floats
 from risorius.mpeg4 import Rule
+
+from .faces import FACES
+from .poses import SHARES, Measured, Series
+from .samples import Sample
+from .scans import STRENGTHS, combinations, shown, units
+from .shapes import CHOICES, Choice, Shape, best_of, held_out, own, score
+from .verdicts import EMOTIONS, NOTHING, Way, all_verdicts, confusion, correct
+from .words import kind, meanings, rankings
 
 Table = list[str]
 

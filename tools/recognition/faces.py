@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
 import risorius.api as api
-from fit_heads import SharedHeads, TrueHead
+from fit.heads import SharedHeads, TrueHead
 from risorius.api import Face
-
-ROOT = Path(__file__).resolve().parent.parent
 
 IDENTITIES = tuple(f"ict identity {number}" for number in range(6))
 
 #: Every face of the evidence.
 FACES = ("default", "ict", "makehuman", *IDENTITIES)
-
-
-def shared_folder() -> Path:
-    """The folder of shared heads and samples: $RISORIUS_SHARED, or `../shared` beside the checkout."""
-    return Path(os.environ.get("RISORIUS_SHARED") or ROOT.parent / "shared").resolve()
 
 
 def faces(folder: Path) -> Mapping[str, Callable[[], Face]]:

@@ -2,28 +2,12 @@
 
 from __future__ import annotations
 
-import importlib
-import sys
-from collections.abc import Callable, Iterator
-from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
-import pytest
 import risorius.api as api
-
-ROOT = Path(__file__).resolve().parents[2]
-
-
-@pytest.fixture(scope="module")
-def tool() -> Iterator[Callable[[str], ModuleType]]:
-    """A module of tools/ by its name."""
-    sys.path.insert(0, str(ROOT / "tools"))
-    try:
-        yield importlib.import_module
-    finally:
-        sys.path.remove(str(ROOT / "tools"))
+from fit.effect import Walk
+from fit.page import page as page_of
 
 
 def head_row(name: str, error: float) -> dict[str, Any]:
@@ -64,8 +48,8 @@ def cells(page: str, first: str) -> list[str]:
     return [cell.strip(" *") for cell in line.strip("|").split("|")]
 
 
-def test_the_page_says_what_was_measured(tool: Callable[[str], ModuleType]) -> None:
-    page = tool("fit_page").page(figures())
+def test_the_page_says_what_was_measured() -> None:
+    page = page_of(figures())
     tuned, mh, second, reserved, none, bent, everything, target = cells(page, "nose")[1:]
     assert (tuned[:3], mh[:3], second[:3], reserved[:3]) == ("1.0", "2.0", "3.0", "4.0")
     assert (none, bent, everything, target) == ("–", "–", "4.0 / 4.0 / 4.0", "1.5")
@@ -79,9 +63,9 @@ def test_the_page_says_what_was_measured(tool: Callable[[str], ModuleType]) -> N
     assert cells(page, "ict 2")[1:3] == ["9.0 / 9.0 / 9.0", "1.5 / 1.5 / 1.5"]
 
 
-def test_jittered_points_stay_on_their_own_lip(tool: Callable[[str], ModuleType]) -> None:
+def test_jittered_points_stay_on_their_own_lip() -> None:
     face = api.default_face()
-    walk = tool("fit_effect").Walk(face)
+    walk = Walk(face)
     random = np.random.default_rng(3)
     upper, lower = (face.points[name].position for name in ("2.2", "2.3"))
     steps = []

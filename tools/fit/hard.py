@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import fit_disguises as disguises
-import fit_meshes as meshes
-from fit_decimate import decimated
-from fit_heads import SharedHeads, TrueHead
+from . import disguises, meshes
+from .decimate import decimated
+from .heads import SharedHeads, TrueHead
 
 #: Expressions of the scanned mean head, by the weights of its shapes.
 EXPRESSIONS = {

@@ -1,0 +1,33 @@
+"""Speed of the solvers and of the live preview, beside Blender's own cloth and soft body on the same mesh.
+
+    python tools/bench_speed.py                                                both
+    python tools/bench_speed.py solvers [--mesh HEAD.npz | --mesh grid] [--frames 50]
+    python tools/bench_speed.py preview [--mesh HEAD.npz --points HEAD.fp.json] [--steps 40]
+
+The preview needs a Python that has bpy. Everything runs on one core.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib import import_module
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy is imported
+
+PARTS = ("solvers", "preview")
+
+
+def main(argv: list[str]) -> int:
+    """Measure one part with its options, or all."""
+    if argv and argv[0] not in PARTS:
+        print(__doc__)
+        return 0 if argv[0] in ("-h", "--help") else 2
+    for part in argv[:1] or PARTS:
+        print(f"== {part}", flush=True)
+        import_module(f"speed.{part}").main(argv[1:])
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
