@@ -2,12 +2,16 @@
 
 The layers, each knowing only those above it:
 
+- ``errors``, ``files``, ``tables``, ``resources``, ``arrays`` the ground: errors, files, tables, where they lie;
 - ``mpeg4`` the standard's face animation parameters and the emotion model; ``physics`` skin, muscles, solvers;
 - ``face`` one particular face: its parts, feature points, muscles, and the way from parameters to contractions;
 - ``api`` the public interface, arrays in and out, without Blender;
 - ``scene`` Blender's meshes, shape keys, actions and renders to arrays and back; registers nothing;
-- ``cli`` the command line over ``api`` and ``scene``;
+- ``track`` films and cameras to parameters, in plain Python;
+- ``cli`` the command line over ``api``, ``scene`` and ``track``;
 - ``operators`` everything Blender registers: operators, panels, properties.
+
+``presets`` holds the tables that a user may copy and edit.
 
 Importing this package loads neither Blender nor SciPy, so that it serves plain Python as well as Blender.
 """

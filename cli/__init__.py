@@ -2,6 +2,16 @@
 
 `risorius VERB`, `python -m risorius VERB` and `blender --command risorius VERB` are the same. Exit code 0 on success,
 2 on wrong usage, 1 otherwise. With `--json` the result is one JSON object on standard output.
+
+emotions       profile
+faces          measure, points
+films          bake, render, demo: they need Blender
+recognition    recognise
+streams        fap, tables
+capture        import, export
+track          track
+options        what several verbs share
+result         what a verb has to say, for people and as JSON
 """
 
 from __future__ import annotations

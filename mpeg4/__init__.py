@@ -1,13 +1,10 @@
 """The MPEG-4 facial animation standard and the emotion model of Raouzaiou et al. 2002. NumPy only; knows no face.
 
-standard, high_level, action_units   FAPs, feature points, units, visemes, expressions, AUs: data
-archetypes, words, emotion_presets   Tables 2, 4, 5 and 6, and the user's own words
-profile, wheel, intermediate         ranges of FAPs; activation and angle; mixing two emotions
-expressions                          a word, or a point of the wheel, becomes a profile
-timing, variation                    profiles become frames, and look alive
-features, recognition, belief_track  frames become beliefs
-fap_stream, filling, fap_file, fap_json   frames on disk, and what they do not state
-fba                                  the binary stream
+standard, high_level    FAPs, feature points, units, visemes, expressions: data
+emotions                words, profiles, the wheel, and recognition
+timing, variation       profiles become frames, and look alive
+preset_file             expressions and timelines as files to keep
+streams                 frames on disk, and what they do not state
 """
 
 from .emotions.action_units import ACTION_UNITS, AuTerm

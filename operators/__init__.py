@@ -1,8 +1,22 @@
-"""Everything that Blender registers: a folder per feature, each with ops.py, panel.py and props.py.
+"""Everything that Blender registers: a folder per feature, most with ops.py, panel.py and props.py.
 
-classes, registration    what Blender is given, and how it is taken back
-base, sidebar            what all operators and all panels share
-active, changes          the face that it is all about, and who is told when it is to show something else
+classes, registration      what Blender is given, and how it is taken back
+props                      the properties that Risorius adds to objects, scenes and the window
+base, sidebar              what all operators and all panels share
+active, changes            the face that it is all about, and who is told when it is to show something else
+session                    what is known of the faces of the open file
+requirements               SciPy, which this Blender may lack
+names, translations        lists of names for panels; the interface in other languages
+gizmo_keys                 keymaps of gizmos, put in order
+
+Features, in the order of the sidebar:
+
+face, parts, points        which face, what belongs to it, where its feature points are
+emotion, wheel, preview    which emotion, pointed at, shown at once
+muscles, tissue, show      muscles by hand, what skin is made of, what happens under it
+timeline, library          expressions in time; kept as files
+bake, film, shapes         made of it: keys, films, shapes for engines
+read                       what a face shows
 
 Parts that know nothing of Blender (`wheel.geometry`, `timeline.bars`) can be imported without it.
 """

@@ -1,8 +1,13 @@
 """Skin, muscles and dynamics: Zhang, Sung and Prakash 2001, and what production needs beyond it.
 
-From small to large: `mesh` (topology and areas), `elastic` (the linear skin, factored once), `springs` and `tissue`,
-`muscles`, `skin` (all of it as one mechanical system), and three ways to solve it: `equilibrium`, `implicit`, `rk2`.
-It knows nothing of faces or of MPEG-4; lengths are metres, forces newtons.
+It knows nothing of faces or of MPEG-4; lengths are metres, forces newtons. From small to large:
+
+mesh, split                      topology and areas of polygons, and how to make them finer
+elastic, springs, tissue         the linear skin, factored once; biphasic springs; the figures of skin
+muscles                          the paper's three muscles
+skin                             all of it as one mechanical system
+equilibrium, implicit, rk2       three ways to solve it; quasi_newton: what the first two minimise with
+oscillator                       how a rigid thing on springs, such as the mandible, follows
 """
 
 from .elastic import Factor, LaplacianForm, elastic_matrix, laplacian

@@ -1,5 +1,8 @@
 """The paper's three muscle models: each is a force field on skin nodes at contraction 1.
 
+linear, sphincter, sheet    the three models
+windows                     how force falls off across them
+
 They know nothing of faces: which skin a muscle may act on (upper or lower lip, one side) is for whoever places it.
 """
 

@@ -4,6 +4,8 @@ bits        writing and reading single bits
 arithmetic  the adaptive arithmetic coder
 channels    what is coded: steps, limits, levels
 syntax      start codes, frame rates, time codes, masks
+plan        a stream cut into runs that build on each other
+planes      one frame as the decoder reads it
 encoder     a stream becomes bytes
 decoder     bytes become a stream, from the next start code on where some are damaged
 
