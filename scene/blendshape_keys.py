@@ -54,7 +54,8 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
     source = target.source()
     there = _taken(source, wanted)
     if there and not replace:
-        problem = f"has shape keys of these names already ({', '.join(there[:3])}): remove them, or ask to replace them"
+        some = ", ".join(there[:3])
+        problem = f"already has shape keys with these names ({some}): remove them, or turn on Replace (--replace)"
         raise SceneError(source.head.name, problem)
     yield Progress(0.0, "Placing the muscles")
     face = face_of(source)

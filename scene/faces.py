@@ -103,7 +103,7 @@ def store_points(obj: Any, points: PointTable, *, origin: Origin = Origin.FILE) 
         if isinstance(point, int) and point >= count:
             raise SceneError(
                 obj.name,
-                f"has {count} vertices, but feature point {name} names vertex {point}: wrong file for this mesh?",
+                f"has {count} vertices, but feature point {name} uses vertex {point}: wrong file for the mesh?",
             )
     write_kept(obj, bind(obj.data, points, origins=origin), as_given=True)
 
@@ -175,7 +175,7 @@ def _refuse_twice(obj: Any, others: Iterable[Any]) -> None:
     seen = {obj}
     for other in others:
         if other in seen:
-            raise SceneError(other.name, "stands for two parts of the face: name it once")
+            raise SceneError(other.name, "is used for two parts of the face: choose it for one of them")
         seen.add(other)
 
 

@@ -93,7 +93,7 @@ def metres_matrix(obj: Any, scene: Any | None = None) -> Floats:
         raise SceneError(obj.name, "its transform is not finite: clear its location, rotation and scale (Alt G, R, S)")
     _, stretch, axes = np.linalg.svd(world)
     if stretch[-1] < 1e-9 * max(1.0, stretch[0]) or stretch[0] == 0.0:
-        raise SceneError(obj.name, "is scaled to nothing along an axis: give it a scale above zero")
+        raise SceneError(obj.name, "has a scale of zero along an axis: set a scale above zero")
     if np.linalg.det(world) < 0.0:
         raise SceneError(
             obj.name,
@@ -110,7 +110,7 @@ def relative_matrix(obj: Any, other: Any) -> Floats:
     ours = np.array(obj.matrix_world, dtype=np.float64)
     theirs = np.array(other.matrix_world, dtype=np.float64)
     if abs(np.linalg.det(theirs[:3, :3])) < 1e-30:
-        raise SceneError(other.name, "is scaled to nothing along an axis: give it a scale above zero")
+        raise SceneError(other.name, "has a scale of zero along an axis: set a scale above zero")
     matrix: Floats = np.linalg.inv(ours) @ theirs
     return matrix
 

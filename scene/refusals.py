@@ -28,7 +28,7 @@ def refuse_unreadable(obj: Any | None) -> None:
     if obj.mode in BUSY_MODES or obj.data.is_editmode:
         raise SceneError(obj.name, f"is in {BUSY_MODES.get(obj.mode, 'Edit Mode')}: go to Object Mode (Tab) first")
     if len(obj.data.polygons) == 0:
-        raise SceneError(obj.name, "has no polygons: choose an object whose mesh is a face")
+        raise SceneError(obj.name, "has no polygons: select the mesh of a face")
 
 
 def refuse_unwritable(obj: Any | None, *, make_single_user: bool = False) -> None:
@@ -58,15 +58,15 @@ def refuse_unwritable(obj: Any | None, *, make_single_user: bool = False) -> Non
             obj.name,
             f"shares its mesh with {names}, which would get the shape keys too: "
             "make it single user (Object > Relations > Make Single User > Object & Data) "
-            "or switch on Make Single User in the panel",
+            "or turn on Make Single User in the panel",
         )
     keys = obj.data.shape_keys
     if keys is None:
         return
     if not keys.use_relative:
-        raise SceneError(obj.name, "has absolute shape keys: switch on Relative in its shape key panel")
+        raise SceneError(obj.name, "has absolute shape keys: turn on Relative in the Shape Keys panel")
     if keys.animation_data is not None and keys.animation_data.use_tweak_mode:
-        raise SceneError(obj.name, "is in the tweak mode of the NLA editor: leave it (Tab in the NLA editor) first")
+        raise SceneError(obj.name, "is in NLA tweak mode: leave it first (Tab in the NLA editor)")
 
 
 def refuse_broken_vertices(obj: Any) -> None:

@@ -48,7 +48,7 @@ def read_mesh(path: str | Path) -> MeshFile:
     if path.suffix.lower() not in SUFFIXES:
         raise FormatError(path, f"only {' and '.join(SUFFIXES)} can be read without Blender; export the mesh as .obj")
     if not path.is_file():
-        raise FormatError(path, "there is no such file")
+        raise FormatError(path, "does not exist: check the path")
     return _read_npz(path) if path.suffix.lower() == ".npz" else _read_obj(path)
 
 

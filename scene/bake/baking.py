@@ -188,7 +188,7 @@ def bake_motion(
     yield Progress(0.87, "Compressing the motion to shape keys")
     packed = compress(displacements, tolerance=tolerance)
     if len(packed.shapes) == 0:
-        raise SceneError(source.head.name, "nothing moves in this motion: raise its activation or its duration")
+        raise SceneError(source.head.name, "nothing moves in this motion: increase its activation or its duration")
     yield Progress(0.97, "Writing the shape keys")
     names = [f"{clip} {number + 1:02d}" for number in range(len(packed.shapes))]
     times = start + np.arange(count, dtype=np.float64)

@@ -24,16 +24,16 @@ def remarks(obj: Any) -> tuple[str, ...]:
     found = []
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     if evaluated.type == "MESH" and len(evaluated.data.vertices) != len(obj.data.vertices):
-        found.append(f"{obj.name}: its modifiers change the number of vertices; the bake shapes the mesh below them")
+        found.append(f"{obj.name}: its modifiers change the vertex count; the bake applies to the unmodified mesh")
     if has_points(obj):
         now = followed(read_kept(obj), obj.data)
         lost = f"; {', '.join(now.lost)} were lost" if now.lost else ""
         if now.moved_on:
-            found.append(f"{obj.name}: was edited; its feature points went to the nearest surface{lost}: look at them")
+            found.append(f"{obj.name}: was edited; its feature points moved to the nearest surface{lost}: check them")
     keys = obj.data.shape_keys
     active = _active_user_keys(keys)
     if active:
         found.append(f"{obj.name}: the resting face is the Basis; {len(active)} active shape keys add to the bake")
     if obj.show_only_shape_key:
-        found.append(f"{obj.name}: Shape Key Lock shows one key only; switch it off to see the animation")
+        found.append(f"{obj.name}: Shape Key Lock shows one key only; turn it off to see the animation")
     return tuple(found)

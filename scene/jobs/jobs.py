@@ -150,7 +150,7 @@ def empty_file(fps: float) -> None:
         remedy = "run it from the command line (blender --command risorius)"
         raise SceneError("This job", f"starts from an empty file: {remedy}")
     if not (np.isfinite(fps) and 1.0 <= fps <= 240.0):
-        raise ParameterError("fps", "must lie between 1 and 240", fps)
+        raise ParameterError("fps", "must be between 1 and 240", fps)
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     render = bpy.context.scene.render
     render.fps = max(1, round(fps))

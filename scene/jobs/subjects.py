@@ -79,7 +79,7 @@ def subject(mesh: str | Path | None = None, points: str | Path | None = None, *,
     elif suffix in (".glb", ".gltf"):
         obj = _from_gltf(path)
     else:
-        raise FormatError(path, "is none of .npz, .obj, .blend, .glb and .gltf: export the mesh as one of these")
+        raise FormatError(path, "is not a .npz, .obj, .blend, .glb or .gltf file: export the mesh as one of these")
     if points is not None:
         store_points(obj, read_points(points))
     if not has_points(obj):
@@ -105,12 +105,12 @@ def _from_arrays(path: Path) -> Any:
 def _from_blend(path: Path) -> Any:
     """The mesh object of a .blend: the one with feature points, else the one with the most vertices."""
     if not path.is_file():
-        raise FormatError(path, "there is no such file")
+        raise FormatError(path, "does not exist: check the path")
     try:
         with bpy.data.libraries.load(str(path)) as (there, here):
             here.objects = list(there.objects)
     except OSError as problem:
-        raise FormatError(path, f"is not a .blend that this Blender reads ({problem})") from problem
+        raise FormatError(path, f"cannot be read by this Blender ({problem})") from problem
     found = [obj for obj in here.objects if obj is not None]
     chosen = _largest(found, path)
     for obj in found:
@@ -123,7 +123,7 @@ def _from_blend(path: Path) -> Any:
 def _from_gltf(path: Path) -> Any:
     """The largest mesh of a glTF file."""
     if not path.is_file():
-        raise FormatError(path, "there is no such file")
+        raise FormatError(path, "does not exist: check the path")
     before = set(bpy.data.objects)
     try:
         bpy.ops.import_scene.gltf(filepath=str(path))
@@ -136,7 +136,7 @@ def _largest(objects: list[Any], path: Path) -> Any:
     """The mesh with feature points, else the one with the most vertices."""
     candidates = [obj for obj in objects if obj.type == "MESH"]
     if not candidates:
-        raise FormatError(path, "has no mesh in it")
+        raise FormatError(path, "contains no mesh")
     return max(candidates, key=lambda obj: (has_points(obj), len(obj.data.vertices)))
 
 

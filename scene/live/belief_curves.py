@@ -38,7 +38,11 @@ def write_curves(obj: Any, track: BeliefTrack) -> Any:
     columns = [*track.beliefs.T, track.strengths]
     for name, values in zip(property_names(), columns, strict=True):
         obj[name] = float(values[0])
-        about = "How strongly it is shown" if name.endswith(STRENGTH) else "Belief that the face shows it"
+        about = (
+            "Strength of the emotion that the face shows"
+            if name.endswith(STRENGTH)
+            else "Belief that the face shows this emotion"
+        )
         obj.id_properties_ui(name).update(min=0.0, max=10.0, soft_max=1.0, description=about)
         obj.keyframe_insert(_path(name), frame=float(track.numbers[0]), group=GROUP)
         curve = _played(obj).find(_path(name))
@@ -64,7 +68,7 @@ def refuse_unwritable_curves(obj: Any) -> None:
         raise SceneError(obj.name, "is linked from another file: make it local (Object > Relations > Make Local) first")
     animation = obj.animation_data
     if animation is not None and animation.use_tweak_mode:
-        raise SceneError(obj.name, "is in the tweak mode of the NLA editor: leave it (Tab in the NLA editor) first")
+        raise SceneError(obj.name, "is in NLA tweak mode: leave it first (Tab in the NLA editor)")
     if animation is not None and animation.action is not None and animation.action.library is not None:
         raise SceneError(obj.name, f"plays the linked action {animation.action.name}: make it single user first")
 

@@ -122,7 +122,7 @@ class FaceReader:
         try:
             return self._face.measure(positions)
         except ParameterError as problem:
-            raise SceneError(self.obj.name, f"cannot be measured as it shows: {problem}") from problem
+            raise SceneError(self.obj.name, f"cannot be measured as shown: {problem}") from problem
 
     def read(self, depsgraph: Any, *, rule: str = "paper", words: Iterable[str] = ()) -> Reading:
         """What the face shows now.
@@ -177,7 +177,7 @@ def read_animation(obj: Any, scene: Any, *, start: int, end: int, rule: str = "p
     from ... import api
 
     if end < start:
-        raise ParameterError("end", f"must not lie before the first frame {start}", end)
+        raise ParameterError("end", f"must not be before the first frame {start}", end)
     yield Progress(0.0, "Reading the resting face")
     reader = FaceReader(obj)
     now, between = scene.frame_current, scene.frame_subframe

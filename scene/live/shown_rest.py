@@ -35,8 +35,8 @@ def shown_rest(obj: Any, count: int) -> Floats:
     if not kept or np.linalg.norm(found[: len(rest)] - rest, axis=1).max() > NEAR * size:
         raise SceneError(
             obj.name,
-            f"shows {count} vertices where its mesh has {len(rest)}, made by its modifiers {_suspects(obj)}: "
-            "switch them off in the viewport (monitor symbol) while the face is read",
+            f"shows {count} vertices, but its mesh has {len(rest)}, made by its modifiers {_suspects(obj)}: "
+            "turn them off in the viewport (monitor icon) to read the face",
         )
     return found
 

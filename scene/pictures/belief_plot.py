@@ -113,7 +113,7 @@ def _texts(track: BeliefTrack, title: str, top: float) -> list[Text]:
     texts.append(Text(("most believed",), RIGHT + 22, BAND_BOTTOM - 5, LETTER))
     texts.append(
         Text(
-            ("Frames. The band is grey where the face is at rest, and fuller the stronger it shows.",),
+            ("Frames. The band is grey where the face is at rest, and more saturated the stronger the expression.",),
             LEFT,
             BAND_BOTTOM + 1.9 * LETTER,
             LETTER,

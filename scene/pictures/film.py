@@ -45,7 +45,7 @@ def refuse_unwritable_output(path: Path) -> None:
                 pass
     except OSError as problem:
         raise SceneError(
-            str(path), f"cannot be written ({problem.strerror or problem}): choose a file in a folder of yours"
+            str(path), f"cannot be written ({problem.strerror or problem}): choose a folder you may write to"
         ) from problem
 
 
@@ -75,9 +75,9 @@ def render_film(
     film = Path(path) if path is not None else None
     kept = Path(frames) if frames is not None else None
     if film is None and kept is None:
-        raise SceneError("Film", "neither a film nor pictures are wanted: choose one of them")
+        raise SceneError("Video", "neither video nor images are to be written: choose one of them")
     if end < start:
-        raise SceneError("Film", f"would have no frames: its end {end} lies before its start {start}")
+        raise SceneError("Video", f"has no frames: its end {end} is before its start {start}")
     for output in (film, kept / "0001.png" if kept is not None else None):
         if output is not None:
             refuse_unwritable_output(output)
@@ -86,7 +86,7 @@ def render_film(
         folder = kept if kept is not None else Path(temporary)
         pictures = yield from render_frames(objects, folder, start=start, end=end, look=look)
         if film is not None:
-            yield Progress(0.95, "Encoding the film")
+            yield Progress(0.95, "Encoding the video")
             shutil.copyfile(encode(pictures, Path(temporary) / "film.mp4", look=look), film)
     return FilmResult(film, len(pictures), kept, (remark,) if remark else ())
 
@@ -130,7 +130,7 @@ def encode(pictures: Sequence[Path], path: Path, *, look: Look, fps: tuple[int, 
     finally:
         bpy.data.scenes.remove(scene)
     if not path.is_file() or path.stat().st_size == 0:
-        raise SceneError(str(path), "no film was encoded: this Blender may lack FFmpeg; keep the PNG frames instead")
+        raise SceneError(str(path), "no video was encoded: this Blender may lack FFmpeg; write images instead")
     return path
 
 

@@ -10,7 +10,7 @@ EGL_PLATFORM_SURFACELESS = 0x31DD
 EGL_PLATFORM_DEVICE = 0x313F
 
 REMEDY = (
-    "Workbench and EEVEE need EGL to draw without a window, and it is missing here: rendering with Cycles instead "
+    "Workbench and EEVEE need EGL to render without a window, and it is missing: rendering with Cycles instead "
     "(on Debian and Ubuntu, install libegl1 and libgl1-mesa-dri)"
 )
 

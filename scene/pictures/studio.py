@@ -119,7 +119,7 @@ def studio(objects: Sequence[Any], framing: Framing, look: Look) -> Iterator[Any
 def _borrow(scene: Any, source: Any, look: Look) -> None:
     """Show all that the user's scene shows, through its own camera."""
     if source.camera is None:
-        raise SceneError(source.name, "has no camera: add one (Add > Camera), or choose the camera on the face")
+        raise SceneError(source.name, "has no camera: add one (Add > Camera), or set Camera to Portrait")
     for obj in source.collection.objects:
         scene.collection.objects.link(obj)
     for collection in source.collection.children:
@@ -266,5 +266,5 @@ def render_frame(scene: Any, frame: int, folder: Path) -> Path:
     path = Path(scene.render.frame_path(frame=frame))
     bpy.ops.render.render(animation=True, scene=scene.name)
     if not path.is_file():
-        raise SceneError(str(path), "was not written: choose a folder that can be written to")
+        raise SceneError(str(path), "was not written: choose a folder you may write to")
     return path

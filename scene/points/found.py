@@ -40,7 +40,7 @@ class Finding:
         how = f"known as {self.topology}" if self.topology else f"score {self.score:.2f}"
         doubtful = self.kept.doubtful()
         listed = ", ".join(doubtful[:6]) + (" ..." if len(doubtful) > 6 else "")
-        look = f"; look at {listed}" if doubtful else ""
+        look = f"; check {listed}" if doubtful else ""
         return f"{name}: {len(self.kept.points)} feature points found ({how}){look}"
 
 

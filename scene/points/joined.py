@@ -66,7 +66,7 @@ def take_over_points(obj: Any) -> str:
         sure = {name: point.confidence for name, point in kept.points.items()}
         write_kept(obj, bind(obj.data, table, origins=origins, confidence=sure), as_given=True)
         return str(mesh.name)
-    raise SceneError(obj.name, "has no face in it whose points could be kept: press Find Face")
+    raise SceneError(obj.name, "contains no face whose points can be restored: press Find Face")
 
 
 def _block_of(part: Any, whole: Any) -> Ints | None:

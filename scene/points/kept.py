@@ -59,7 +59,7 @@ class KeptPoint:
         if len(self.vertices) != len(self.weights):
             raise ParameterError("weights", "must be as many as there are vertices", self.weights)
         if not 0.0 <= self.confidence <= 1.0:
-            raise ParameterError("confidence", "must lie in [0, 1]", self.confidence)
+            raise ParameterError("confidence", "must be in [0, 1]", self.confidence)
 
     @property
     def is_bound(self) -> bool:
@@ -150,7 +150,7 @@ def refuse_foreign_mesh(obj: Any) -> None:
     """
     if obj.data.library is not None or obj.data.override_library is not None:
         raise SceneError(
-            obj.name, "has a mesh of another file: make it local (Object > Relations > Make Local > All) first"
+            obj.name, "has a mesh from another file: make it local (Object > Relations > Make Local > All) first"
         )
 
 
@@ -184,7 +184,7 @@ def _decoded(text: str) -> KeptPoints:
     points = {}
     for name, entry in stored["points"].items():
         if name not in FEATURE_POINTS:
-            raise FormatError("feature points", "is no name of the standard's", key=name)
+            raise FormatError("feature points", "is not a name of the standard", key=name)
         points[name] = KeptPoint(
             triple(entry["at"]),
             tuple(int(vertex) for vertex in entry["vertices"]),

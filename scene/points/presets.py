@@ -40,7 +40,7 @@ def preset_folder(*, create: bool = False) -> Path:
         return Path(bpy.utils.user_resource("DATAFILES", path=f"risorius/{FOLDER}", create=create))
     except OSError as problem:
         raise SceneError(
-            "Topology", f"its folder cannot be created ({problem}): make room or allow writing"
+            "Topology", f"its folder cannot be created ({problem}): free disk space or allow writing"
         ) from problem
 
 
@@ -96,7 +96,7 @@ def save_preset(obj: Any, name: str) -> Path:
 
     stem = re.sub(r"[^\w-]+", "_", name.strip().casefold()).strip("_")
     if not stem:
-        raise SceneError("Topology", "needs a name: type one, with letters or digits in it")
+        raise SceneError("Topology", "needs a name with letters or digits")
     kept = followed(read_kept(obj), obj.data).kept
     points = {n: _on_vertices(p.vertices, p.weights) for n, p in kept.points.items() if p.is_bound}
     if not points:
@@ -116,7 +116,7 @@ def remove_preset(stem: str) -> None:
     SceneError : there is none, or it cannot be removed.
     """
     if stem not in {path.stem for path in preset_paths()}:
-        raise SceneError("Topology", f"{stem} is not there any more: nothing to remove")
+        raise SceneError("Topology", f"{stem} no longer exists: nothing to remove")
     try:
         (preset_folder() / f"{stem}.toml").unlink()
     except OSError as problem:

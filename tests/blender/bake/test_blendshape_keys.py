@@ -123,7 +123,7 @@ def test_the_button_makes_the_keys_of_the_chosen_names(head: Any) -> None:
     assert bpy.ops.risorius.make_shapes() == {"FINISHED"}
     made = [key.name for key in head.data.shape_keys.key_blocks][1:]
     assert made == list(api.load_key_names("oculus_visemes"))
-    with pytest.raises(RuntimeError, match="ask to replace"):
+    with pytest.raises(RuntimeError, match="turn on Replace"):
         bpy.ops.risorius.make_shapes()
     chosen.replace = True
     assert bpy.ops.risorius.make_shapes() == {"FINISHED"}

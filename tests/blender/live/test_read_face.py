@@ -170,7 +170,7 @@ def counted() -> list[int]:
 
 def test_other_vertices_are_refused_with_the_modifier_named(smiling: Any) -> None:
     smiling.modifiers.new("Fewer", "DECIMATE").ratio = 0.5
-    with pytest.raises(SceneError, match=r"modifiers Fewer: switch them off"):
+    with pytest.raises(SceneError, match=r"modifiers Fewer: turn them off"):
         measured(smiling)
     live.refresh(smiling)
     assert "Fewer" in live.shown(smiling)[1]

@@ -168,7 +168,7 @@ def test_unwritable_output_is_refused_before_rendering(
     blocked.write_text("")
     monkeypatch.setattr(film, "render_frames", lambda *_, **__: pytest.fail("rendered"))
     for path in (blocked / "film.mp4", tmp_path):
-        with pytest.raises(SceneError, match=r"cannot be written .*choose a file"):
+        with pytest.raises(SceneError, match=r"cannot be written .*choose a folder you may write to"):
             run(film.render_film([head], path, start=1, end=2))
     bpy.context.scene.risorius.film.path = " "
     with pytest.raises(RuntimeError, match="choose one"):

@@ -108,8 +108,8 @@ def test_wrong_requests_are_refused_and_nothing_is_written(tmp_path: Path) -> No
         ({"words": []}, ParameterError, "words"),
         ({"words": ["joy"], "fps": 0.0}, ParameterError, "fps"),
         ({"words": ["joy"], "mesh": tmp_path / "none.npz"}, FormatError, "none.npz"),
-        ({"words": ["joy"], "mesh": tmp_path / "none.blend"}, FormatError, "no such file"),
-        ({"words": ["joy"], "mesh": tmp_path / "none.fbx"}, FormatError, "none of .npz"),
+        ({"words": ["joy"], "mesh": tmp_path / "none.blend"}, FormatError, "does not exist"),
+        ({"words": ["joy"], "mesh": tmp_path / "none.fbx"}, FormatError, "not a .npz, .obj"),
     ):
         with pytest.raises(error, match=match):
             jobs.bake_file(out, **options)

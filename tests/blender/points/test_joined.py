@@ -74,7 +74,7 @@ def test_a_mesh_of_its_own_does_not_get_the_points_of_one_that_was_deleted(head:
     bpy.ops.mesh.primitive_uv_sphere_add(segments=160, ring_count=120)
     other = bpy.context.object
     assert points_joined.may_be_joined(other)
-    with pytest.raises(SceneError, match="no face in it whose points could be kept: press Find Face"):
+    with pytest.raises(SceneError, match="contains no face whose points can be restored: press Find Face"):
         points_joined.take_over_points(other)
     assert not points_kept.has_points(other)
 

@@ -84,7 +84,7 @@ def test_saved_and_appended_and_linked(head: Any, tmp_path: Path) -> None:
             here.objects = list(there.objects)
         (loaded,) = here.objects
         assert_same(places(loaded), before)
-    with pytest.raises(SceneError, match="mesh of another file: make it local"):
+    with pytest.raises(SceneError, match="mesh from another file: make it local"):
         faces.store_points(loaded, {"2.1": 0})
 
 

@@ -76,7 +76,7 @@ def test_damaged_npz_names_the_array(tmp_path: Path, arrays: dict[str, np.ndarra
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("head.fbx", "export the mesh as .obj"), ("gone.obj", "no such file"), ("rubbish.npz", "not an .npz")],
+    [("head.fbx", "export the mesh as .obj"), ("gone.obj", "does not exist"), ("rubbish.npz", "not an .npz")],
 )
 def test_other_kinds_missing_files_and_rubbish_are_refused(tmp_path: Path, name: str, said: str) -> None:
     (tmp_path / "rubbish.npz").write_bytes(b"not a zip")
