@@ -5,6 +5,7 @@ Every function here is plain Python over bpy and can be called from scripts. Lon
 so that an error or a cancelled bake leaves the scene as it was.
 
 blender_types         what is used of Blender's types, for mypy
+attributes            one figure of all items at once, to arrays and back
 mesh, head, faces     meshes to arrays and back; the default head; from objects to a face
 parts_found           parts of a face's mesh, told and corrected
 refusals              what Risorius refuses to touch, and the remedy

@@ -16,6 +16,7 @@ from .bake.baking import STILL, Target
 from .faces import FaceSource, face_of
 from .jobs.jobs import empty_file, save
 from .jobs.subjects import subject
+from .mesh import write_key_vertices
 from .pictures.film import refuse_unwritable_output
 from .progress import Progress, Work, run
 from .refusals import own_mesh
@@ -90,7 +91,7 @@ def _write(obj: Any, shapes: Mapping[str, Floats]) -> None:
     for name, positions in shapes.items():
         block = obj.data.shape_keys.key_blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
         block.slider_min, block.slider_max, block.value = 0.0, 1.0, 0.0
-        block.data.foreach_set("co", np.ascontiguousarray(positions, dtype=np.float32).ravel())
+        write_key_vertices(block, positions)
     obj.data.update_tag()
 
 

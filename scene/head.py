@@ -69,7 +69,7 @@ def head_object(head: HeadMesh, name: str) -> Any:
     mesh = meshes.new_mesh(name, head.vertices, corners, sizes)
     for material in head.materials:
         mesh.materials.append(_material(material))
-    mesh.polygons.foreach_set("material_index", np.ascontiguousarray(head.material_index, dtype=np.int32))
+    meshes.set_materials(mesh, head.material_index)
     meshes.write_parts(mesh, np.asarray(head.parts))
     obj = bpy.data.objects.new(name, mesh)
     store_points(obj, {n: _place(point) for n, point in head.points.items()}, origin=Origin.TOPOLOGY)

@@ -8,54 +8,79 @@ times the object's stretch in the world times the scene's unit scale.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
 
 import bpy
 import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import SceneError
+from .attributes import (
+    read_floats,
+    read_ints,
+    read_numbers,
+    remove_attribute,
+    write_flags,
+    write_floats,
+    write_ints,
+    write_numbers,
+)
+from .blender_types import Depsgraph, Mesh, Object, Scene, ShapeKey
 
 PART_ATTRIBUTE = "risorius_part"
 
 
-def rest_vertices(mesh: Any) -> Floats:
+def rest_vertices(mesh: Mesh) -> Floats:
     """(V, 3) resting vertices of `mesh` in its own coordinates: the Basis, or the bare mesh."""
     keys = mesh.shape_keys
-    source = keys.reference_key.data if keys is not None else mesh.vertices
-    flat = np.empty(3 * len(source), dtype=np.float32)
-    source.foreach_get("co", flat)
-    return flat.astype(np.float64).reshape(-1, 3)
+    return mesh_vertices(mesh) if keys is None else key_vertices(keys.reference_key)
 
 
-def key_vertices(key_block: Any) -> Floats:
+def mesh_vertices(mesh: Mesh) -> Floats:
+    """(V, 3) vertices of `mesh` itself, without its shape keys; of an evaluated one, as they show."""
+    return read_floats(mesh.vertices, "co", 3)
+
+
+def key_vertices(key: ShapeKey) -> Floats:
     """(V, 3) vertices of one shape key in the mesh's own coordinates."""
-    flat = np.empty(3 * len(key_block.data), dtype=np.float32)
-    key_block.data.foreach_get("co", flat)
-    return flat.astype(np.float64).reshape(-1, 3)
+    return read_floats(key.data, "co", 3)
 
 
-def evaluated_vertices(obj: Any, depsgraph: Any | None = None) -> Floats:
+def write_key_vertices(key: ShapeKey, positions: Floats) -> None:
+    """Set the vertices (V, 3) of one shape key, in the mesh's own coordinates."""
+    write_floats(key.data, "co", positions)
+
+
+def evaluated_vertices(obj: Object, depsgraph: Depsgraph | None = None) -> Floats:
     """(V', 3) vertices as Blender shows them: shape keys and modifiers applied; the object's own coordinates.
 
     V' differs from the original count where a modifier changes the topology.
     """
     graph = depsgraph if depsgraph is not None else bpy.context.evaluated_depsgraph_get()
     evaluated = obj.evaluated_get(graph)
-    mesh = evaluated.to_mesh()
-    flat = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-    mesh.vertices.foreach_get("co", flat)
+    vertices = mesh_vertices(evaluated.to_mesh())
     evaluated.to_mesh_clear()
-    return flat.astype(np.float64).reshape(-1, 3)
+    return vertices
 
 
-def polygon_arrays(mesh: Any) -> tuple[Ints, Ints]:
+def polygon_arrays(mesh: Mesh) -> tuple[Ints, Ints]:
     """Corner vertices of all polygons one after another (L,), and corners of each polygon (F,)."""
-    corners = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
-    return corners.astype(np.int64), sizes.astype(np.int64)
+    return read_ints(mesh.loops, "vertex_index"), read_ints(mesh.polygons, "loop_total")
+
+
+def triangle_corners(mesh: Mesh) -> Ints:
+    """(T, 3) vertices of the triangles that Blender draws the polygons as."""
+    return read_ints(mesh.loop_triangles, "vertices", 3)
+
+
+def edge_vertices(mesh: Mesh) -> Ints:
+    """(E, 2) vertices of all edges."""
+    return read_ints(mesh.edges, "vertices", 2)
+
+
+def set_materials(mesh: Mesh, slots: Ints) -> None:
+    """Give each polygon the material of a slot (F,)."""
+    write_ints(mesh.polygons, "material_index", slots)
 
 
 def polygon_sequence(corners: Ints, sizes: Ints, *, first_vertex: int = 0) -> list[tuple[int, ...]]:
@@ -65,23 +90,22 @@ def polygon_sequence(corners: Ints, sizes: Ints, *, first_vertex: int = 0) -> li
     return [tuple(flat[end - size : end]) for size, end in zip(sizes.tolist(), ends.tolist(), strict=True)]
 
 
-def read_parts(mesh: Any) -> Ints | None:
+def read_parts(mesh: Mesh) -> Ints | None:
     """(V,) stored parts of `mesh` (`face.parts.Part`), or None where none are stored."""
-    attribute = mesh.attributes.get(PART_ATTRIBUTE)
-    if attribute is None or attribute.domain != "POINT" or attribute.data_type != "INT":
-        return None
-    parts = np.empty(len(attribute.data), dtype=np.int32)
-    attribute.data.foreach_get("value", parts)
-    return parts.astype(np.int64)
+    return read_numbers(mesh, PART_ATTRIBUTE)
 
 
-def write_parts(mesh: Any, parts: Ints) -> None:
+def write_parts(mesh: Mesh, parts: Ints) -> None:
     """Store (V,) parts with the mesh as an integer attribute, so that they survive editing."""
-    attribute = mesh.attributes.get(PART_ATTRIBUTE) or mesh.attributes.new(PART_ATTRIBUTE, "INT", "POINT")
-    attribute.data.foreach_set("value", np.ascontiguousarray(parts, dtype=np.int32))
+    write_numbers(mesh, PART_ATTRIBUTE, parts)
 
 
-def metres_matrix(obj: Any, scene: Any | None = None) -> Floats:
+def remove_parts(mesh: Mesh) -> None:
+    """Take stored parts away."""
+    remove_attribute(mesh, PART_ATTRIBUTE)
+
+
+def metres_matrix(obj: Object, scene: Scene | None = None) -> Floats:
     """(3, 3) symmetric matrix from the object's own coordinates to metres: its stretch in the world.
 
     Raises
@@ -105,7 +129,7 @@ def metres_matrix(obj: Any, scene: Any | None = None) -> Floats:
     return matrix
 
 
-def relative_matrix(obj: Any, other: Any) -> Floats:
+def relative_matrix(obj: Object, other: Object) -> Floats:
     """(4, 4) matrix from the coordinates of `other` to those of `obj`."""
     ours = np.array(obj.matrix_world, dtype=np.float64)
     theirs = np.array(other.matrix_world, dtype=np.float64)
@@ -115,23 +139,22 @@ def relative_matrix(obj: Any, other: Any) -> Floats:
     return matrix
 
 
-def new_mesh(name: str, vertices: Floats, corners: Ints, sizes: Ints) -> Any:
+def new_mesh(name: str, vertices: Floats, corners: Ints, sizes: Ints) -> Mesh:
     """A new mesh datablock from vertices (V, 3), corners (L,) and polygon sizes (F,); smooth shaded."""
-    mesh = bpy.data.meshes.new(name)
+    mesh: Mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(len(vertices))
-    mesh.vertices.foreach_set("co", np.ascontiguousarray(vertices, dtype=np.float32).ravel())
+    write_floats(mesh.vertices, "co", vertices)
     mesh.loops.add(len(corners))
-    mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(corners, dtype=np.int32))
+    write_ints(mesh.loops, "vertex_index", corners)
     mesh.polygons.add(len(sizes))
-    starts = np.concatenate([[0], np.cumsum(sizes)[:-1]]) if len(sizes) else np.zeros(0)
-    mesh.polygons.foreach_set("loop_start", np.ascontiguousarray(starts, dtype=np.int32))
-    mesh.polygons.foreach_set("use_smooth", np.ones(len(sizes), dtype=bool))
+    write_ints(mesh.polygons, "loop_start", np.cumsum(sizes) - sizes)
+    write_flags(mesh.polygons, "use_smooth", np.ones(len(sizes), dtype=bool))
     mesh.update(calc_edges=True)
     mesh.validate()
     return mesh
 
 
-def flatten_polygons(polygons: Any) -> tuple[Ints, Ints]:
+def flatten_polygons(polygons: Sequence[Sequence[int]] | Ints) -> tuple[Ints, Ints]:
     """Polygons as an (F, n) array or a sequence of index sequences -> corners (L,) and sizes (F,)."""
     sizes = np.fromiter((len(polygon) for polygon in polygons), dtype=np.int64, count=len(polygons))
     corners = np.fromiter((index for polygon in polygons for index in polygon), dtype=np.int64, count=int(sizes.sum()))

@@ -22,10 +22,8 @@ def find_parts(obj: Any) -> Ints:
     SceneError, ModelError : see `faces.read_face` and `faces.face_of`; a mesh of another file.
     """
     refuse_foreign_mesh(obj)
-    stored = obj.data.attributes.get(meshes.PART_ATTRIBUTE)
     before = meshes.read_parts(obj.data)
-    if stored is not None:
-        obj.data.attributes.remove(stored)
+    meshes.remove_parts(obj.data)
     try:
         parts = np.asarray(face_of(read_face(obj)).parts, dtype=np.int64)
     except Exception:
@@ -57,9 +55,7 @@ def set_part(obj: Any, group: str, part: Part) -> int:
 
 def forget_parts(obj: Any) -> None:
     """Remove stored parts: the face tells them again."""
-    stored = obj.data.attributes.get(meshes.PART_ATTRIBUTE)
-    if stored is not None:
-        obj.data.attributes.remove(stored)
+    meshes.remove_parts(obj.data)
 
 
 def in_group(obj: Any, name: str) -> Bools:

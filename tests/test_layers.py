@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -27,3 +28,14 @@ def test_package_root_loads_neither_numpy_nor_scipy() -> None:
     loaded = loaded_by("import risorius")
     assert "risorius" in loaded
     assert not loaded & {"numpy", "scipy"}
+
+
+def test_blenders_figures_are_read_and_written_in_bulk_in_one_place() -> None:
+    root = Path(__file__).resolve().parents[1]
+    using = [
+        path.relative_to(root).as_posix()
+        for room in ("scene", "operators")
+        for path in (root / room).rglob("*.py")
+        if ".foreach_" in path.read_text(encoding="utf-8")
+    ]
+    assert using == ["scene/attributes.py"]

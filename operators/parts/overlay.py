@@ -13,7 +13,7 @@ from mathutils import Vector
 
 from ...arrays import Ints
 from ...face.mesh.parts import Part
-from ...scene.mesh import read_parts
+from ...scene.mesh import read_parts, triangle_corners
 from ...scene.points.seen import Visible
 from ..points.view import Viewport
 
@@ -53,12 +53,10 @@ def _draw() -> None:
     visible = Visible.of(obj, context.evaluated_depsgraph_get())
     if parts is None or not visible.same_polygons:
         return
-    mesh = visible.shown.data
-    corners = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
-    mesh.loop_triangles.foreach_get("vertices", corners)
+    triangles = triangle_corners(visible.shown.data).astype(np.int32)
     shader = gpu.shader.from_builtin("SMOOTH_COLOR")
     content = {"pos": visible.vertices.astype(np.float32), "color": colours(parts)}
-    batch = batch_for_shader(shader, "TRIS", content, indices=corners.reshape(-1, 3))
+    batch = batch_for_shader(shader, "TRIS", content, indices=triangles)
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("LESS_EQUAL")
     with gpu.matrix.push_pop():

@@ -12,9 +12,9 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
-from ...arrays import Floats, Ints
+from ...arrays import Floats
 from ...scene.live.live_face import LiveFace
-from ...scene.mesh import rest_vertices
+from ...scene.mesh import edge_vertices, rest_vertices, triangle_corners
 from ...scene.points.seen import Visible
 from ..muscles.props import by_hand_of
 from ..points.view import Viewport
@@ -70,21 +70,12 @@ def _before(obj: Any, viewport: Viewport, share: float) -> Iterator[None]:
 
 def _draw_strain(obj: Any, visible: Visible) -> None:
     """Colours on the skin."""
-    mesh = visible.shown.data
-    corners = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
-    mesh.loop_triangles.foreach_get("vertices", corners)
     shader = gpu.shader.from_builtin("SMOOTH_COLOR")
     rest = rest_vertices(obj.data)
-    found = colours.of_strain(colours.strain(rest, visible.vertices, edges_of(obj.data)))
+    found = colours.of_strain(colours.strain(rest, visible.vertices, edge_vertices(obj.data)))
     content = {"pos": visible.vertices.astype(np.float32), "color": found.astype(np.float32)}
-    batch_for_shader(shader, "TRIS", content, indices=corners.reshape(-1, 3)).draw(shader)
-
-
-def edges_of(mesh: Any) -> Ints:
-    """(E, 2) vertices of the mesh's edges."""
-    flat = np.empty(2 * len(mesh.edges), dtype=np.int32)
-    mesh.edges.foreach_get("vertices", flat)
-    return flat.reshape(-1, 2).astype(np.int64)
+    triangles = triangle_corners(visible.shown.data).astype(np.int32)
+    batch_for_shader(shader, "TRIS", content, indices=triangles).draw(shader)
 
 
 def _draw_muscles(obj: Any, face: LiveFace, shown: Floats) -> None:

@@ -19,6 +19,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ParameterError
+from ..attributes import write_floats
 from .shape_keys import own_names_of
 
 FACE_TAG, CLIP_TAG = "risorius_face", "risorius_clip"
@@ -74,7 +75,7 @@ def write_curve(action: Any, key_name: str, curve: Curve) -> None:
     fcurve = fcurves.new(path)
     points = fcurve.keyframe_points
     points.add(len(curve.frames))
-    points.foreach_set("co", np.column_stack([curve.frames, curve.values]).astype(np.float32).ravel())
+    write_floats(points, "co", np.column_stack([curve.frames, curve.values]))
     for point in points:
         point.interpolation = "LINEAR" if curve.linear else "BEZIER"
         point.handle_left_type = point.handle_right_type = "AUTO_CLAMPED"

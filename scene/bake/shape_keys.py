@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import bpy
-import numpy as np
 
 from ...arrays import Floats
+from ..mesh import write_key_vertices
 
 RECORD = "risorius"
 
@@ -122,7 +122,7 @@ def write_keys(
         block = blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
         block.slider_min, block.slider_max = slider_min, 1.0
         block.value = 0.0
-        block.data.foreach_set("co", np.ascontiguousarray(positions, dtype=np.float32).ravel())
+        write_key_vertices(block, positions)
     own = replace(own, face=face or own.face, clips={**own.clips, clip: tuple(shapes)})
     _write_own(obj.data, own)
     obj.data.update_tag()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...arrays import Floats
+from ..attributes import remove_attribute, write_vectors
 from ..faces import FaceSource, face_of
 from . import nodes as nodes
 
@@ -123,13 +123,7 @@ def _write_places(obj: Any, creases: Creases, head: slice) -> None:
         places = crease.places[head]
         vectors[nodes.PLACE + name] = np.column_stack([places, np.zeros(len(places))])
     for name, values in vectors.items():
-        _write_attribute(obj.data, name, values)
-
-
-def _write_attribute(mesh: Any, name: str, vectors: Floats) -> None:
-    """A vector attribute (V, 3) of the vertices."""
-    attribute = mesh.attributes.new(name, "FLOAT_VECTOR", "POINT")
-    attribute.data.foreach_set("vector", np.ascontiguousarray(vectors, dtype=np.float32).ravel())
+        write_vectors(obj.data, name, values)
 
 
 @contextmanager
@@ -151,7 +145,7 @@ def _clear(obj: Any) -> None:
         obj.modifiers.remove(modifier)
     ours = [a.name for a in obj.data.attributes if a.name == nodes.HEAD or a.name.startswith(nodes.PLACE)]
     for name in ours:
-        obj.data.attributes.remove(obj.data.attributes[name])
+        remove_attribute(obj.data, name)
     if RESTING in obj:
         obj.add_rest_position_attribute = False
         del obj[RESTING]

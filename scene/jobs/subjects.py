@@ -169,7 +169,7 @@ def paint_parts(obj: Any, *, creases: bool = False) -> None:
         painted[name] = material
     eye = {name: np.array(PLAIN_COLOURS[name]) for name in ("Sclera", "Iris", "Pupil")}
     lay_irises(obj, face, [painted[name] for name in eye], sclera=eye["Sclera"], iris=eye["Iris"], pupil=eye["Pupil"])
-    obj.data.polygons.foreach_set("material_index", colours.astype(np.int32))
+    meshes.set_materials(obj.data, colours)
     obj.data.update()
 
 

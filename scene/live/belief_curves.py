@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ...errors import SceneError
+from ..attributes import write_floats
 
 if TYPE_CHECKING:
     from ...api import BeliefTrack
@@ -48,7 +49,7 @@ def write_curves(obj: Any, track: BeliefTrack) -> Any:
         curve = _played(obj).find(_path(name))
         points = curve.keyframe_points
         points.add(len(values) - 1)
-        points.foreach_set("co", np.column_stack([track.numbers, values]).astype(np.float32).ravel())
+        write_floats(points, "co", np.column_stack([track.numbers, values]))
         for point in points:
             point.interpolation = "LINEAR"
         curve.update()

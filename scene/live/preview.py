@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import bpy
-import numpy as np
 
 from ...arrays import Floats
+from ..attributes import remove_attribute, write_vectors
 from ..node_graph import NodeGraph
 
 NAME = "Risorius Preview"
@@ -22,12 +22,7 @@ ATTRIBUTE = "risorius_preview"
 def show(obj: Any, positions: Floats) -> None:
     """Show positions (V, 3) in the mesh's own coordinates."""
     mesh = obj.data
-    attribute = mesh.attributes.get(ATTRIBUTE)
-    if attribute is None or len(attribute.data) != len(mesh.vertices):
-        if attribute is not None:
-            mesh.attributes.remove(attribute)
-        attribute = mesh.attributes.new(ATTRIBUTE, "FLOAT_VECTOR", "POINT")
-    attribute.data.foreach_set("vector", np.ascontiguousarray(positions, dtype=np.float32).ravel())
+    write_vectors(mesh, ATTRIBUTE, positions)
     modifier = _modifier(obj)
     if modifier is None:
         modifier = obj.modifiers.new(NAME, "NODES")
@@ -71,9 +66,8 @@ def remove_unused() -> None:
     """Take away what no object shows any more: places on meshes, and the modifier's group."""
     shown = {obj.data for obj in bpy.data.objects if obj.type == "MESH" and _modifier(obj) is not None}
     for mesh in bpy.data.meshes:
-        attribute = mesh.attributes.get(ATTRIBUTE) if mesh.library is None and mesh not in shown else None
-        if attribute is not None and not mesh.is_editmode:
-            mesh.attributes.remove(attribute)
+        if mesh.library is None and mesh not in shown and not mesh.is_editmode:
+            remove_attribute(mesh, ATTRIBUTE)
     for tree in [tree for tree in bpy.data.node_groups if _is_ours(tree)]:
         if tree.users - tree.use_fake_user == 0:
             bpy.data.node_groups.remove(tree)

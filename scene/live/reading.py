@@ -18,7 +18,7 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import ModelError, ParameterError, SceneError
 from ..faces import face_of, read_face
-from ..mesh import metres_matrix, rest_vertices
+from ..mesh import mesh_vertices, metres_matrix, rest_vertices
 from ..points.kept import POINTS
 from ..points.seen import Visible
 from ..progress import Progress, Work
@@ -102,10 +102,8 @@ class FaceReader:
         shown = visible.shown.data
         if self._shown_rest is None or len(self._shown_rest) != len(shown.vertices):
             self._shown_rest = shown_rest(self.obj, len(shown.vertices))
-        flat = np.empty(3 * len(shown.vertices), dtype=np.float32)
-        shown.vertices.foreach_get("co", flat)
         count = len(self._rest)
-        moved: Floats = flat.astype(np.float64).reshape(-1, 3)[:count] - self._shown_rest[:count]
+        moved: Floats = mesh_vertices(shown)[:count] - self._shown_rest[:count]
         return moved
 
     def measure(self, depsgraph: Any) -> Floats:

@@ -13,7 +13,8 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import SceneError
-from ..mesh import rest_vertices
+from ..attributes import write_floats
+from ..mesh import mesh_vertices, rest_vertices
 
 #: Modifiers that keep the mesh's own vertices, first and in their order, and add others to them.
 ADDING = {"SUBSURF", "MULTIRES", "MIRROR", "SOLIDIFY"}
@@ -62,18 +63,15 @@ def _through(obj: Any, rest: Floats) -> Floats:
         copy.animation_data_clear()
         if mesh.shape_keys is not None:
             copy.shape_key_clear()
-        mesh.vertices.foreach_set("co", rest.astype(np.float32).ravel())
+        write_floats(mesh.vertices, "co", rest)
         for modifier in list(copy.modifiers):
             if modifier.type not in ADDING:
                 copy.modifiers.remove(modifier)
         scene.collection.objects.link(copy)
         layer = scene.view_layers[0]
         layer.update()
-        shown = copy.evaluated_get(layer.depsgraph).data
-        flat = np.empty(3 * len(shown.vertices), dtype=np.float32)
-        shown.vertices.foreach_get("co", flat)
+        return mesh_vertices(copy.evaluated_get(layer.depsgraph).data)
     finally:
         bpy.data.objects.remove(copy)
         bpy.data.meshes.remove(mesh)
         bpy.data.scenes.remove(scene)
-    return flat.astype(np.float64).reshape(-1, 3)

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ...arrays import Floats
+from ..attributes import write_pixels
 from ..live.reading import RESTING
 from .lettering import Text, write_text
 
@@ -128,9 +129,7 @@ def keep_plot(name: str, pixels: Floats) -> Any:
     image = bpy.data.images.get(name) or bpy.data.images.new(name, width, height, alpha=False)
     if tuple(image.size) != (width, height):
         image.scale(width, height)
-    full = np.ones((height, width, 4), dtype=np.float32)
-    full[:, :, :3] = pixels[::-1]
-    image.pixels.foreach_set(full.ravel())
+    write_pixels(image, pixels)
     image.update()
     image.pack()
     image.use_fake_user = True

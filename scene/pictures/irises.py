@@ -10,6 +10,7 @@ import numpy as np
 
 from ...arrays import Bools, Floats, Ints
 from .. import mesh as meshes
+from ..attributes import write_floats, write_pixels
 
 if TYPE_CHECKING:
     from ...face.bodies.eyeball import Eyeball
@@ -52,7 +53,7 @@ def lay_irises(obj: Any, face: Face, materials: Iterable[Any], *, sclera: Floats
     corners, sizes = meshes.polygon_arrays(obj.data)
     hidden = np.logical_or.reduceat(behind[corners], np.cumsum(sizes) - sizes)
     shown = np.where(np.repeat(hidden, sizes)[:, None], 0.0, places[corners])
-    layer.data.foreach_set("uv", np.ascontiguousarray(shown, dtype=np.float32).ravel())
+    write_floats(layer.data, "uv", shown)
     obj.data.uv_layers.active = layer
     layer.active_render = True
     picture = _picture(sclera, iris, pupil, float(np.mean([ball.pupil / ball.iris for ball in balls])))
@@ -99,8 +100,7 @@ def _picture(sclera: Floats, iris: Floats, pupil: Floats, pupil_share: float) ->
     colour = colour + (np.asarray(sclera) - colour) * outside(1.0)
     coded = np.where(colour <= 0.0031308, 12.92 * colour, 1.055 * np.maximum(colour, 0.0) ** (1.0 / 2.4) - 0.055)
     image = bpy.data.images.new(IRISES, SIZE, SIZE)
-    pixels = np.concatenate([coded, np.ones((SIZE, SIZE, 1))], axis=2)
-    image.pixels.foreach_set(np.ascontiguousarray(pixels, dtype=np.float32).ravel())
+    write_pixels(image, coded)
     image.pack()
     return image
 

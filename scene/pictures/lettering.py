@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import numpy as np
 
 from ...arrays import Floats
+from ..attributes import read_pixels, write_pixels
 from .studio import Engine, usable_engine
 
 #: Height of a line in letter sizes.
@@ -117,12 +117,9 @@ def read_picture(path: Path) -> Floats:
     """(height, width, 3) of a picture file as stored, 0..1, first row at the top."""
     image = bpy.data.images.load(str(path))
     try:
-        width, height = image.size
-        pixels = np.empty(width * height * 4, dtype=np.float32)
-        image.pixels.foreach_get(pixels)
+        return read_pixels(image)
     finally:
         bpy.data.images.remove(image)
-    return pixels.reshape(height, width, 4)[::-1, :, :3].astype(np.float64)
 
 
 def write_picture(pixels: Floats, path: Path) -> Path:
@@ -130,9 +127,7 @@ def write_picture(pixels: Floats, path: Path) -> Path:
     height, width, _ = pixels.shape
     image = bpy.data.images.new("Risorius Picture", width, height, alpha=False)
     try:
-        full = np.ones((height, width, 4), dtype=np.float32)
-        full[:, :, :3] = pixels[::-1]
-        image.pixels.foreach_set(full.ravel())
+        write_pixels(image, pixels)
         image.filepath_raw, image.file_format = str(path), "PNG"
         image.save()
     finally:

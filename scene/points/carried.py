@@ -16,6 +16,8 @@ from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 
 from ...arrays import Floats
+from ..attributes import read_vectors
+from ..mesh import triangle_corners
 from .bound import Held, shares
 
 #: The name that Blender gives it.
@@ -36,18 +38,14 @@ class Carried:
     @classmethod
     def of(cls, shown: Any) -> Carried | None:
         """Of an evaluated mesh; None where Blender carries none along."""
-        attribute = shown.attributes.get(REST)
-        if attribute is None or attribute.domain != "POINT" or attribute.data_type != "FLOAT_VECTOR":
+        rest = read_vectors(shown, REST)
+        if rest is None:
             return None
-        flat = np.empty(3 * len(attribute.data), dtype=np.float32)
-        attribute.data.foreach_get("vector", flat)
-        corners = np.empty(3 * len(shown.loop_triangles), dtype=np.int32)
-        shown.loop_triangles.foreach_get("vertices", corners)
-        name = hashlib.blake2b(flat.tobytes() + corners.tobytes(), digest_size=16).digest()
+        corners = triangle_corners(shown)
+        name = hashlib.blake2b(rest.tobytes() + corners.tobytes(), digest_size=16).digest()
         carried = _kept.pop(name, None)
         if carried is None:
-            rest = flat.astype(np.float64).reshape(-1, 3)
-            triangles = [(int(a), int(b), int(c)) for a, b, c in corners.reshape(-1, 3)]
+            triangles = [(int(a), int(b), int(c)) for a, b, c in corners]
             carried = cls(rest, triangles, BVHTree.FromPolygons(rest.tolist(), triangles, all_triangles=True))
         _kept[name] = carried
         while len(_kept) > KEPT:

@@ -94,9 +94,7 @@ class Visible:
     @cached_property
     def _shown_vertices(self) -> Floats:
         """(V', 3) vertices of what shows."""
-        flat = np.empty(3 * len(self.shown.data.vertices), dtype=np.float32)
-        self.shown.data.vertices.foreach_get("co", flat)
-        return flat.astype(np.float64).reshape(-1, 3)
+        return meshes.mesh_vertices(self.shown.data)
 
     def _all_on_shown(self, kept: KeptPoints, rest: dict[str, Floats]) -> dict[str, Floats]:
         """Where resting places show on other polygons; those off the surface move as the others on the whole."""

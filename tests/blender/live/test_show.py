@@ -10,13 +10,12 @@ import risorius.api as api
 from risorius.operators.active import target_of
 from risorius.operators.emotion.profile import wanted_of
 from risorius.operators.show import colours
-from risorius.operators.show.overlay import edges_of
 from risorius.scene.live.live_face import STOPS, LiveFace
-from risorius.scene.mesh import rest_vertices
+from risorius.scene.mesh import edge_vertices, rest_vertices
 
 
 def test_strain_is_how_much_longer_the_edges_are(head: Any) -> None:
-    rest, edges = rest_vertices(head.data), edges_of(head.data)
+    rest, edges = rest_vertices(head.data), edge_vertices(head.data)
     np.testing.assert_allclose(colours.strain(rest, rest, edges), 0.0)
     np.testing.assert_allclose(colours.strain(rest, 1.2 * rest, edges), 0.2, atol=1e-9)
     shades = colours.of_strain(np.array([-0.3, 0.0, 0.3, 9.0]))

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from risorius.errors import SceneError
-from risorius.scene import faces, refusals
+from risorius.scene import faces
 from risorius.scene import mesh as meshes
+from risorius.scene.bake.remarks import remarks
 from risorius.scene.points import bound as points_bound
 from risorius.scene.points import kept as points_kept
 
@@ -136,6 +137,6 @@ def test_what_a_deletion_takes_away_is_lost_by_name(head: Any) -> None:
     assert "9.3" in now.kept.points
     with pytest.raises(SceneError, match=r"2\.1.*were lost"):
         faces.stored_points(head)
-    (said,) = refusals.remarks(head)
+    (said,) = remarks(head)
     assert "was edited" in said
     assert "2.1" in said
