@@ -18,8 +18,9 @@ muscles         the table of muscles, a file for each kind; its rows placed on o
 mechanisms      what moves a face, one mechanism per file
 skin            the visible skin as a sheet: geometry only
 mesh            what is given: vertices, points, parts, openings, the head's frame, the template
+figures         figures of anatomy, read from presets/anatomy into dataclasses
 mechanism       the names of all mechanisms
 
 Beside them: `fit` finds feature points on any head, `tracked` turns what trackers saw into FAPs, `default_head` is the
-head that comes with Risorius, `tables` reads tables of anatomy.
+head that comes with Risorius.
 """

@@ -16,12 +16,12 @@ import numpy as np
 from ...arrays import Floats, Ints
 from ...physics.mesh import fans
 from ...physics.skin import State
+from ..figures import Pair, Share, read_figures
 from ..mechanism import Mechanism
 from ..mechanisms.jaw import Jaw
 from ..mechanisms.lids import Eye
 from ..mesh.face_mesh import FaceMesh
 from ..mesh.parts import Part
-from ..mesh.template import MM
 from ..skin.outer import OuterSkin, smoothstep
 from .dental_arch import DentalArch, build_front
 from .eyeball import Eyeball
@@ -29,18 +29,25 @@ from .eyeball_surface import EyeballSurface, modelled_ball, round_ball
 from .margins import Depths, Meeting, build_meeting
 from .surroundings import Body, Look, Surroundings
 
-#: Share of the way back that the upper margin takes: lips give way alike unless one is asked to move, upper lids do.
-LIP_SHARE, LID_SHARE = 0.5, 0.9
 
-#: FAPs that move the upper and the lower lip up or down, inner and outer; requests below some units count as none.
+@dataclass(frozen=True)
+class ContactFigures:
+    """Who gives way, and how far from lids and lips skin is kept off what is behind (presets/anatomy/bodies.toml)."""
+
+    upper_lip: Share
+    upper_lid: Share
+    unfelt: float
+    lid_skin: Pair
+    lip_skin: Pair
+
+
+CONTACT = read_figures("bodies.contact", ContactFigures)
+
+#: FAPs that move the upper and the lower lip up or down, inner and outer.
 UPPER_LIP_FAPS, LOWER_LIP_FAPS = (4, 8, 9, 51, 55, 56), (5, 10, 11, 52, 57, 58)
-UNFELT = 2.0
-
-#: Skin is kept off the eyeball, and off the teeth, within the first distance of lids or lips, fading to the second.
-LID_SKIN, LIP_SKIN = (6.0 * MM, 10.0 * MM), (8.0 * MM, 14.0 * MM)
 
 #: Bodies may move margins that have been settled: both are repeated at most so often, while they move this, metres.
-SWEEPS, UNDISTURBED = 3, 0.02 * MM
+SWEEPS, UNDISTURBED = 3, 0.02e-3
 
 AT_REST = Surroundings()
 
@@ -48,7 +55,9 @@ AT_REST = Surroundings()
 def lip_share(asked: Floats) -> float:
     """The upper lip's part of the way back, 0..1, for requests (68,): a lip that is asked to move pushes the other."""
     wanted = np.abs(np.nan_to_num(asked))
-    upper, lower = (UNFELT + float(wanted[np.array(faps) - 1].sum()) for faps in (UPPER_LIP_FAPS, LOWER_LIP_FAPS))
+    upper, lower = (
+        CONTACT.unfelt + float(wanted[np.array(faps) - 1].sum()) for faps in (UPPER_LIP_FAPS, LOWER_LIP_FAPS)
+    )
     return lower / (upper + lower)
 
 
@@ -82,7 +91,7 @@ class Contact:
         self.lips = build_meeting(skin, skin.mouth, skin.lip_distances, lids=False)
         self.lids = {side: build_meeting(skin, skin.eyes[side], skin.lid_distances(side), lids=True) for side in sides}
 
-    def settle(self, displacement: Floats, lip_share: float = LIP_SHARE, at: Surroundings = AT_REST) -> Floats:
+    def settle(self, displacement: Floats, lip_share: float = CONTACT.upper_lip, at: Surroundings = AT_REST) -> Floats:
         """The displacement (n, 3) of the outer skin in head space, metres, with every contact resolved.
 
         `lip_share` is the upper lip's part of the way back (`lip_share`).
@@ -113,7 +122,7 @@ class Contact:
     def slack(self, displacement: Floats, at: Surroundings) -> Slack:
         """How far a pose's displacement (n, 3) passes contact."""
         positions = self.skin.positions + displacement
-        margins = [meeting.depths(positions) for meeting, _ in self._meetings(LIP_SHARE)]
+        margins = [meeting.depths(positions) for meeting, _ in self._meetings(CONTACT.upper_lip)]
         return Slack(
             tuple((np.maximum(above, 0.0), np.maximum(below, 0.0)) for above, below in margins),
             tuple(np.maximum(body.depths(positions, at)[0], 0.0) for body in self.bodies),
@@ -141,7 +150,7 @@ class Contact:
 
     def _meetings(self, lip_share: float) -> list[tuple[Meeting, float]]:
         """Every pair of margins with the upper one's share of the way."""
-        return [(self.lips, lip_share), *((lids, LID_SHARE) for lids in self.lids.values())]
+        return [(self.lips, lip_share), *((lids, CONTACT.upper_lid) for lids in self.lids.values())]
 
 
 def _lifted(
@@ -167,12 +176,12 @@ def build_contact(
     bodies: list[Body] = []
     balls = {ball.side: ball for ball in eyeballs}
     for side, eye in eyes.items():
-        index, firmness = _near(np.min(skin.lid_distances(side), axis=0), LID_SKIN)
+        index, firmness = _near(np.min(skin.lid_distances(side), axis=0), CONTACT.lid_skin)
         look = Look(eye.centre, balls[side].gaze if side in balls else np.array([0.0, 0.0, 1.0]))
         triangles = _triangles(mesh, Part.EYEBALL_L if side == "l" else Part.EYEBALL_R)
         ball = modelled_ball(look, positions, triangles) if len(triangles) else round_ball(look, eye.radius)
         bodies.append(EyeballSurface(side, ball, index, firmness, skin.positions[index]))
-    index, firmness = _near(skin.lip_edge_distance, LIP_SKIN)
+    index, firmness = _near(skin.lip_edge_distance, CONTACT.lip_skin)
     for part, carried_by in ((Part.TEETH_UPPER, None), (Part.TEETH_LOWER, jaw)):
         triangles = _triangles(mesh, part)
         if len(triangles):

@@ -13,21 +13,27 @@ from scipy import ndimage
 
 from ...arrays import Floats, Ints
 from ...physics.mesh import surface_samples
+from ..figures import Length, read_figures
 from ..mechanisms.jaw import Jaw, JawMotion
-from ..mesh.template import MM
 from .surroundings import Surroundings
 
-#: Distance before the teeth that lip skin keeps at least.
-CLEARANCE = 0.1 * MM
 
-#: Grid of the front: directions to each side (rad) and their step; step of the heights, metres.
-WIDEST, TURN, RISE = np.radians(80.0), np.radians(1.5), 0.5 * MM
+@dataclass(frozen=True)
+class TeethFigures:
+    """Of any row of teeth (presets/anatomy/bodies.toml)."""
+
+    clearance: Length
+    widest: float
+    thickest: Length
+
+
+TEETH = read_figures("bodies.teeth", TeethFigures)
+
+#: Grid of the front: step of the directions, rad, and of the heights, metres.
+TURN, RISE = np.radians(1.5), 0.5e-3
 
 #: Gaps of this many cells are closed.
 GAP = 5
-
-#: Skin farther behind the front than this is inside the mouth and not in a tooth, metres.
-THICKEST = 6.0 * MM
 
 
 @dataclass(frozen=True)
@@ -48,7 +54,7 @@ class Front:
         """Depths (k,) below the clearance, minus infinity off the row, and ways out (k, 3), for positions (k, 3)."""
         aside, before = positions[:, 0] - self.axis[0], positions[:, 2] - self.axis[1]
         distance = np.maximum(np.hypot(aside, before), 1e-9)
-        column = (np.arctan2(aside, before) + WIDEST) / TURN
+        column = (np.arctan2(aside, before) + TEETH.widest) / TURN
         line = (positions[:, 1] - self.bottom) / RISE
         first = np.clip(np.floor(column).astype(np.int64), 0, self.reach.shape[0] - 2)
         second = np.clip(np.floor(line).astype(np.int64), 0, self.reach.shape[1] - 2)
@@ -56,9 +62,9 @@ class Front:
         corners = np.stack([self.reach[first + i, second + j] for i in (0, 1) for j in (0, 1)])
         on_row = (np.abs(u - 0.5) <= 0.5) & (np.abs(v - 0.5) <= 0.5) & np.isfinite(corners).all(axis=0)
         shares = np.stack([(1 - u) * (1 - v), (1 - u) * v, u * (1 - v), u * v])
-        deep = (shares * np.where(on_row, corners, 0.0)).sum(axis=0) + CLEARANCE - distance
+        deep = (shares * np.where(on_row, corners, 0.0)).sum(axis=0) + TEETH.clearance - distance
         outwards = np.stack([aside / distance, np.zeros(len(distance)), before / distance], axis=1)
-        return np.where(on_row & (deep < THICKEST), deep, -np.inf), outwards
+        return np.where(on_row & (deep < TEETH.thickest), deep, -np.inf), outwards
 
 
 def build_front(vertices: Floats, triangles: Ints) -> Front:
@@ -67,8 +73,8 @@ def build_front(vertices: Floats, triangles: Ints) -> Front:
     axis = np.array([points[:, 0].mean(), points[:, 2].min()])
     bottom = float(points[:, 1].min()) - RISE
     turn = np.arctan2(points[:, 0] - axis[0], points[:, 2] - axis[1])
-    shape = int(2 * WIDEST / TURN) + 1, int((points[:, 1].max() - bottom) / RISE) + 3
-    column = np.round((turn + WIDEST) / TURN).astype(np.int64)
+    shape = int(2 * TEETH.widest / TURN) + 1, int((points[:, 1].max() - bottom) / RISE) + 3
+    column = np.round((turn + TEETH.widest) / TURN).astype(np.int64)
     line = np.round((points[:, 1] - bottom) / RISE).astype(np.int64)
     seen = (column >= 0) & (column < shape[0])
     reach = np.full(shape, -np.inf)

@@ -8,16 +8,31 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...arrays import Floats, Ints
+from ..figures import Length, Share, read_figures
 from ..mechanisms.lids import Eye
 from ..skin.outer import smoothstep
 from .direct_faps import ANGLE_UNIT, value_of
 from .surroundings import Look
 
-#: The neutral pupil is a third of the iris, and the iris as wide as the neutral lid gap (ISO/IEC 14496-2 neutral face).
-PUPIL_SHARE = 1.0 / 3.0
+
+@dataclass(frozen=True)
+class EyeballFigures:
+    """Of any eyeball (presets/anatomy/bodies.toml)."""
+
+    clearance: Length
+    pupil: Share
+
+
+EYEBALL = read_figures("bodies.eyeball", EyeballFigures)
 
 #: An iris is taken for no wider than this share of its eyeball, whatever the lids' gap says.
 WIDEST_IRIS = 0.9
+
+#: A pupil shrinks to no less than this share of its neutral size.
+NARROWEST = 0.1
+
+#: Vertices between these shares of the neutral pupil's angle tell how wide it is: not its pole, its edge still.
+ON_PUPIL = (0.05, 1.02)
 
 
 @dataclass(frozen=True)
@@ -70,7 +85,7 @@ class Eyeball:
         angle = np.arccos(np.clip(away @ self.gaze / np.maximum(distance, 1e-9), -1.0, 1.0))
         radius = float(np.median(distance))
         share = 1.0 - smoothstep((angle - self.pupil) / max(self.iris - self.pupil, 1e-6))
-        wider = angle * (1.0 + max(growth / radius / self.pupil, -0.9) * share)
+        wider = angle * (1.0 + max(growth / radius / self.pupil, NARROWEST - 1.0) * share)
         side = away - (away @ self.gaze)[:, None] * self.gaze
         side /= np.maximum(np.linalg.norm(side, axis=1, keepdims=True), 1e-12)
         wide: Floats = distance[:, None] * (np.cos(wider)[:, None] * self.gaze + np.sin(wider)[:, None] * side)
@@ -99,7 +114,7 @@ class Eyeball:
         """Growth of the pupil in FAP units from vertices turned back (k, 3); None where the pupil has no vertices."""
         away = self.positions - self.centre
         angle = np.arccos(np.clip(away @ self.gaze / np.linalg.norm(away, axis=1), -1.0, 1.0))
-        pupil = (angle > 0.05 * self.pupil) & (angle <= 1.02 * self.pupil)
+        pupil = (angle > ON_PUPIL[0] * self.pupil) & (angle <= ON_PUPIL[1] * self.pupil)
         if not pupil.any():
             return None
         now = np.arccos(np.clip(unturned @ self.gaze / np.linalg.norm(unturned, axis=1), -1.0, 1.0))
@@ -121,4 +136,4 @@ def build_eyeball(
     gaze = pupil - eye.centre
     gaze = gaze / np.linalg.norm(gaze)
     iris = float(np.arcsin(min(iris_radius / eye.radius, WIDEST_IRIS)))
-    return Eyeball(index, positions, eye.centre, gaze, iris * PUPIL_SHARE, iris, faps, units)
+    return Eyeball(index, positions, eye.centre, gaze, iris * EYEBALL.pupil, iris, faps, units)

@@ -12,17 +12,14 @@ from scipy.spatial.transform import Rotation
 
 from ...arrays import Floats, Ints
 from ...physics.mesh import surface_samples
-from ..mesh.template import MM
+from .eyeball import EYEBALL
 from .surroundings import Look, Surroundings
-
-#: Distance over the eyeball that lid skin keeps at least.
-CLEARANCE = 0.1 * MM
 
 #: Directions of the surface: this many angles from the gaze to its back, and this many round it.
 ANGLES, TURNS = 91, 72
 
 #: Distance of the points at which a modelled eyeball's surface is taken, metres.
-SPACING = 0.25 * MM
+SPACING = 0.25e-3
 
 #: Directions nearer than this to the border between two places of the grid, in steps of it, belong to both.
 TIE = 1e-6
@@ -53,7 +50,7 @@ class Ball:
         u, v = angle - first, turn - second
         near = (1.0 - v) * self.radii[first, second] + v * self.radii[first, second + 1]
         far = (1.0 - v) * self.radii[first + 1, second] + v * self.radii[first + 1, second + 1]
-        return (1.0 - u) * near + u * far + CLEARANCE - distance, outwards
+        return (1.0 - u) * near + u * far + EYEBALL.clearance - distance, outwards
 
 
 def _axes(gaze: Floats) -> Floats:

@@ -8,12 +8,25 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...arrays import Floats, Ints
-from ..mesh.template import MM
+from ..figures import Length, Pair, read_figures
 from ..skin.outer import smoothstep
 from .direct_faps import ANGLE_UNIT, value_of
 
 #: The skull's pose is refitted this often with weight on the vertices that agree to about this distance, metres.
 SKULL_ROUNDS, SKULL_TOLERANCE = 12, 1e-6
+
+
+@dataclass(frozen=True)
+class HeadFigures:
+    """Where neck and skull are (presets/anatomy/bodies.toml)."""
+
+    neckless: float
+    neck: Pair
+    crown: Length
+    occiput: Pair
+
+
+HEAD = read_figures("bodies.head", HeadFigures)
 
 
 @dataclass(frozen=True)
@@ -67,6 +80,7 @@ def build_head_turn(positions: Floats, pivot: Floats, brow_height: float) -> Hea
     """The head's turn on a mesh (V, 3) in head space; a head without a neck turns as a whole."""
     low = float(positions[:, 1].min())
     y = positions[:, 1]
-    weights = np.ones(len(positions)) if low > -105 * MM else smoothstep((y + 150 * MM) / (70 * MM))
-    skull = np.flatnonzero((y > brow_height + 45 * MM) | ((positions[:, 2] < -100 * MM) & (y > -10 * MM)))
+    (root, over), (behind, above) = HEAD.neck, HEAD.occiput
+    weights = np.ones(len(positions)) if low > HEAD.neckless else smoothstep((y - root) / over)
+    skull = np.flatnonzero((y > brow_height + HEAD.crown) | ((positions[:, 2] < behind) & (y > above)))
     return HeadTurn(pivot=pivot, weights=weights, skull=skull)

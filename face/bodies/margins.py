@@ -16,21 +16,28 @@ from scipy.spatial.distance import cdist
 
 from ...arrays import Floats, Ints
 from ...physics.mesh import Sparse
+from ..figures import Length, Pair, read_figures
 from ..mesh.openings import Opening
-from ..mesh.template import MM
 from ..skin.outer import OuterSkin, smoothstep
 
-#: Distance along the skin over which a push at the margin fades out, metres.
-LIP_REACH, LID_REACH = 16.0 * MM, 9.0 * MM
 
-#: Lids closed beyond the first share of their opening are drawn together, fully at the second.
-SHUT_FROM, SHUT_AT = 0.86, 0.96
+@dataclass(frozen=True)
+class MarginFigures:
+    """How far a push at a margin reaches, and when lids are shut (presets/anatomy/bodies.toml)."""
 
-#: Within this of the border between both halves, metres, a push is shared by both.
-BLEND = 1.0 * MM
+    lip_reach: Length
+    lid_reach: Length
+    blend: Length
+    shut: Pair
+
+
+MARGINS = read_figures("bodies.margins", MarginFigures)
 
 #: A push moves the partner's margin too, so the projection is repeated; each round leaves a fraction.
 ROUNDS = 8
+
+#: A push is spread from the nearest of a margin's vertices, and from those that are hardly farther off, metres.
+NEAREST = 0.05e-3
 
 Depths: TypeAlias = "tuple[Floats, Floats]"
 """A length for each vertex of the upper and of the lower margin, metres."""
@@ -55,7 +62,7 @@ def _spread(positions: Floats, arc: Ints, weight: Floats) -> Sparse:
     length = np.maximum(np.append(steps, 0.0) + np.append(0.0, steps), 1e-9)  # so that a denser margin counts alike
     distance = cdist(positions[touched], positions[arc])  # not the nearest few: on the midline both sides are as near
     first = distance.min(axis=1, keepdims=True)
-    share = length * np.exp(-(((distance - first) / (0.5 * first + 0.05 * MM)) ** 2))
+    share = length * np.exp(-(((distance - first) / (0.5 * first + NEAREST)) ** 2))
     share *= (weight[touched] / share.sum(axis=1))[:, None]
     row, column = np.nonzero(share > 1e-12)
     return sparse.csr_array((share[row, column], (touched[row], column)), shape=(len(positions), len(arc)))
@@ -125,13 +132,14 @@ class Meeting:
             return 0.0
         open_now, open_before = np.maximum(-depth, 0.0).sum(), np.maximum(self.rest[0], 0.0).sum()
         closed = 1.0 - float(open_now) / max(float(open_before), 1e-9)
-        return float(smoothstep(np.array((closed - SHUT_FROM) / (SHUT_AT - SHUT_FROM))))
+        begin, full = MARGINS.shut
+        return float(smoothstep(np.array((closed - begin) / (full - begin))))
 
 
 def build_meeting(skin: OuterSkin, opening: Opening, distances: tuple[Floats, Floats], *, lids: bool) -> Meeting:
     """The margins of one opening; distances (n,) along the skin from the upper and the lower one."""
-    reach = LID_REACH if lids else LIP_REACH
-    on_upper = smoothstep(((distances[1] - distances[0]) / BLEND + 1.0) / 2.0)
+    reach = MARGINS.lid_reach if lids else MARGINS.lip_reach
+    on_upper = smoothstep(((distances[1] - distances[0]) / MARGINS.blend + 1.0) / 2.0)
     rest = skin.positions
     spread = tuple(
         _spread(rest, arc, side * (1.0 - smoothstep(distance / reach)))

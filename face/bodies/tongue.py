@@ -7,15 +7,27 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Floats, Ints
-from ..mesh.template import MM
+from ..figures import Length, Share, read_figures
 from ..skin.outer import smoothstep
 from .direct_faps import ANGLE_UNIT, value_of
 
 #: FAPs of the tongue, as places in a frame.
 TONGUE = slice(42, 47)
 
-#: A tongue of which nothing is asked loses this share of its height, once the chin has dropped so far (metres).
-SINKS, SINKS_BY = 0.4, 14 * MM
+
+@dataclass(frozen=True)
+class TongueFigures:
+    """How a tongue lies down, and how much of it its body is (presets/anatomy/bodies.toml)."""
+
+    sinks: Share
+    sinks_by: Length
+    body: float
+
+
+FIGURES = read_figures("bodies.tongue", TongueFigures)
+
+#: Tip and body that are nearer to each other than this share of the tongue's length are taken for misplaced.
+APART = 0.1
 
 
 @dataclass(frozen=True)
@@ -55,7 +67,7 @@ class Tongue:
         moved: Floats = np.zeros_like(self.positions)
         if np.isnan(frame[TONGUE]).all():
             height = self.positions[:, 1] - self.positions[:, 1].min()
-            moved[:, 1] = -SINKS * float(smoothstep(np.array(opening / SINKS_BY))) * height
+            moved[:, 1] = -FIGURES.sinks * float(smoothstep(np.array(opening / FIGURES.sinks_by))) * height
         return moved
 
     def _rolled(self, angle: float) -> Floats:
@@ -80,8 +92,8 @@ def build_tongue(
     along = (front - start) / length
     ends = 1.0 if tip is None else float(tip[2] - start) / length
     middle = 0.5 if body is None else float(body[2] - start) / length
-    if ends - middle < 0.1:
+    if ends - middle < APART:
         ends, middle = 1.0, 0.5
     foremost = smoothstep((along - middle) / (ends - middle))
-    rise = np.exp(-(((along - middle) / 0.25) ** 2)) * (1.0 - foremost)
+    rise = np.exp(-(((along - middle) / FIGURES.body) ** 2)) * (1.0 - foremost)
     return Tongue(index=index, positions=positions, tip=foremost, body=rise, units=units)

@@ -16,8 +16,9 @@ import numpy as np
 from ...arrays import Floats, Ints
 from ...mpeg4 import FAPS
 from ...tables import TomlTable, read_csv, read_toml
+from ..figures import ANATOMY
 from ..mesh.fap_units import TEMPLATE_FAPU, unit_length
-from ..mesh.template import ANATOMY, MM
+from ..mesh.template import MM
 
 RANGE_COLUMNS = ("fap", "low_mm", "high_mm", "low_linear", "high_linear")
 

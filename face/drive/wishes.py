@@ -10,7 +10,7 @@ from ...arrays import Bools, Floats
 from ...mpeg4 import LIP_TWINS
 from ..mesh.fap_rows import FapRows
 from ..mesh.template import MM
-from ..response.actuators import JAW_PRIOR
+from ..response.actuators import JAW
 from ..skin.outer import smoothstep
 from .inverse import EXACT_NOISE, Wish
 from .natural import Plan
@@ -85,7 +85,7 @@ def natural_wish(rows: FapRows, plan: Plan) -> Wish:
     middles, loose = lip_middles(rows, plan.goal)
     targets, doubts = np.where(rows.numbers > 0, targets, middles), np.where(rows.numbers > 0, doubts, loose)
     slides = SLIDE_ASKED if _asks(plan.asked, 14, 15) else SLIDE_SILENT
-    return Wish(targets, doubts, dict(plan.muscles), JAW_PRIOR, slides)
+    return Wish(targets, doubts, dict(plan.muscles), JAW.usual_opening, slides)
 
 
 def exact_wish(rows: FapRows, frame: Floats) -> Wish:

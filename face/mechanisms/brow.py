@@ -19,31 +19,40 @@ by 2 mm while the brow rises by 6) and own calibration for the figures.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...arrays import Floats
+from ..figures import Length, read_figures
 from ..mechanism import Mechanism
-from ..mesh.template import MM
 from ..skin.outer import OuterSkin, smoothstep
 
-#: Extra tie of the scalp to the skull, 1/m^2, and the height over the brow at which it is full.
-SCALP_FIRMNESS = 0.02 / MM**2
-SCALP_BEGIN = 20 * MM
 
-#: Length over which the scalp's reaction fades along the sheet, as a share of its length.
-REACTION_SPREAD = 0.3
+@dataclass(frozen=True)
+class BrowFigures:
+    """Of the brow's region and the scalp (presets/anatomy/regions.toml)."""
+
+    above_lid: Length
+    over: Length
+    scalp_firmness: float
+    scalp_over: Length
+    reaction_spread: float
+
+
+BROW = read_figures("regions.brow", BrowFigures)
 
 
 def region(skin: OuterSkin) -> Floats:
     """(n,) 1 over the brow and above, 0 from the upper lids' edge down."""
     lid = (skin.points["3.1"][1] + skin.points["3.2"][1]) / 2.0
-    return smoothstep((skin.positions[:, 1] - lid - 1 * MM) / (8 * MM))
+    return smoothstep((skin.positions[:, 1] - lid - BROW.above_lid) / BROW.over)
 
 
 def scalp_firmness(skin: OuterSkin) -> Floats:
     """(n,) extra tie to the bone above the brows, 1/m^2."""
     brow = (skin.points["4.3"][1] + skin.points["4.4"][1]) / 2.0
-    return SCALP_FIRMNESS * smoothstep((skin.positions[:, 1] - brow) / SCALP_BEGIN)
+    return BROW.scalp_firmness * smoothstep((skin.positions[:, 1] - brow) / BROW.scalp_over)
 
 
 def scalp_reaction(skin: OuterSkin, along: Floats, reaction: float, reaction_at: float) -> Floats:
@@ -56,4 +65,4 @@ def scalp_reaction(skin: OuterSkin, along: Floats, reaction: float, reaction_at:
     """
     if not skin.has(Mechanism.SCALP):
         return np.zeros_like(along)
-    return reaction * np.exp(-(((along - reaction_at) / REACTION_SPREAD) ** 2))
+    return reaction * np.exp(-(((along - reaction_at) / BROW.reaction_spread) ** 2))

@@ -10,21 +10,29 @@ Source: own calibration on scanned expressions (docs/muscles.md).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy import sparse
 
 from ...arrays import Floats
 from ...physics.elastic import diagonal_matrix
 from ...physics.mesh import Sparse
+from ..figures import Length, read_figures
 from ..mechanism import Mechanism
 from ..skin.outer import OuterSkin
 from . import lids, lips, nose
 
-#: Height per unit of surface compression, metres.
-BULGE = 4.0e-3
 
-#: Radius over which squeezing is averaged before it bulges, metres.
-SMOOTHING = 8e-3
+@dataclass(frozen=True)
+class BulgeFigures:
+    """Of squeezed tissue (presets/anatomy/skin.toml)."""
+
+    height: Length
+    over: Length
+
+
+BULGE = read_figures("skin.bulge", BulgeFigures)
 
 
 class Bulge:
@@ -35,7 +43,7 @@ class Bulge:
         self.skin = skin
         self.height = bulging(skin)
         self._divergence = surface_divergence(skin)
-        self._average = skin.smoothing(SMOOTHING)
+        self._average = skin.smoothing(BULGE.over)
 
     def lift(self, fields: Floats) -> Floats:
         """(k, n, 3) what displacements (k, n, 3) raise or lower the skin, metres."""
@@ -54,7 +62,7 @@ def bulging(skin: OuterSkin) -> Floats:
     """(n,) bulge height per unit of surface compression, metres; lips, nose tip and lids are free of it."""
     if not skin.has(Mechanism.BULGE):
         return np.zeros(skin.vertex_count)
-    return BULGE * lips.off_lips(skin) * nose.off_tip(skin) * (1.0 - lids.near_lids(skin))
+    return BULGE.height * lips.off_lips(skin) * nose.off_tip(skin) * (1.0 - lids.near_lids(skin))
 
 
 def surface_divergence(skin: OuterSkin) -> Sparse:

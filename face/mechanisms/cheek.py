@@ -16,17 +16,31 @@ Source: FACS muscle list (docs/sources.md); window of the raiser: own calibratio
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...arrays import Floats
-from ..mesh.template import MM
+from ..figures import Length, read_figures
 from ..skin.outer import OuterSkin, smoothstep
 from .separation import lower_lid_side
+
+
+@dataclass(frozen=True)
+class CheekFigures:
+    """Of the cheek's region (presets/anatomy/regions.toml)."""
+
+    below_lid: Length
+    over: Length
+    beside_lid: Length
+
+
+CHEEK = read_figures("regions.cheek", CheekFigures)
 
 
 def region(skin: OuterSkin) -> Floats:
     """(n,) 1 on cheek and lower lid, 0 on upper lid, brow and nose bridge."""
     y = skin.positions[:, 1]
     lid = (skin.points["3.3"][1] + skin.points["3.4"][1]) / 2.0
-    below = smoothstep((lid + 14 * MM - y) / (10 * MM))
-    return np.asarray(below * np.where(y > lid - 4 * MM, lower_lid_side(skin), 1.0))
+    below = smoothstep((lid + CHEEK.below_lid - y) / CHEEK.over)
+    return np.asarray(below * np.where(y > lid - CHEEK.beside_lid, lower_lid_side(skin), 1.0))

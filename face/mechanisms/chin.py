@@ -17,26 +17,32 @@ figures.
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import dataclass
 
 from ...arrays import Floats
-from ..mesh.template import MM
+from ..figures import Extent, Share, read_figures
 from ..skin.outer import OuterSkin, gaussian
 
-#: Extra tie of the pad to the bone, 1/m^2; its extent to the side, up and forward, metres.
-PAD_FIRMNESS = 0.075 / MM**2
-PAD_EXTENT = np.array([18.0, 9.0, 20.0]) * MM
 
-#: Share of the sliding that the pad is free of.
-LOOSE = 0.7
+@dataclass(frozen=True)
+class ChinFigures:
+    """Of the chin's pad (presets/anatomy/regions.toml)."""
+
+    firmness: float
+    underside: Share
+    extent: Extent
+    loose: Share
+
+
+CHIN = read_figures("regions.chin", ChinFigures)
 
 
 def pad(skin: OuterSkin) -> Floats:
     """(n,) 1 at the pad of the chin, between boss 2.10 and underside 2.1, 0 away from it."""
-    centre = 0.75 * skin.points["2.10"] + 0.25 * skin.points["2.1"]
-    return gaussian(skin.positions, centre, PAD_EXTENT)
+    centre = (1.0 - CHIN.underside) * skin.points["2.10"] + CHIN.underside * skin.points["2.1"]
+    return gaussian(skin.positions, centre, CHIN.extent)
 
 
 def firmness(skin: OuterSkin) -> Floats:
     """(n,) extra tie of the pad to the bone, 1/m^2."""
-    return PAD_FIRMNESS * pad(skin)
+    return CHIN.firmness * pad(skin)

@@ -12,32 +12,72 @@ import numpy as np
 
 from ...arrays import Floats
 from ...physics.elastic import Factor, elastic_matrix
+from ..figures import Extent, Length, Pair, Place, Share, read_figures
 from ..mechanism import Mechanism
-from ..mesh.template import MM, TEMPLATE_POINTS, TemplateWarp
+from ..mesh.template import TEMPLATE_POINTS, TemplateWarp
 from ..skin.outer import OuterSkin, smoothstep
 from .separation import upper_lip_side
 
-#: The axis lies this far from the ear's lower contact 10.7, head space, metres.
-HINGE_FROM_EAR = np.array([0.0, 10.0, -1.0]) * MM
 
-JAW_BENDING_LENGTH = 24.0 * MM
-JAW_ANCHOR_LENGTH = 16.625 * MM
-JAW_STIFFNESS = 1.0 / (13.13 * MM) ** 2
-CHIN_WEIGHT = 0.9
+@dataclass(frozen=True)
+class HingeFigures:
+    """Where the mandible turns (presets/anatomy/jaw.toml, as those below)."""
 
-#: The floor of the mouth, squeezed between mandible and neck, bulges along its normal: height per squared sine of the
-#: opening angle (there is slack first), place on the template and extent (side, height, depth), metres. Fitted to a
-#: scanned open jaw: its residual under the chin lies along the normal for 83 %; this one window explains 94 % of that.
-FLOOR_BULGE = 82.7 * MM
-FLOOR_CENTRE = np.array([0.0, -72.8, -59.2]) * MM
-FLOOR_EXTENT = np.array([69.0, 23.8, 40.9]) * MM
+    from_ear: Place
 
-#: The cheek beside the mouth, stretched between the jaws, hollows along its normal and slips up over the mandible:
-#: metres per squared sine, place on the template (left side) and extent (side, height, depth). Fitted to a scanned jaw:
-#: one window explains 77 % of what the turning mandible leaves there.
-HOLLOW, SLIP = -51.9 * MM, 35.4 * MM
-HOLLOW_CENTRE = np.array([33.7, -23.7, -39.8]) * MM
-HOLLOW_EXTENT = np.array([22.5, 24.0, 26.2]) * MM
+
+@dataclass(frozen=True)
+class MandibleFigures:
+    """Borders of the skin that lies over the mandible."""
+
+    lips: Length
+    angle_rise: Length
+    cheek_over: Length
+    edge_below: Length
+    edge_over: Length
+    angle_over: Length
+
+
+@dataclass(frozen=True)
+class FollowFigures:
+    """How far the skin follows the mandible."""
+
+    bending_length: Length
+    anchor_length: Length
+    pull_length: Length
+    chin: Share
+    held: float
+    held_above: Pair
+    held_below: Pair
+    floor: Share
+    floor_below: Pair
+
+
+@dataclass(frozen=True)
+class FloorFigures:
+    """The floor of the mouth, squeezed between mandible and neck, bulges."""
+
+    bulge: Length
+    centre: Place
+    extent: Extent
+    below_lip: Pair
+
+
+@dataclass(frozen=True)
+class HollowFigures:
+    """The cheek beside the mouth, stretched between the jaws, hollows and slips up over the mandible."""
+
+    sinking: Length
+    slip: Length
+    centre: Place
+    extent: Extent
+
+
+HINGE = read_figures("jaw.hinge", HingeFigures)
+MANDIBLE = read_figures("jaw.mandible", MandibleFigures)
+FOLLOW = read_figures("jaw.follow", FollowFigures)
+FLOOR = read_figures("jaw.floor", FloorFigures)
+HOLLOW = read_figures("jaw.hollow", HollowFigures)
 
 
 @dataclass(frozen=True)
@@ -119,12 +159,12 @@ def mandible_mask(skin: OuterSkin) -> Floats:
     angle = (points["2.13"] + points["2.14"]) / 2.0 if "2.13" in points and "2.14" in points else None
     if angle is None:
         angle = (TEMPLATE_POINTS["2.13"] + TEMPLATE_POINTS["2.14"]) / 2.0
-    lower_lip = 1.0 - upper_lip_side(skin, 8 * MM)
-    below_mouth = 1.0 - _above_line(skin.positions, corner, angle + np.array([0.0, 20 * MM, 0.0]), 16 * MM)
-    above_jaw = _above_line(
-        skin.positions, chin - np.array([0.0, 4 * MM, 0.0]), angle - np.array([0.0, 4 * MM, 0.0]), 10 * MM
-    )
-    before_angle = smoothstep((skin.positions[:, 2] - angle[2]) / (14 * MM) + 0.5)
+    up = np.array([0.0, 1.0, 0.0])
+    lower_lip = 1.0 - upper_lip_side(skin, MANDIBLE.lips)
+    below_mouth = 1.0 - _above_line(skin.positions, corner, angle + MANDIBLE.angle_rise * up, MANDIBLE.cheek_over)
+    edge = (chin - MANDIBLE.edge_below * up, angle - MANDIBLE.edge_below * up)
+    above_jaw = _above_line(skin.positions, *edge, MANDIBLE.edge_over)
+    before_angle = smoothstep((skin.positions[:, 2] - angle[2]) / MANDIBLE.angle_over + 0.5)
     return lower_lip * below_mouth * above_jaw * before_angle
 
 
@@ -132,20 +172,16 @@ def build_jaw(skin: OuterSkin, warp: TemplateWarp) -> Jaw:
     """The mandible of a face from its ears, chin and lips."""
     points = skin.points
     ears = [points[n] if n in points else warp(TEMPLATE_POINTS[n]) for n in ("10.7", "10.8")]
-    hinge = (ears[0] + ears[1]) / 2.0 + HINGE_FROM_EAR
+    hinge = (ears[0] + ears[1]) / 2.0 + HINGE.from_ear
     hinge[0] = (points["8.3"][0] + points["8.4"][0]) / 2.0
     if not skin.has(Mechanism.JAW):
         return Jaw(hinge, np.zeros(skin.vertex_count), np.zeros((skin.vertex_count, 3)))
-    mask = mandible_mask(skin)
-    y = skin.positions[:, 1]
-    held = 0.02 * smoothstep((y + 5 * MM) / (20 * MM)) + 0.02 * smoothstep((-y - 105 * MM) / (20 * MM))
-    pull = JAW_STIFFNESS * mask
-    stiffness = elastic_matrix(
-        skin.laplacian, skin.areas, JAW_BENDING_LENGTH**2, _rest_anchor(skin) + held / MM**2 + pull
-    )
+    pull = mandible_mask(skin) / FOLLOW.pull_length**2
+    anchor = _rest_anchor(skin) + _held(skin) + pull
+    stiffness = elastic_matrix(skin.laplacian, skin.areas, FOLLOW.bending_length**2, anchor)
     weights = Factor(stiffness).solve(skin.areas * pull)
     boss = np.argmin(np.linalg.norm(skin.positions - points["2.10"], axis=1))
-    weights *= CHIN_WEIGHT / max(float(weights[boss]), 1e-6)
+    weights *= FOLLOW.chin / max(float(weights[boss]), 1e-6)
     beside = _floor_bulge(skin, warp) + _cheek_hollow(skin, warp)
     return Jaw(hinge=hinge, weights=np.clip(weights, 0.0, 1.0), bulge=beside)
 
@@ -154,10 +190,11 @@ def _floor_bulge(skin: OuterSkin, warp: TemplateWarp) -> Floats:
     """(n, 3) bulge of the floor of the mouth per squared sine of the opening angle."""
     if not skin.has(Mechanism.FLOOR):
         return np.zeros_like(skin.positions)
-    away = (skin.positions - warp(FLOOR_CENTRE)) / FLOOR_EXTENT
+    away = (skin.positions - warp(FLOOR.centre)) / FLOOR.extent
     window = np.exp(-(away[:, 0] ** 4) - away[:, 1] ** 2 - away[:, 2] ** 2)
-    below = smoothstep((skin.points["2.3"][1] - 12 * MM - skin.positions[:, 1]) / (15 * MM))
-    return FLOOR_BULGE * (window * below)[:, None] * skin.normals
+    begin, over = FLOOR.below_lip
+    below = smoothstep((skin.points["2.3"][1] - begin - skin.positions[:, 1]) / over)
+    return FLOOR.bulge * (window * below)[:, None] * skin.normals
 
 
 def _cheek_hollow(skin: OuterSkin, warp: TemplateWarp) -> Floats:
@@ -166,12 +203,20 @@ def _cheek_hollow(skin: OuterSkin, warp: TemplateWarp) -> Floats:
         return np.zeros_like(skin.positions)
     window = np.zeros(skin.vertex_count)
     for side in (1.0, -1.0):
-        away = (skin.positions - warp(HOLLOW_CENTRE * np.array([side, 1.0, 1.0]))) / HOLLOW_EXTENT
+        away = (skin.positions - warp(HOLLOW.centre * np.array([side, 1.0, 1.0]))) / HOLLOW.extent
         window += np.exp(-(away**2).sum(axis=1))
-    return np.asarray(window[:, None] * (HOLLOW * skin.normals + np.array([0.0, SLIP, 0.0])))
+    return np.asarray(window[:, None] * (np.array([0.0, HOLLOW.slip, 0.0]) - HOLLOW.sinking * skin.normals))
 
 
 def _rest_anchor(skin: OuterSkin) -> Floats:
     """(n,) ties to the skull, 1/m^2; weak under the chin, whose floor goes with the jaw."""
-    under = smoothstep((skin.positions[:, 1] + 70 * MM) / (20 * MM))
-    return (0.2 + 0.8 * under) / JAW_ANCHOR_LENGTH**2
+    height, over = FOLLOW.floor_below
+    above = smoothstep((skin.positions[:, 1] - height) / over)
+    return (FOLLOW.floor + (1.0 - FOLLOW.floor) * above) / FOLLOW.anchor_length**2
+
+
+def _held(skin: OuterSkin) -> Floats:
+    """(n,) extra ties above the mouth and below the chin, 1/m^2."""
+    y = skin.positions[:, 1]
+    (top, top_over), (bottom, bottom_over) = FOLLOW.held_above, FOLLOW.held_below
+    return FOLLOW.held * (smoothstep((y - top) / top_over) + smoothstep((bottom - y) / bottom_over))

@@ -7,37 +7,76 @@ margin by nearly the same angle, and slides a little towards the nose as it clos
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from types import MappingProxyType
 
 import numpy as np
 
 from ...arrays import Floats
+from ...tables import read_toml
+from ..figures import ANATOMY, Length, Pair, Place, Share, read_figures
 from ..mechanism import Mechanism
 from ..mesh.sphere import fit_sphere
 from ..mesh.template import MM
 from ..skin.outer import OuterSkin, smoothstep
 
-#: Centre of the eyeball behind the middle of the two eye corners, template head space: inwards, up, forward (metres).
-CENTRE_FROM_CORNERS = np.array([0.9, 1.5, -9.5]) * MM
 
-#: Metres towards the nose per metre of closing: orbicularis fibres spring from the inner corner, so that closing the
-#: upper lid draws the lower one along, which hardly rises (scanned blink: 2 to 3 mm); and the lower lid as it rises.
-NASAL_SLIDE_LOWER = 0.5
-NASAL_SLIDE_RISING = 0.42
-NASAL_SLIDE_UPPER = 0.2
+@dataclass(frozen=True)
+class BallFigures:
+    """The eyeball of a face that has none (presets/anatomy/lids.toml, as those below)."""
 
-#: Squared bending length of the lids relative to other skin.
-LID_BENDING = 0.25
+    from_corners: Place
+    lid_thickness: Length
 
-#: Ties of the tarsal plate, 1/mm^2; scanned frowns move the brow 4 mm aside and the lid's edge 0.2 mm.
-PLATE_FIRMNESS = 0.02
 
-#: Where the motion of the upper lid ends, along the eye from the inner corner (0) to the outer one (1), and over which
-#: length it fades: the outer corner's hood goes along, further when the lid opens.
-CLOSING_END = (1.15, 0.14)
-OPENING_END = (1.3, 0.3)
-LOWER_END = (1.03, 0.14)
+@dataclass(frozen=True)
+class LidSkinFigures:
+    """How the lids' skin differs."""
+
+    bending: Share
+    near: Pair
+    plate_firmness: float
+    plate: Pair
+
+
+@dataclass(frozen=True)
+class LidExtentFigures:
+    """What skin goes with the lids: places along the eye with lengths of fading, and distances from their edges."""
+
+    inner: Pair
+    closing_outer: Pair
+    opening_outer: Pair
+    lower_outer: Pair
+    closing: Length
+    opening: Pair
+    lower: Length
+    between: Length
+
+
+@dataclass(frozen=True)
+class LidSlideFigures:
+    """How lids slide towards the nose."""
+
+    upper: Share
+    lower: Share
+    rising: Share
+    middle: Pair
+    drawn_inner: Pair
+    drawn_outer: Pair
+
+
+BALL = read_figures("lids.eyeball", BallFigures)
+LID_SKIN = read_figures("lids.skin", LidSkinFigures)
+EXTENT = read_figures("lids.extent", LidExtentFigures)
+SLIDE = read_figures("lids.slide", LidSlideFigures)
+
+#: The eyeball's centre lies at least so many of its radii behind the lid's middle: what turns the lid is no shorter.
+SHORTEST_LEVER = 0.3
+
+#: An eyeball needs this many vertices to be measured.
+MEASURABLE = 12
 
 
 class LidMove(StrEnum):
@@ -48,6 +87,33 @@ class LidMove(StrEnum):
     LOWER_UP = "lower_up"
     LOWER_DOWN = "lower_down"
 
+
+@dataclass(frozen=True)
+class LidMover:
+    """The muscle of one movement: name, title and action unit for people; usual and largest way of the lid, metres."""
+
+    name: str
+    title: str
+    au: str
+    prior: float
+    amplitude: float
+
+
+def _read_movers() -> Mapping[LidMove, LidMover]:
+    """The muscles of presets/anatomy/lids.toml by what they do."""
+    table = read_toml(ANATOMY / "lids.toml").table("movers")
+    table.text("source")
+    table.only("source", *LidMove)
+    movers = {}
+    for move in LidMove:
+        row = table.table(move)
+        row.only("name", "title", "au", "prior_mm", "amplitude_mm")
+        prior, amplitude = (MM * row.number(key, above=0.0) for key in ("prior_mm", "amplitude_mm"))
+        movers[move] = LidMover(row.text("name"), row.text("title"), row.text("au", ""), prior, amplitude)
+    return MappingProxyType(movers)
+
+
+LID_MOVERS = _read_movers()
 
 #: Point that measures a move, and the sign of its angle (positive turns downwards).
 _MOVES = {
@@ -101,13 +167,14 @@ class Eye:
 
 
 def near_lids(skin: OuterSkin) -> Floats:
-    """(n,) 1 within 6 mm of a lid's edge, 0 beyond 16 mm."""
-    return 1.0 - smoothstep((skin.lid_edge_distance - 6 * MM) / (10 * MM))
+    """(n,) 1 beside a lid's edge, 0 away from it."""
+    within, over = LID_SKIN.near
+    return 1.0 - smoothstep((skin.lid_edge_distance - within) / over)
 
 
 def thickness(skin: OuterSkin) -> Floats:
     """(n,) squared bending length relative to other skin: lids are the thinnest skin of the body."""
-    return 1.0 - (1.0 - LID_BENDING) * near_lids(skin)
+    return 1.0 - (1.0 - LID_SKIN.bending) * near_lids(skin)
 
 
 def firmness(skin: OuterSkin) -> Floats:
@@ -115,8 +182,8 @@ def firmness(skin: OuterSkin) -> Floats:
 
     Tarsal plate and canthal tendons hold the lid's edge sideways: a brow that is drawn to the nose slides over it.
     """
-    plate = 1.0 - smoothstep((skin.lid_edge_distance - 2 * MM) / (6 * MM))
-    return np.asarray(PLATE_FIRMNESS / MM**2 * plate)
+    within, over = LID_SKIN.plate
+    return LID_SKIN.plate_firmness * (1.0 - smoothstep((skin.lid_edge_distance - within) / over))
 
 
 def _fissure_position(skin: OuterSkin, side: str) -> Floats:
@@ -129,42 +196,43 @@ def _fissure_position(skin: OuterSkin, side: str) -> Floats:
     return along
 
 
-def _taper(along: Floats, end: tuple[float, float]) -> Floats:
-    """(n,) full in the middle of the lid, 0 at its inner corner and at its `end` (place, length of fading)."""
-    return smoothstep((along + 0.04) / 0.26) * smoothstep((end[0] - along) / end[1])
+def _taper(along: Floats, outer: Pair, inner: Pair = EXTENT.inner) -> Floats:
+    """(n,) full in the middle of the lid, 0 beyond its inner and outer end (place, length of fading)."""
+    return smoothstep((along - inner[0]) / inner[1]) * smoothstep((outer[0] - along) / outer[1])
 
 
 def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
     """One eye from its points, the skin, and the eyeball's vertices (k, 3) in head space where the mesh has them."""
     names = ("3.11", "3.7", "3.1", "3.3") if side == "l" else ("3.8", "3.12", "3.2", "3.4")
     inner, outer, top, bottom = (skin.points[n] for n in names)
-    if eyeball is not None and len(eyeball) >= 12:
+    if eyeball is not None and len(eyeball) >= MEASURABLE:
         centre, radius = fit_sphere(eyeball)
     else:
         inwards = np.array([-1.0 if side == "l" else 1.0, 1.0, 1.0])
-        centre = (inner + outer) / 2.0 + CENTRE_FROM_CORNERS * inwards
-        radius = float(min(np.linalg.norm(top - centre), np.linalg.norm(bottom - centre))) - 0.3 * MM
+        centre = (inner + outer) / 2.0 + BALL.from_corners * inwards
+        radius = float(min(np.linalg.norm(top - centre), np.linalg.norm(bottom - centre))) - BALL.lid_thickness
     upper, lower = skin.lid_distances(side)
     along = _fissure_position(skin, side)
-    lower_taper = _taper(along, LOWER_END)
-    on_upper = smoothstep(((lower - upper) / (2 * MM) + 1.0) / 2.0)
-    on_lower = 1.0 - on_upper
+    on_upper = smoothstep(((lower - upper) / EXTENT.between + 1.0) / 2.0)
+    within, over = EXTENT.opening
+    closing, opening = 1.0 - smoothstep(upper / EXTENT.closing), 1.0 - smoothstep((upper - within) / over)
+    below = (1.0 - on_upper) * (1.0 - smoothstep(lower / EXTENT.lower))
     weights = {
-        LidMove.UPPER_CLOSE: _taper(along, CLOSING_END) * on_upper * (1.0 - smoothstep(upper / (8.0 * MM))),
-        LidMove.UPPER_OPEN: _taper(along, OPENING_END) * on_upper * (1.0 - smoothstep((upper - 3 * MM) / (9 * MM))),
-        LidMove.LOWER_UP: lower_taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
-        LidMove.LOWER_DOWN: lower_taper * on_lower * (1.0 - smoothstep(lower / (14 * MM))),
+        LidMove.UPPER_CLOSE: _taper(along, EXTENT.closing_outer) * on_upper * closing,
+        LidMove.UPPER_OPEN: _taper(along, EXTENT.opening_outer) * on_upper * opening,
+        LidMove.LOWER_UP: _taper(along, EXTENT.lower_outer) * below,
+        LidMove.LOWER_DOWN: _taper(along, EXTENT.lower_outer) * below,
     }
-    middle = np.exp(-(((along - 0.4) / 0.5) ** 2))
-    drawn = on_lower * (1.0 - smoothstep(lower / (14 * MM))) * _taper(along + 0.05, (1.18, 0.2))
+    middle = np.exp(-(((along - SLIDE.middle[0]) / SLIDE.middle[1]) ** 2))
+    drawn = below * _taper(along, SLIDE.drawn_outer, SLIDE.drawn_inner)
     slides: dict[LidMove, Floats] = {move: np.zeros(skin.vertex_count) for move in LidMove}
     if skin.has(Mechanism.LID_SLIDE):
         slides[LidMove.UPPER_CLOSE] = (
-            radius * middle * (NASAL_SLIDE_UPPER * weights[LidMove.UPPER_CLOSE] + NASAL_SLIDE_LOWER * drawn)
+            radius * middle * (SLIDE.upper * weights[LidMove.UPPER_CLOSE] + SLIDE.lower * drawn)
         )
-        slides[LidMove.LOWER_UP] = NASAL_SLIDE_RISING * radius * weights[LidMove.LOWER_UP] * middle
+        slides[LidMove.LOWER_UP] = SLIDE.rising * radius * weights[LidMove.LOWER_UP] * middle
     per_metre = {}
     for move in LidMove:
         point = top if _MOVES[move][0] == "upper" else bottom
-        per_metre[move] = 1.0 / max(float(point[2] - centre[2]), 0.3 * radius)
+        per_metre[move] = 1.0 / max(float(point[2] - centre[2]), SHORTEST_LEVER * radius)
     return Eye(side=side, centre=centre, radius=radius, weights=weights, slides=slides, angle_per_metre=per_metre)

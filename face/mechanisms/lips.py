@@ -12,14 +12,24 @@ Source: FACS muscle list (docs/sources.md) for the lines of action; own calibrat
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from ...arrays import Floats
-from ..mesh.template import MM
+from ..figures import Length, read_figures
 from ..skin.outer import OuterSkin, smoothstep
 
-#: Distance from the lips' edge at which bone begins to be felt, and over which it comes to be felt fully, metres.
-BONE_FROM, BONE_OVER = 4 * MM, 20 * MM
+
+@dataclass(frozen=True)
+class LipFigures:
+    """Of the bone beside the lips (presets/anatomy/regions.toml)."""
+
+    bone_from: Length
+    bone_over: Length
+
+
+LIPS = read_figures("regions.lips", LipFigures)
 
 
 def off_lips(skin: OuterSkin) -> Floats:
-    """(n,) 0 on the lips, 1 from 24 mm off their edge."""
-    return smoothstep((skin.lip_edge_distance - BONE_FROM) / BONE_OVER)
+    """(n,) 0 on the lips, 1 where bone is felt fully."""
+    return smoothstep((skin.lip_edge_distance - LIPS.bone_from) / LIPS.bone_over)

@@ -17,38 +17,52 @@ moved by no scan at hand: anatomy alone.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...arrays import Floats
-from ..mesh.template import MM
+from ..figures import Length, Place, read_figures
 from ..skin.outer import OuterSkin, gaussian, smoothstep
 from .separation import upper_lip_side
 
-#: Extra ties to bone and cartilage, 1/m^2, with their radii, metres; the bridge's place from feature point 9.12.
-BASE_FIRMNESS, BASE_RADIUS = 0.03 / MM**2, 9 * MM
-BRIDGE_FIRMNESS, BRIDGE_RADIUS = 0.008 / MM**2, 16 * MM
-BRIDGE_FROM_POINT = np.array([0.0, 8.0, -4.0]) * MM
 
-TIP_RADIUS, NOSTRIL_RADIUS = 16 * MM, 12 * MM
+@dataclass(frozen=True)
+class NoseFigures:
+    """Of the nose's region and of what holds its skin (presets/anatomy/regions.toml)."""
+
+    half_width: Length
+    over: Length
+    base_firmness: float
+    base_radius: Length
+    bridge_firmness: float
+    bridge_radius: Length
+    bridge_from_point: Place
+    tip_radius: Length
+    nostril_radius: Length
+
+
+NOSE = read_figures("regions.nose", NoseFigures)
 
 
 def region(skin: OuterSkin) -> Floats:
     """(n,) 1 on the nose and the lip below it, 0 on the cheeks and the lower lip."""
-    return np.asarray(upper_lip_side(skin) * smoothstep((34 * MM - np.abs(skin.positions[:, 0])) / (10 * MM)))
+    inside = smoothstep((NOSE.half_width - np.abs(skin.positions[:, 0])) / NOSE.over)
+    return np.asarray(upper_lip_side(skin) * inside)
 
 
 def firmness(skin: OuterSkin) -> Floats:
     """(n,) extra tie to bone and cartilage at the nose's base and bridge, 1/m^2."""
-    held = BASE_FIRMNESS * gaussian(skin.positions, skin.points["9.15"], BASE_RADIUS)
+    held = NOSE.base_firmness * gaussian(skin.positions, skin.points["9.15"], NOSE.base_radius)
     if "9.12" in skin.points:
-        bridge = skin.points["9.12"] + BRIDGE_FROM_POINT
-        held = held + BRIDGE_FIRMNESS * gaussian(skin.positions, bridge, BRIDGE_RADIUS)
+        bridge = skin.points["9.12"] + NOSE.bridge_from_point
+        held = held + NOSE.bridge_firmness * gaussian(skin.positions, bridge, NOSE.bridge_radius)
     return held
 
 
 def off_tip(skin: OuterSkin) -> Floats:
     """(n,) 0 at the tip of the nose, 1 away from it."""
-    return 1.0 - gaussian(skin.positions, skin.points["9.3"], TIP_RADIUS)
+    return 1.0 - gaussian(skin.positions, skin.points["9.3"], NOSE.tip_radius)
 
 
 def nostrils(skin: OuterSkin) -> Floats:
@@ -56,5 +70,5 @@ def nostrils(skin: OuterSkin) -> Floats:
     near: Floats = np.zeros(skin.vertex_count)
     for name in ("9.1", "9.2"):
         if name in skin.points:
-            near = np.maximum(near, gaussian(skin.positions, skin.points[name], NOSTRIL_RADIUS))
+            near = np.maximum(near, gaussian(skin.positions, skin.points[name], NOSE.nostril_radius))
     return near

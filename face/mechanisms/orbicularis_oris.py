@@ -17,14 +17,23 @@ Source: FACS muscle list (docs/sources.md) for the parts; own calibration on sca
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from ...arrays import Floats
-from ..mesh.template import MM
+from ..figures import Length, read_figures
 from ..skin.outer import OuterSkin, smoothstep
 
-#: Width over which one half of a midline muscle hands over to the other, metres to each side.
-HALVES_BLEND = 14 * MM
+
+@dataclass(frozen=True)
+class RingFigures:
+    """Of the halves of midline muscles (presets/anatomy/regions.toml)."""
+
+    halves_over: Length
+
+
+RING = read_figures("regions.orbicularis_oris", RingFigures)
 
 
 def half(skin: OuterSkin, side: int) -> Floats:
     """(n,) 1 on the subject's left (side 1) or right (side -1), 0 on the other: one half of a midline muscle."""
-    return smoothstep((side * skin.positions[:, 0] / HALVES_BLEND + 1.0) / 2.0)
+    return smoothstep((side * skin.positions[:, 0] / RING.halves_over + 1.0) / 2.0)

@@ -17,20 +17,32 @@ scan at hand shows it: anatomy alone.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from ...arrays import Floats
-from ..mesh.template import MM
+from ..figures import Pair, read_figures
 from ..skin.outer import OuterSkin, smoothstep
 
-#: Extra tie of the skin behind the jaw's angle and below the chin, 1/m^2.
-NECK_FIRMNESS = 0.003 / MM**2
+
+@dataclass(frozen=True)
+class NeckFigures:
+    """Of the skin of the neck (presets/anatomy/regions.toml)."""
+
+    firmness: float
+    face_depth: Pair
+    face_height: Pair
+
+
+NECK = read_figures("regions.platysma", NeckFigures)
 
 
 def frontness(skin: OuterSkin) -> Floats:
     """(n,) 1 on the face, 0 behind the jaw's angle and below the chin."""
     y, z = skin.positions[:, 1], skin.positions[:, 2]
-    return smoothstep((z + 60 * MM) / (50 * MM)) * smoothstep((y + 75 * MM) / (10 * MM))
+    (depth, depth_over), (height, height_over) = NECK.face_depth, NECK.face_height
+    return smoothstep((z - depth) / depth_over) * smoothstep((y - height) / height_over)
 
 
 def neck_firmness(skin: OuterSkin) -> Floats:
     """(n,) extra tie of neck and sides of the head, 1/m^2."""
-    return NECK_FIRMNESS * (1.0 - frontness(skin))
+    return NECK.firmness * (1.0 - frontness(skin))

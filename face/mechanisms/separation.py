@@ -5,23 +5,32 @@ that the way along it from one lip to the other leads round the mouth's corner. 
 cones, rectangles) lack is this: each muscle pulls only on the side that it inserts in. Without it distances are taken
 through the air, and each muscle pulls on both.
 
-Source: anatomy of the insertions after the FACS muscle list (docs/sources.md); widths of the blends are this project's
-own choice.
+Source: anatomy of the insertions after the FACS muscle list (docs/sources.md).
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...arrays import Floats
-from ..mesh.template import MM
+from ..figures import Length, read_figures
 from ..skin.outer import OuterSkin, smoothstep
 
-#: Width of the change from one side to the other beside the corners, metres.
-LIP_BLEND, LID_BLEND = 5 * MM, 4 * MM
+
+@dataclass(frozen=True)
+class SeparationFigures:
+    """Widths of the change from one side to the other beside the corners (presets/anatomy/skin.toml)."""
+
+    lips: Length
+    lids: Length
 
 
-def upper_lip_side(skin: OuterSkin, blend: float = LIP_BLEND) -> Floats:
+SEPARATION = read_figures("skin.separation", SeparationFigures)
+
+
+def upper_lip_side(skin: OuterSkin, blend: float = SEPARATION.lips) -> Floats:
     """(n,) 1 on the upper lip's side of the skin, 0 on the lower lip's, over a blend in metres beside the corners."""
     upper, lower = skin.lip_distances
     return smoothstep(((lower - upper) / blend + 1.0) / 2.0)
@@ -30,4 +39,4 @@ def upper_lip_side(skin: OuterSkin, blend: float = LIP_BLEND) -> Floats:
 def lower_lid_side(skin: OuterSkin) -> Floats:
     """(n,) 1 on the lower lids' side of both eyes, 0 on an upper lid's, beside the corners a blend."""
     nearer = np.min([upper - lower for upper, lower in (skin.lid_distances(side) for side in "lr")], axis=0)
-    return smoothstep(nearer / LID_BLEND + 0.5)
+    return smoothstep(nearer / SEPARATION.lids + 0.5)

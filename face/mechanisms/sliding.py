@@ -10,19 +10,29 @@ Source: own calibration on scanned expressions (docs/muscles.md).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...arrays import Floats
+from ..figures import Share, read_figures
 from ..mechanism import Mechanism
 from ..skin.outer import OuterSkin
 from . import chin, lips, nose
 
-#: Share of motion along the normal that the bone takes away.
-SLIDE = 0.56
+
+@dataclass(frozen=True)
+class SlidingFigures:
+    """Of the bone under the skin (presets/anatomy/skin.toml)."""
+
+    share: Share
+
+
+SLIDING = read_figures("skin.sliding", SlidingFigures)
 
 
 def sliding(skin: OuterSkin) -> Floats:
     """(n,) share of motion along the normal that the bone takes away, 0 to 1."""
     if not skin.has(Mechanism.SLIDING):
         return np.zeros(skin.vertex_count)
-    return SLIDE * lips.off_lips(skin) * nose.off_tip(skin) * (1.0 - chin.LOOSE * chin.pad(skin))
+    return SLIDING.share * lips.off_lips(skin) * nose.off_tip(skin) * (1.0 - chin.CHIN.loose * chin.pad(skin))

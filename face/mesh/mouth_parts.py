@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
@@ -10,25 +11,45 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Bools, Floats, Ints
 from ...physics import mesh
+from ..figures import Length, Pair, Share, read_figures
 from .openings import edge_graph
 from .parts import Part
-from .template import MM
 
-#: A tongue is between these wide and at least this long; a single tooth is smaller, rows of teeth and gums are wider.
-TONGUE_NARROWEST, TONGUE_WIDEST, TONGUE_SHORTEST = 20 * MM, 56 * MM, 25 * MM
 
-#: Gums of both jaws in one piece reach this far above and below the lips' line.
-BOTH_JAWS = 8 * MM
+@dataclass(frozen=True)
+class MouthFigures:
+    """Places and sizes of what lies in a mouth (presets/anatomy/parts.toml)."""
 
-#: A row of teeth leaves this middle share of its width empty over these shares of its depth.
-ARCH_MIDDLE, ARCH_DEPTH = 0.15, (0.25, 0.7)
+    half_width: Length
+    depth: Pair
+    half_height: Length
+    both_jaws: Length
+    gum: Length
+    arch_middle: Share
+    arch_depth: Pair
 
-#: Gum within this distance of a tooth belongs to its jaw.
-GUM_REACH = 2 * MM
 
-#: A tongue's tip lies within this of the point 6.1; the tongue reaches this far above its body's point 6.2, is as wide
-#: as its borders 6.3 and 6.4 lie apart times this, and as long behind its body's point as before it.
-TIP_REACH, TONGUE_ABOVE, TONGUE_BESIDE = 4 * MM, 4 * MM, 1.05
+@dataclass(frozen=True)
+class TongueFigures:
+    """The size of a tongue, and where it lies about its points (presets/anatomy/parts.toml)."""
+
+    width: Pair
+    shortest: Length
+    tip_reach: Length
+    above: Length
+    beside: float
+
+
+MOUTH = read_figures("parts.mouth", MouthFigures)
+TONGUE = read_figures("parts.tongue", TongueFigures)
+
+
+def in_mouth(piece: Floats, lips: Floats) -> bool:
+    """Whether a piece (k, 3) lies behind the lips, whose middle is (3,); head space, metres."""
+    middle = piece.mean(axis=0) - lips
+    narrow = np.abs(piece[:, 0] - lips[0]).max() < MOUTH.half_width
+    inside = MOUTH.depth[0] < middle[2] < MOUTH.depth[1] and abs(middle[1]) < MOUTH.half_height
+    return bool(narrow and inside)
 
 
 def mouth_part(piece: Floats, lips: Floats) -> Part | None:
@@ -42,10 +63,10 @@ def mouth_part(piece: Floats, lips: Floats) -> Part | None:
     low, high = piece[:, 1].min() - lips[1], piece[:, 1].max() - lips[1]
     width, _, depth = np.ptp(piece, axis=0)
     teeth = Part.TEETH_UPPER if low + high > 0.0 else Part.TEETH_LOWER
-    if width < TONGUE_NARROWEST or depth < TONGUE_SHORTEST or _is_arch(piece):
+    if width < TONGUE.width[0] or depth < TONGUE.shortest or _is_arch(piece):
         return teeth
-    if width > TONGUE_WIDEST:
-        return None if low < -BOTH_JAWS and high > BOTH_JAWS else teeth
+    if width > TONGUE.width[1]:
+        return None if low < -MOUTH.both_jaws and high > MOUTH.both_jaws else teeth
     return Part.TONGUE if low < 0.0 else Part.TEETH_UPPER
 
 
@@ -53,8 +74,8 @@ def _is_arch(piece: Floats) -> bool:
     """Whether a piece is a horseshoe, open towards the throat."""
     across = piece[:, 0] - (piece[:, 0].min() + piece[:, 0].max()) / 2.0
     along = (piece[:, 2] - piece[:, 2].min()) / max(float(np.ptp(piece[:, 2])), 1e-9)
-    middle = np.abs(across) < ARCH_MIDDLE * np.ptp(piece[:, 0])
-    return not (middle & (along > ARCH_DEPTH[0]) & (along < ARCH_DEPTH[1])).any()
+    middle = np.abs(across) < MOUTH.arch_middle * np.ptp(piece[:, 0])
+    return not (middle & (along > MOUTH.arch_depth[0]) & (along < MOUTH.arch_depth[1])).any()
 
 
 def split_gums(parts: Ints, gums: Bools, positions: Floats, polygons: Sequence[Ints]) -> None:
@@ -72,7 +93,7 @@ def split_gums(parts: Ints, gums: Bools, positions: Floats, polygons: Sequence[I
     if any(len(row) == 0 for row in teeth):
         return
     upper, lower = (cKDTree(positions[row]).query(positions[index])[0] for row in teeth)
-    seeds = [index[(upper < GUM_REACH) & (upper < lower)], index[(lower < GUM_REACH) & (lower < upper)]]
+    seeds = [index[(upper < MOUTH.gum) & (upper < lower)], index[(lower < MOUTH.gum) & (lower < upper)]]
     if any(len(seed) == 0 for seed in seeds):
         return
     own = [polygon for polygon in polygons if gums[polygon].all()]
@@ -105,17 +126,17 @@ def split_tongue(
     distance, nearest = cKDTree(positions[lower]).query(tip)
     foremost = int(lower[nearest])
     teeth = positions[np.isin(parts, (Part.TEETH_LOWER, Part.TEETH_UPPER)) & (labels != labels[foremost])]
-    if distance > TIP_REACH or len(teeth) == 0:
+    if distance > TONGUE.tip_reach or len(teeth) == 0:
         return
     across, along = positions[:, 0] - (left[0] + right[0]) / 2.0, positions[:, 2] - body[2]
     length = tip[2] - body[2]
     inside = (labels == labels[foremost]) & (parts == Part.TEETH_LOWER)
-    inside &= np.abs(across) <= TONGUE_BESIDE * abs(left[0] - right[0]) / 2.0
-    inside &= (along <= length + GUM_REACH) & (along >= -length - GUM_REACH)
-    inside &= positions[:, 1] <= body[1] + TONGUE_ABOVE
+    inside &= np.abs(across) <= TONGUE.beside * abs(left[0] - right[0]) / 2.0
+    inside &= (along <= length + MOUTH.gum) & (along >= -length - MOUTH.gum)
+    inside &= positions[:, 1] <= body[1] + TONGUE.above
     index = np.flatnonzero(inside)
-    above_borders = positions[index, 1] >= min(left[1], right[1]) - GUM_REACH
-    off_teeth = cKDTree(teeth).query(positions[index])[0] >= GUM_REACH
+    above_borders = positions[index, 1] >= min(left[1], right[1]) - MOUTH.gum
+    off_teeth = cKDTree(teeth).query(positions[index])[0] >= MOUTH.gum
     inside[index] = off_teeth | above_borders
     inside[foremost] = True
     own = [polygon for polygon in polygons if inside[polygon].all()]

@@ -3,30 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from ...arrays import Floats, Ints
-from .mouth_parts import mouth_part, split_gums, split_tongue
+from ..figures import Length, Pair, Share, read_figures
+from .mouth_parts import in_mouth, mouth_part, split_gums, split_tongue
 from .parts import Part
 from .sphere import fit_sphere
-from .template import MM
 
-#: An eyeball lies this near to the middle of the eye's corners and has a radius between these.
-EYE_REACH, EYE_RADII = 30 * MM, (6 * MM, 22 * MM)
 
-#: It is round to this share of its radius, and its middle lies within this many radii of its centre: half a ball is
-#: still an eyeball, a strip of lashes on it is none.
-ROUNDNESS, CENTRED = 0.12, 0.62
+@dataclass(frozen=True)
+class EyeballFigures:
+    """What an eyeball may be (presets/anatomy/parts.toml)."""
 
-#: What lies wholly within this many radii of an eyeball (iris, cornea) belongs to it.
-WITHIN_BALL = 1.1
+    reach: Length
+    box: Length
+    radius: Pair
+    roundness: Share
+    centred: Share
+    within: float
 
-#: Pieces within this box (head space) lie in the mouth.
-MOUTH_HALF_WIDTH = 48 * MM
-MOUTH_DEPTH = 90 * MM
+
+EYEBALL = read_figures("parts.eyeball", EyeballFigures)
 
 
 def pieces(polygons: Sequence[Ints], vertex_count: int) -> Ints:
@@ -41,14 +43,14 @@ def _eye(piece: Floats, points: Mapping[str, Floats]) -> Part | None:
     """The eyeball that a piece (k, 3) is, if it is one: round, behind the lids."""
     for part, names in ((Part.EYEBALL_L, ("3.7", "3.11")), (Part.EYEBALL_R, ("3.8", "3.12"))):
         middle = (points[names[0]] + points[names[1]]) / 2.0
-        if np.abs(piece - middle).max() > EYE_REACH + 8 * MM or np.linalg.norm(piece.mean(axis=0) - middle) > EYE_REACH:
+        if np.abs(piece - middle).max() > EYEBALL.box or np.linalg.norm(piece.mean(axis=0) - middle) > EYEBALL.reach:
             continue
         centre, radius = fit_sphere(piece)
         off = np.abs(np.linalg.norm(piece - centre, axis=1) - radius)
         if (
-            EYE_RADII[0] < radius < EYE_RADII[1]
-            and np.median(off) < ROUNDNESS * radius
-            and np.linalg.norm(piece.mean(axis=0) - centre) < CENTRED * radius
+            EYEBALL.radius[0] < radius < EYEBALL.radius[1]
+            and np.median(off) < EYEBALL.roundness * radius
+            and np.linalg.norm(piece.mean(axis=0) - centre) < EYEBALL.centred * radius
         ):
             return part
     return None
@@ -61,7 +63,7 @@ def _add_inner_pieces(parts: Ints, labels: Ints, positions: Floats) -> None:
         if len(ball) == 0:
             continue
         centre, radius = fit_sphere(ball)
-        inside = np.linalg.norm(positions - centre, axis=1) < WITHIN_BALL * radius
+        inside = np.linalg.norm(positions - centre, axis=1) < EYEBALL.within * radius
         for label in np.unique(labels[(parts == Part.OTHER) & inside]):
             member = labels == label
             if inside[member].all():
@@ -98,9 +100,7 @@ def derive_parts(positions: Floats, polygons: Sequence[Ints], points: Mapping[st
         if eye is not None:
             parts[member] = int(eye)
             continue
-        middle = piece.mean(axis=0) - lips
-        inside = np.abs(piece[:, 0] - lips[0]).max() < MOUTH_HALF_WIDTH and -MOUTH_DEPTH < middle[2] < 4 * MM
-        if inside and abs(middle[1]) < 30 * MM:
+        if in_mouth(piece, lips):
             found = mouth_part(piece, lips)
             parts[member] = int(Part.OTHER if found is None else found)
             gums[member] = found is None

@@ -12,13 +12,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...arrays import Floats
-from ...resources import PRESETS
 from ...tables import read_csv
+from ..figures import ANATOMY
 
 MM = 1e-3
-
-#: The tables of anatomy.
-ANATOMY = PRESETS / "anatomy"
 
 #: Groups of feature points on skin or eyes that carry the warp (the standard's groups 2-5 and 8-11), but not the teeth.
 WARP_GROUPS = ("2", "3", "4", "5", "8", "9", "10", "11")

@@ -7,11 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Floats
+from ..figures import read_figures
 from .figures import Place, Radii
 from .row import MuscleRow
 
-#: Depth of a muscle's ellipsoid in its larger radius.
-DEPTH = 1.2
+
+@dataclass(frozen=True)
+class EllipseFigures:
+    """Of every ellipse (presets/anatomy/skin.toml)."""
+
+    depth: float
+
+
+ELLIPSE = read_figures("skin.ellipse", EllipseFigures)
 
 #: Points of half a ring to look at.
 AROUND = 13
@@ -28,7 +36,7 @@ class EllipseRow(MuscleRow):
         """Of positions (n, 3): elliptic radius (n,) in the frontal plane, and depth from the centre, in radii."""
         away = positions - self.centre
         wide, high = self.radii
-        return np.hypot(away[:, 0] / wide, away[:, 1] / high), away[:, 2] / (DEPTH * max(wide, high))
+        return np.hypot(away[:, 0] / wide, away[:, 1] / high), away[:, 2] / (ELLIPSE.depth * max(wide, high))
 
     def strands(self) -> tuple[Floats, Floats]:
         """The half of a ring on the muscle's own side, as wide and high as it reaches; all of it goes with the skin."""

@@ -3,27 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from ...arrays import Floats
+from ..figures import Length, read_figures
 from ..mechanisms import brow, cheek, nose, orbicularis_oris
 from ..mechanisms.separation import upper_lip_side
-from ..mesh.template import MM
 from ..skin.outer import OuterSkin, smoothstep
 from .placement import PlacedMuscle
 from .row import Region, Sides
 
-#: No muscle of expression inserts in skin behind the ears: depth from which it may, and over which it comes to, metres
-#: of head space.
-FACE_BEHIND, FACE_OVER = -105 * MM, 30 * MM
+
+@dataclass(frozen=True)
+class InsertionFigures:
+    """Where muscles of expression insert at all (presets/anatomy/skin.toml)."""
+
+    behind: float
+    over: Length
+
+
+INSERTION = read_figures("skin.insertion", InsertionFigures)
 
 
 def force_density(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     """(n, 3) pull per area of skin at full contraction, up to a factor; 0 outside the muscle's zone and region."""
     row = muscle.row
     force: Floats = row.pull(skin) * region_mask(skin, row.region)[:, None]
-    force *= smoothstep((skin.positions[:, 2] - FACE_BEHIND) / FACE_OVER)[:, None]
+    force *= smoothstep((skin.positions[:, 2] - INSERTION.behind) / INSERTION.over)[:, None]
     if row.sides is Sides.HALVES:
         force *= orbicularis_oris.half(skin, row.side)[:, None]
     return force

@@ -9,15 +9,22 @@ import numpy as np
 
 from ...arrays import Floats
 from ...physics.muscles import SheetMuscle
+from ..figures import Length, read_figures
 from ..mechanism import Mechanism
 from ..mechanisms import brow
-from ..mesh.template import MM
 from ..skin.outer import OuterSkin
 from .figures import Line
 from .span import SpanRow
 
-#: Skin farther than this off a sheet's plane is not its own, metres.
-DEEP = 40 * MM
+
+@dataclass(frozen=True)
+class SheetFigures:
+    """Of every sheet (presets/anatomy/skin.toml)."""
+
+    deep: Length
+
+
+SHEET = read_figures("skin.sheet_muscle", SheetFigures)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -56,6 +63,6 @@ class SheetRow(SpanRow):
         latitude = np.abs(away @ (across / width)) / (width / 2.0)
         window = np.cos(np.minimum(latitude, 1.0) ** 4 * np.pi / 2.0)
         back = brow.scalp_reaction(skin, away @ axis / length, self.reaction, self.reaction_at)
-        deep = np.exp(-((np.abs(away @ np.cross(axis, across / width)) / DEEP) ** 4))
+        deep = np.exp(-((np.abs(away @ np.cross(axis, across / width)) / SHEET.deep) ** 4))
         force = paper.force(skin.positions) + back[:, None] * axis
         return skin.tangential(force * (window * deep)[:, None])

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...tables import read_toml
+from ..figures import ANATOMY
 from ..mechanism import MUSCLE_GROUPS, Mechanism
-from ..mesh.template import ANATOMY
 from .kinds import KINDS
 from .row import MuscleRow
 

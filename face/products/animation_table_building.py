@@ -18,9 +18,9 @@ from ..bodies.direct_faps import ANGLE_UNIT
 from ..drive.synergies import load_synergies, template_millimetres
 from ..drive.wishes import Drive
 from ..face import Face
+from ..figures import ANATOMY
 from ..mesh.fap_units import unit_length
 from ..mesh.parts import Part
-from ..mesh.template import ANATOMY
 from .animation_tables import AnimationTable, AnimationTables, TableError, slopes_of
 
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from ...arrays import Floats
 from ...tables import TomlTable, read_toml
-from ..mesh.template import ANATOMY, MM
+from ..figures import ANATOMY
+from ..mesh.template import MM
 
 KEYS = (
     "sides", "look", "lines_mm", "of", "reason", "spacing_mm", "width_mm", "depth_mm", "onset", "full", "wander",

@@ -13,29 +13,33 @@ import numpy as np
 
 from ...arrays import Floats
 from ...physics.mesh import Sparse
+from ..figures import Length, read_figures
 from ..mechanism import Mechanism
 from ..mechanisms.jaw import Jaw, JawMotion
-from ..mechanisms.lids import Eye, LidMove
-from ..mesh.template import MM
+from ..mechanisms.lids import LID_MOVERS, Eye, LidMove
 from ..skin.outer import OuterSkin
 from .pulls import Pulls
 
-LID_PRIOR = 12 * MM
-JAW_PRIOR = 25 * MM
-SLIDE_PRIOR = {"left": 12 * MM, "forward": 16 * MM}
 
-LID_NAMES: Mapping[LidMove, str] = {
-    LidMove.UPPER_CLOSE: "orbicularis_oculi_upper",
-    LidMove.UPPER_OPEN: "levator_palpebrae",
-    LidMove.LOWER_UP: "orbicularis_oculi_lower",
-    LidMove.LOWER_DOWN: "lower_lid_retractor",
-}
-LID_AMPLITUDES: Mapping[LidMove, float] = {
-    LidMove.UPPER_CLOSE: 12 * MM,
-    LidMove.UPPER_OPEN: 8 * MM,
-    LidMove.LOWER_UP: 6 * MM,
-    LidMove.LOWER_DOWN: 6 * MM,
-}
+@dataclass(frozen=True)
+class JawFigures:
+    """How far the mandible goes, largest and usual (presets/anatomy/jaw.toml)."""
+
+    opening: Length
+    left: Length
+    forward: Length
+    usual_opening: Length
+    usual_left: Length
+    usual_forward: Length
+
+
+JAW = read_figures("jaw.motion", JawFigures)
+
+#: A lid's way by which its response about rest is found, metres.
+SMALL = 1e-3
+
+LID_NAMES: Mapping[LidMove, str] = {move: mover.name for move, mover in LID_MOVERS.items()}
+LID_AMPLITUDES: Mapping[LidMove, float] = {move: mover.amplitude for move, mover in LID_MOVERS.items()}
 
 
 @dataclass(frozen=True)
@@ -63,14 +67,15 @@ class Actuators:
         Without lids there are no 8.
         """
         muscles = [muscle.row.prior for muscle in self.muscles]
-        return np.array([*muscles, *[LID_PRIOR] * len(self.lid_moves), JAW_PRIOR, *SLIDE_PRIOR.values()])
+        lids = [LID_MOVERS[move].prior for _, move in self.lid_moves]
+        return np.array([*muscles, *lids, JAW.usual_opening, JAW.usual_left, JAW.usual_forward])
 
     @property
     def upper(self) -> Floats:
         """Largest amount of each actuator, metres; the jaw's slides may also be negative."""
         muscles = [muscle.amplitude for muscle in self.muscles]
         lids = [LID_AMPLITUDES[move] for _, move in self.lid_moves]
-        return np.array([*muscles, *lids, 45 * MM, 12 * MM, 10 * MM])
+        return np.array([*muscles, *lids, JAW.opening, JAW.left, JAW.forward])
 
     @property
     def chin_lever(self) -> float:
@@ -82,7 +87,7 @@ class Actuators:
 
         rows : (m, 3n) reads rows off flattened displacements of the outer skin.
         """
-        lids = [self.lid_field({move: 1 * MM}, side) / MM for side, move in self.lid_moves]
+        lids = [self.lid_field({move: SMALL}, side) / SMALL for side, move in self.lid_moves]
         opening, left, forward = self.jaw.derivatives(self.skin.positions, JawMotion())
         extra = np.stack([*lids, opening / self.chin_lever, left, forward])
         every = np.concatenate([self.fields, extra])

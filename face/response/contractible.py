@@ -7,15 +7,8 @@ from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 
+from ..mechanisms.lids import LID_MOVERS
 from ..muscles.table import read_muscles
-from .actuators import LID_NAMES
-
-_LID_TITLES = {
-    "orbicularis_oculi_upper": ("orbicularis oculi, lid part: closes the upper lid", "43"),
-    "levator_palpebrae": ("levator palpebrae: raises the upper lid", "5"),
-    "orbicularis_oculi_lower": ("orbicularis oculi, lid part: raises the lower lid", "7"),
-    "lower_lid_retractor": ("lower lid retractors: lower the lower lid", ""),
-}
 
 
 @dataclass(frozen=True)
@@ -41,7 +34,7 @@ class Contractible:
 def contractibles() -> Mapping[str, Contractible]:
     """All of them by name, in the order of the table: forehead first."""
     rows = [(name, row.title, row.au, str(row.mechanism)) for name, row in read_muscles().items()]
-    rows += [(name, *_LID_TITLES[name], "lids") for name in LID_NAMES.values()]
+    rows += [(mover.name, mover.title, mover.au, "lids") for mover in LID_MOVERS.values()]
     found = [
         Contractible(f"{name}_{side}", title, unit, f"{name}_{'r' if side == 'l' else 'l'}", group)
         for name, title, unit, group in rows

@@ -19,7 +19,8 @@ from scipy.spatial import cKDTree
 from ...arrays import Floats, Ints
 from ...physics.mesh import Sparse
 from ...tables import TomlTable, read_toml
-from ..mesh.template import ANATOMY, MM, TemplateWarp
+from ..figures import ANATOMY, Length, Share, read_figures
+from ..mesh.template import MM, TemplateWarp
 from ..skin.outer import OuterSkin, smoothstep
 
 #: Points along a line: for its course, and where compression is taken.
@@ -32,14 +33,17 @@ FADES_FROM, FADES_TO = 1.4, 1.75
 #: A fold that would be shallower than this at its fullest is left out, metres.
 SHALLOWEST = 0.1 * MM
 
-#: Share of a line at each end over which the fold fades.
-ENDS = 0.25
 
-#: A line folds as one: share of each place's compression that is the mean of the line's more squeezed half.
-SHARED = 0.6
+@dataclass(frozen=True)
+class FoldFigures:
+    """Of all folds (presets/anatomy/folds.toml)."""
 
-#: Radius round feature points that a fold spares, metres.
-SPARED = 4.0 * MM
+    ends: Share
+    shared: Share
+    spared: Length
+
+
+FOLDS = read_figures("folds.every", FoldFigures)
 
 
 @dataclass(frozen=True)
@@ -125,7 +129,7 @@ class PlacedFold:
         """(n,) heights along the normals, metres, for posed skin (n, 3)."""
         row = self.row
         squeezed = self.compression(positions)
-        together = (1.0 - SHARED) * squeezed + SHARED * float(np.sort(squeezed)[-GAUGES // 2 :].mean())
+        together = (1.0 - FOLDS.shared) * squeezed + FOLDS.shared * float(np.sort(squeezed)[-GAUGES // 2 :].mean())
         amount = smoothstep((together - row.onset) / (row.full - row.onset))
         return np.asarray(self.field @ amount)
 
@@ -181,7 +185,7 @@ def _field(skin: OuterSkin, course: Floats, normal: Floats, outwards: Floats, wi
     every = np.arange(skin.vertex_count)
     across = (flat[every, closest] * outwards[closest]).sum(axis=1) / width
     along = closest / (COURSE - 1.0)
-    ends = smoothstep(along / ENDS) * smoothstep((1.0 - along) / ENDS)
+    ends = smoothstep(along / FOLDS.ends) * smoothstep((1.0 - along) / FOLDS.ends)
     off = np.linalg.norm(away[every, closest], axis=1)
     height = _profile(across, lean) * ends * (off < 5.0 * width)
     place = along * (GAUGES - 1.0)
@@ -204,7 +208,7 @@ class Folds:
         """Place the folds of a table (the built-in one) on a face; `fixed` are vertices that must stay."""
         self.skin = skin
         distance, _ = cKDTree(skin.positions[fixed]).query(skin.positions)
-        spared = 1.0 - np.exp(-((distance / SPARED) ** 2))
+        spared = 1.0 - np.exp(-((distance / FOLDS.spared) ** 2))
         spared[fixed] = 0.0
         placed = [place_fold(skin, warp, row, spared) for row in (read_folds() if rows is None else rows)]
         self.placed = [fold for fold in placed if fold is not None]

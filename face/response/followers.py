@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
@@ -9,6 +11,7 @@ from scipy.spatial import cKDTree
 from ...arrays import Bools, Floats, Ints
 from ...physics.elastic import Factor, diagonal_matrix
 from ...physics.mesh import Sparse
+from ..figures import Length, read_figures
 from ..skin.outer import OuterSkin
 
 #: Loose vertices follow this many nearest carriers.
@@ -20,10 +23,16 @@ SHEET_TIE = 0.02
 #: Inner skin is tied to rest as weakly as this, relative to its neighbours, so that loose pieces stay put.
 REST_TIE = 1e-4
 
-#: Inner skin goes with outer skin that it lies behind at less than the reach, ever less towards it (metres); the length
-#: over which that wins over the inner skin's own smoothness.
-FLESH_REACH = 14e-3
-FLESH_LENGTH = 4e-3
+
+@dataclass(frozen=True)
+class FleshFigures:
+    """Of what lies between inner and outer skin (presets/anatomy/skin.toml)."""
+
+    reach: Length
+    length: Length
+
+
+FLESH = read_figures("skin.flesh", FleshFigures)
 
 
 class InnerSkin:
@@ -63,12 +72,12 @@ def _flesh(inner: Floats, areas: Floats, outer: OuterSkin, count: int) -> Sparse
     Summed over the outer skin within reach by its area, so that neither density nor the order of neighbours matters;
     before a flat skin at depth h the sum is (1 - (h / reach)^2)^4.
     """
-    pairs = cKDTree(inner).sparse_distance_matrix(cKDTree(outer.positions), FLESH_REACH, output_type="coo_matrix")
+    pairs = cKDTree(inner).sparse_distance_matrix(cKDTree(outer.positions), FLESH.reach, output_type="coo_matrix")
     own, other, distance = pairs.row, pairs.col, pairs.data
     away = outer.positions[other] - inner[own]
     behind = np.maximum((away * outer.normals[other]).sum(axis=1) / np.maximum(distance, 1e-9), 0.0) ** 2
-    near = outer.areas[other] * (1.0 - (distance / FLESH_REACH) ** 2) ** 3 * 4.0 / (np.pi * FLESH_REACH**2)
-    ties = areas[own] * near * behind / FLESH_LENGTH**2
+    near = outer.areas[other] * (1.0 - (distance / FLESH.reach) ** 2) ** 3 * 4.0 / (np.pi * FLESH.reach**2)
+    ties = areas[own] * near * behind / FLESH.length**2
     return sparse.csr_array((ties, (own, outer.index[other])), shape=(len(inner), count))
 
 

@@ -19,8 +19,8 @@ from ...physics.skin import Skin
 from ...physics.tissue import Tissue as Figures
 from ...physics.tissue import as_tissue
 from ...physics.tissue import tissue as tissue_of
+from ..figures import Length, Place, read_figures
 from ..mechanism import Mechanism
-from ..mesh.template import MM
 from ..skin.outer import OuterSkin, gaussian
 from . import regions
 from .actuators import Actuators, Amounts
@@ -33,10 +33,16 @@ TOLERANCE = 1e-7
 #: The same for a face that is only sketched, metres.
 SKETCHED = 5e-5
 
-#: Loose tissue fades out over this from the cheek's centre and from the jowl, which lies so far outwards, down and
-#: back from the corner of the mouth, metres.
-LOOSE_RADIUS = 30.0 * MM
-JOWL_FROM_CORNER = np.array([12.0, -24.0, -10.0]) * MM
+
+@dataclass(frozen=True)
+class LooseFigures:
+    """Where deep soft tissue hangs loose (presets/anatomy/skin.toml)."""
+
+    radius: Length
+    jowl_from_corner: Place
+
+
+LOOSE = read_figures("skin.loose", LooseFigures)
 
 
 def looseness(sheet: OuterSkin) -> Floats:
@@ -47,9 +53,9 @@ def looseness(sheet: OuterSkin) -> Floats:
     """
     points, loose = sheet.points, np.zeros(sheet.vertex_count)
     for cheek, corner in (("5.1", "8.3"), ("5.2", "8.4")):
-        jowl = points[corner] + JOWL_FROM_CORNER * np.array([np.sign(points[corner][0]), 1.0, 1.0])
+        jowl = points[corner] + LOOSE.jowl_from_corner * np.array([np.sign(points[corner][0]), 1.0, 1.0])
         for centre in (points[cheek], jowl):
-            loose = np.maximum(loose, gaussian(sheet.positions, centre, LOOSE_RADIUS))
+            loose = np.maximum(loose, gaussian(sheet.positions, centre, LOOSE.radius))
     return loose
 
 

@@ -1,22 +1,31 @@
 """How firmly each place of the skin is held and how stiffly it bends: fields over the outer skin.
 
-The even part stands here, what regions differ in comes from the mechanisms that know them. Figures in metres of head
-space; source: calibration on scanned expressions, see docs/muscles.md.
+The even part is that of the default tissue (presets/tissue.toml); what regions differ in comes from the mechanisms that
+know them.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...arrays import Floats
+from ...physics.tissue import tissue
+from ..figures import Share, read_figures
 from ..mechanism import Mechanism
 from ..mechanisms import brow, chin, lids, nose, platysma
-from ..mesh.template import MM
 from ..skin.outer import OuterSkin
 
-BENDING_LENGTH = 11.67 * MM
-ANCHOR_LENGTH = 12.0 * MM
-NOSTRIL_BENDING = 0.075
+
+@dataclass(frozen=True)
+class NostrilFigures:
+    """Of the skin round the nostrils (presets/anatomy/skin.toml)."""
+
+    bending: Share
+
+
+NOSTRILS = read_figures("skin.nostrils", NostrilFigures)
 
 
 def bending(skin: OuterSkin) -> Floats:
@@ -26,12 +35,12 @@ def bending(skin: OuterSkin) -> Floats:
     """
     if not skin.has(Mechanism.BENDING):
         return np.zeros(skin.vertex_count)
-    return BENDING_LENGTH**2 * lids.thickness(skin)
+    return tissue().bending_length ** 2 * lids.thickness(skin)
 
 
 def correction_bending(skin: OuterSkin) -> Floats:
     """(n,) as `bending`, softer still round the nostrils, so that a nostril's correction stays there."""
-    return bending(skin) * (1.0 - (1.0 - NOSTRIL_BENDING) * nose.nostrils(skin))
+    return bending(skin) * (1.0 - (1.0 - NOSTRILS.bending) * nose.nostrils(skin))
 
 
 def anchor(skin: OuterSkin) -> Floats:
@@ -40,7 +49,7 @@ def anchor(skin: OuterSkin) -> Floats:
     Zhang et al. 2001 name the skull as future work; a bare membrane has nothing to hold it, so that an even tie
     belongs to every face.
     """
-    tie = np.full(skin.vertex_count, 1.0 / ANCHOR_LENGTH**2)
+    tie = np.full(skin.vertex_count, 1.0 / tissue().anchor_length ** 2)
     if not skin.has(Mechanism.FIRMNESS):
         return tie
     for firmness in (brow.scalp_firmness, lids.firmness, nose.firmness, chin.firmness, platysma.neck_firmness):

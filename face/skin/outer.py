@@ -19,11 +19,20 @@ from ...arrays import Floats, Ints
 from ...physics import mesh
 from ...physics.elastic import Factor, diagonal_matrix, laplacian
 from ...physics.mesh import Sparse
+from ..figures import Length, read_figures
 from ..mechanism import EVERY, Mechanism
 from ..mesh.openings import Opening
 
-#: So far behind the pupils lies the middle of any head, from which its skin faces away, metres.
-BEHIND_THE_EYES = 0.06
+
+@dataclass(frozen=True)
+class SheetFigures:
+    """Of the skin as a sheet over a head (presets/anatomy/skin.toml)."""
+
+    bone_over: Length
+    behind_the_eyes: Length
+
+
+SHEET = read_figures("skin.sheet", SheetFigures)
 
 
 def smoothstep(t: Floats) -> Floats:
@@ -116,14 +125,14 @@ class OuterSkin:
     def raw_normals(self) -> Floats:
         """(n, 3) outward unit normals of the sheet, whichever way its polygons wind."""
         normals = mesh.vertex_normals(self.positions, self.polygons)
-        inside = (self.points["3.5"] + self.points["3.6"]) / 2.0 - np.array([0.0, 0.0, BEHIND_THE_EYES])
+        inside = (self.points["3.5"] + self.points["3.6"]) / 2.0 - np.array([0.0, 0.0, SHEET.behind_the_eyes])
         outwards = self.areas @ (normals * (self.positions - inside)).sum(axis=1)
         return normals * (1.0 if outwards >= 0.0 else -1.0)
 
     @cached_property
     def normals(self) -> Floats:
-        """(n, 3) unit normals averaged over 12 mm: the lie of the bone rather than of the wrinkle."""
-        smooth = self.smoothing(0.012).solve(self.areas[:, None] * self.raw_normals)
+        """(n, 3) unit normals averaged over some way: the lie of the bone rather than of the wrinkle."""
+        smooth = self.smoothing(SHEET.bone_over).solve(self.areas[:, None] * self.raw_normals)
         unit: Floats = smooth / np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
         return unit
 

@@ -11,7 +11,7 @@ from risorius.api import Face
 from risorius.errors import FormatError
 from risorius.face.drive.natural import EMOTIONS, Known, Natural, Plan, blend, saturate, symmetric
 from risorius.face.drive.synergies import load_synergies, mirror_fap
-from risorius.face.mesh.template import ANATOMY
+from risorius.face.figures import ANATOMY
 from risorius.mpeg4 import VARIANTS
 
 NATURAL = Natural()

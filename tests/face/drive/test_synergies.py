@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from risorius.errors import FormatError
 from risorius.face.drive.synergies import load_synergies
-from risorius.face.mesh.template import ANATOMY
+from risorius.face.figures import ANATOMY
 
 WRONG = {
     "ranges.csv: no column": ("ranges.csv", "low_mm", "lowest", "lacks a column"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -45,7 +46,7 @@ def test_the_mouth_bag_stays_behind_pursed_lips(
 ) -> None:
     """Its top hangs on the upper lip's edge, a centimetre below: without flesh between, that edge drags it out."""
     if not flesh:
-        monkeypatch.setattr(followers, "FLESH_LENGTH", 1.0)
+        monkeypatch.setattr(followers, "FLESH", replace(followers.FLESH, length=1.0))
     head = shared_head("makehuman")
     face = Face.from_arrays(head.vertices, head.polygons, head.points, head.parts())
     assert (comes_through(face, PURSED) < 0.0) is flesh

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from risorius.api import MUSCLE_GROUPS, Mechanism
 from risorius.errors import FormatError
-from risorius.face.mesh.template import ANATOMY
+from risorius.face.figures import ANATOMY
 from risorius.face.muscles.kinds import KINDS
 from risorius.face.muscles.table import read_muscles
 
@@ -43,7 +43,7 @@ amplitude_mm = 4
         (
             "exponent = 1.5",
             "exponent = 1.5\nexponnent = 2",
-            r"muscles\.test\.exponnent: is not known here: did you mean exponent",
+            r"muscles\.test\.exponnent: is unknown: did you mean exponent",
         ),
         ("prior_mm = 4", "prior_mm = 0", r"muscles\.test\.prior_mm: must be a number above 0, but it is 0"),
         ('"5.1"', '"5.99"', r"muscles\.test\.attachment\.point: names feature point 5\.99, which the template lacks"),
@@ -52,7 +52,7 @@ amplitude_mm = 4
         ("reach = 1.5", "reach = true", r"muscles\.test\.reach: must be a number, but it is True"),
         ("reach = 1.5", "reach = inf", r"muscles\.test\.reach: must be a number, but it is inf"),
         ('au = "12"', "au = 12", r"muscles\.test\.au: must be a text, but it is 12"),
-        ("reach = 1.5", "reach = 1.5\nbulge = 1", r"muscles\.test\.bulge: is not known here: known are .*along_skin"),
+        ("reach = 1.5", "reach = 1.5\nbulge = 1", r"muscles\.test\.bulge: is unknown: use one of .*along_skin"),
         ("[muscles.test]", "[muscles.test", r"line 3: is not valid TOML"),
     ],
 )

@@ -10,7 +10,7 @@ import pytest
 import risorius.api as api
 from risorius.api import Creases, Face
 from risorius.errors import FormatError, ParameterError
-from risorius.face.mesh.template import ANATOMY
+from risorius.face.figures import ANATOMY
 from risorius.face.products.crease_table import Look, read_creases
 
 ROWS = {row.name: row for row in read_creases()}

@@ -11,7 +11,7 @@ import risorius.api as api
 from risorius.api import Face
 from risorius.errors import FormatError
 from risorius.face.drive.wishes import Drive
-from risorius.face.mesh.template import ANATOMY
+from risorius.face.figures import ANATOMY
 from risorius.face.pose import Poser
 from risorius.face.response.folds import FoldRow, Folds, PlacedFold, place_fold, read_folds
 from risorius.face.skin.outer import OuterSkin
