@@ -31,7 +31,7 @@ from .result import Result, UsageError, plain
 from .streams import add_stream_verbs
 from .track import add_track_verb
 
-DESCRIPTION = "An emotion word and an activation become a moving face."
+DESCRIPTION = "Animate a face from an emotion word and an activation."
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -23,21 +23,27 @@ def add_capture_verbs(verbs: Any) -> None:
     importing.add_argument("file", type=Path, help="OpenFace, ARKit, Live Link Face or MediaPipe: .csv, .json, .jsonl")
     importing.add_argument("--out", type=Path, help="the .fap file to write")
     kinds = ("openface", "arkit", "mediapipe", "landmarks", "faps")
-    importing.add_argument("--kind", choices=kinds, help="what the file is (default: as its columns tell)")
+    importing.add_argument("--kind", choices=kinds, help="the kind of file (default: detected from its columns)")
     importing.add_argument("--fps", type=float, help="frames per second of the stream (default: the recording's)")
-    importing.add_argument("--rate", type=float, help="frames per second of a recording that does not say them")
-    importing.add_argument("--aspect", type=_aspect, default=16.0 / 9.0, help="landmarks: the picture's WIDTH:HEIGHT")
-    about = "landmarks: seconds in which the face is neutral (default: its usual shape)"
+    importing.add_argument("--rate", type=float, help="frames per second, if the recording does not contain them")
+    importing.add_argument(
+        "--aspect", type=_aspect, default=16.0 / 9.0, help="landmarks: WIDTH:HEIGHT of the image (default: 16:9)"
+    )
+    about = "landmarks: time range in seconds with a neutral face (default: found automatically)"
     importing.add_argument("--neutral", type=float, nargs=2, metavar=("FROM", "TO"), help=about)
 
     exporting = verb(verbs, "export", _export)
-    exporting.add_argument("what", choices=("csv", "shapes"), help="FAPs as a table; or shape keys that engines know")
-    exporting.add_argument("source", type=Path, nargs="*", help="csv: a .fap file, or a tracker's file")
-    exporting.add_argument("--out", type=Path, required=True, help="csv: .csv; shapes: .npz, in Blender .blend or .glb")
+    exporting.add_argument(
+        "what", choices=("csv", "shapes"), help="csv: FAPs as a table; shapes: shape keys for engines"
+    )
+    exporting.add_argument("source", type=Path, nargs="*", help="csv: a .fap file or a tracker's recording")
+    exporting.add_argument(
+        "--out", type=Path, required=True, help="csv: .csv; shapes: .npz, or in Blender .blend or .glb"
+    )
     add_face(exporting)
     names = "shapes: arkit, ict_facekit, oculus_visemes, or a .toml file (default: arkit)"
     exporting.add_argument("--names", default="arkit", help=names)
-    exporting.add_argument("--replace", action="store_true", help="shapes: write over keys of the same names")
+    exporting.add_argument("--replace", action="store_true", help="shapes: replace keys with the same names")
 
 
 def _aspect(text: str) -> float:
@@ -46,11 +52,11 @@ def _aspect(text: str) -> float:
     try:
         return float(width) / float(height or 1.0)
     except ZeroDivisionError:
-        raise argparse.ArgumentTypeError("the picture's height must not be 0") from None
+        raise argparse.ArgumentTypeError("the height of the image must not be 0") from None
 
 
 def _import(arguments: argparse.Namespace) -> Result:
-    """Read what a tracker wrote as a FAP stream."""
+    """Convert a tracker's recording to a FAP stream."""
     from .. import api
 
     stream = api.read_capture(
@@ -83,7 +89,7 @@ def _import(arguments: argparse.Namespace) -> Result:
 
 
 def _export(arguments: argparse.Namespace) -> Result:
-    """Write FAPs as a table, or a face's shape keys under the names that engines know."""
+    """Write FAPs as a table, or a face's shape keys with names for engines."""
     return _export_csv(arguments) if arguments.what == "csv" else _export_shapes(arguments)
 
 
@@ -92,7 +98,7 @@ def _export_csv(arguments: argparse.Namespace) -> Result:
     from .. import api
 
     if len(arguments.source) != 1:
-        raise UsageError("export csv needs one file to read: a .fap, or a tracker's .csv or .json")
+        raise UsageError("export csv needs one input file: a .fap, or a tracker's .csv or .json")
     path = arguments.source[0]
     stream = api.read_fap(path) if path.suffix.lower() == ".fap" else api.read_capture(path)
     api.write_fap_csv(arguments.out, stream)
@@ -103,7 +109,7 @@ def _export_csv(arguments: argparse.Namespace) -> Result:
 def _export_shapes(arguments: argparse.Namespace) -> Result:
     """Shape keys of a face."""
     if arguments.source:
-        raise UsageError("export shapes takes its face from --mesh and --points")
+        raise UsageError("export shapes takes no input file: set the face with --mesh and --points")
     suffix = arguments.out.suffix.lower()
     replaced: tuple[str, ...] = ()
     if suffix == ".npz":

@@ -18,7 +18,7 @@ def add_emotion_verbs(verbs: Any) -> None:
 
 
 def _profile(arguments: argparse.Namespace) -> Result:
-    """An expression's FAP ranges."""
+    """Print the FAP ranges of an expression."""
     profile = expression_of(arguments)
     from .. import api
 

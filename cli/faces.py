@@ -22,19 +22,23 @@ from .result import Result, UsageError
 def add_face_verbs(verbs: Any) -> None:
     """Add measure and points to the verbs."""
     measure = verb(verbs, "measure", _measure)
-    measure.add_argument("deformed", type=Path, nargs="+", help="meshes with the neutral face's vertices, moved")
+    measure.add_argument(
+        "deformed", type=Path, nargs="+", help="deformed meshes with the same vertices as the neutral face"
+    )
     add_face(measure)
-    measure.add_argument("--out", type=Path, help="a .fap file to write, a frame per mesh")
+    measure.add_argument("--out", type=Path, help="write the FAPs to this .fap file, one frame per mesh")
 
     points = verb(verbs, "points", _points)
-    about = 'a JSON file {"8.4": vertex index or [x, y, z], ...} to check; without it, the points are found'
+    about = (
+        'a JSON file {"8.4": vertex index or [x, y, z], ...} to check; without it, the points are found automatically'
+    )
     points.add_argument("points", type=Path, nargs="?", help=about)
-    points.add_argument("--mesh", type=Path, required=True, help="the mesh they belong to, .npz or .obj")
-    points.add_argument("--out", type=Path, help="the JSON file to write found points to")
+    points.add_argument("--mesh", type=Path, required=True, help="the mesh of the points: .npz or .obj")
+    points.add_argument("--out", type=Path, help="write the found points to this JSON file")
 
 
 def _measure(arguments: argparse.Namespace) -> Result:
-    """FAPs and features of deformed meshes against a neutral one."""
+    """Measure the FAPs and features of deformed meshes against a neutral mesh."""
     from .. import api
 
     face = face_of(arguments)
@@ -72,11 +76,11 @@ def _feature_lines(features: Mapping[str, float]) -> list[str]:
 
 
 def _points(arguments: argparse.Namespace) -> Result:
-    """Find the feature points of a mesh, or check a file of them against it."""
+    """Find the feature points of a mesh, or check given points."""
     if arguments.points is None:
         return _found_points(arguments)
     if arguments.out is not None:
-        raise UsageError("--out belongs to points that are found; leave out the file to check")
+        raise UsageError("--out is for found points only: leave out --out or the file to check")
     face = face_of(arguments)
     units = {name: getattr(face.units, name) for name in ("irisd0", "es0", "ens0", "mns0", "mw0")}
     lines = [f"{len(face.points)} feature points fit {arguments.mesh}"]
@@ -102,8 +106,8 @@ def _found_points(arguments: argparse.Namespace) -> Result:
     how = f"by its topology ({found.topology})" if found.topology else f"score {found.score:.2f}"
     doubtful = sorted((name for name, sure in found.confidence.items() if sure < DOUBTFUL), key=_point_order)
     lines = [f"{len(positions)} feature points found on {arguments.mesh}, {how}"]
-    lines += ["the face is unlike most: look at every point"] if found.is_doubtful else []
-    lines += [f"look at: {', '.join(doubtful)}"] if doubtful else []
+    lines += ["the face is unlike most faces: check every point"] if found.is_doubtful else []
+    lines += [f"doubtful points to check: {', '.join(doubtful)}"] if doubtful else []
     lines += [f"wrote {arguments.out}"] if arguments.out else []
     return Result(
         {"points": positions, "confidence": found.confidence, "score": found.score, "topology": found.topology}, lines

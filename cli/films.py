@@ -15,7 +15,7 @@ from .options import add_creases, add_engine, add_face, add_words, verb
 from .result import Result, UsageError
 
 NEEDS_BLENDER = (
-    "this verb needs Blender: run it as `blender --command risorius ...`, or `pip install bpy` into this Python"
+    "this command needs Blender: run it as `blender --command risorius ...`, or `pip install bpy` into this Python"
 )
 
 
@@ -26,35 +26,35 @@ def add_film_verbs(verbs: Any) -> None:
     add_face(bake)
     add_creases(bake)
     bake.add_argument("--dynamic", action="store_true", help="simulate the motion instead of posing the apex")
-    bake.add_argument("--out", type=Path, required=True, help="the .blend to write")
+    bake.add_argument("--out", type=Path, required=True, help="the .blend file to write")
 
     render = verb(verbs, "render", _render)
     add_words(render)
     add_face(render)
     add_engine(render)
     add_creases(render)
-    render.add_argument("--out", type=Path, required=True, help="the .mp4 to write")
+    render.add_argument("--out", type=Path, required=True, help="the .mp4 file to write")
 
     demo = verb(verbs, "demo", _demo)
     add_words(demo, nargs="*")
     add_face(demo)
     add_engine(demo)
     add_creases(demo)
-    demo.add_argument("--out", type=Path, default=Path("out"), help="the folder to fill (default: out)")
+    demo.add_argument("--out", type=Path, default=Path("out"), help="the output folder (default: out)")
 
 
 def _bake(arguments: argparse.Namespace) -> Result:
-    """Bake expressions onto a face and save the .blend."""
+    """Bake expressions onto a face and save a .blend file."""
     return _made("bake_file", arguments, dynamic=arguments.dynamic)
 
 
 def _render(arguments: argparse.Namespace) -> Result:
-    """Bake and film expressions."""
+    """Render expressions as a video."""
     return _made("render_film", arguments, engine=arguments.engine)
 
 
 def _demo(arguments: argparse.Namespace) -> Result:
-    """The six archetypes in one film, with its .blend and contact sheet."""
+    """Make a video, a .blend file and a contact sheet of the six emotions."""
     return _made("demo", arguments, engine=arguments.engine)
 
 

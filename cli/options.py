@@ -25,8 +25,10 @@ def add_words(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
 
 
 def add_strength(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--activation", type=float, help="1..7 (default: the word's own)")
-    parser.add_argument("--variant", type=int, help="which of the paper's variants of the emotion")
+    parser.add_argument(
+        "--activation", type=float, help="how strongly the emotion is felt, 1 to 7 (default: the word's own)"
+    )
+    parser.add_argument("--variant", type=int, help="number of the emotion's variant in the paper")
 
 
 def add_fps(parser: argparse.ArgumentParser) -> None:
@@ -39,13 +41,15 @@ def add_engine(parser: argparse.ArgumentParser) -> None:
 
 
 def add_creases(parser: argparse.ArgumentParser) -> None:
-    about = "wrinkles where skin is squeezed, in Cycles and EEVEE (default: on the default head only)"
+    about = "draw wrinkles where skin is compressed, in Cycles and EEVEE (default: on the default head only)"
     parser.add_argument("--creases", action=argparse.BooleanOptionalAction, help=about)
 
 
 def add_face(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--mesh", type=Path, help="the neutral face: .npz or .obj; in Blender also .blend or .glb")
-    parser.add_argument("--points", type=Path, help="its feature points, a JSON file; without it they are found")
+    parser.add_argument(
+        "--points", type=Path, help="its feature points (JSON); without it, they are found automatically"
+    )
     add_fps(parser)
 
 
@@ -69,7 +73,7 @@ def face_of(arguments: argparse.Namespace) -> Any:
     from ..scene.points.file import read_points
 
     if (arguments.mesh is None) != (arguments.points is None):
-        raise UsageError("--mesh and --points go together")
+        raise UsageError("--mesh and --points must be given together")
     if arguments.mesh is None:
         return api.default_face()
     mesh = read_mesh(arguments.mesh)

@@ -25,21 +25,21 @@ CLOSEST, DECISIVE, REPORT = 10, 5, 500
 def add_recognition_verb(verbs: Any) -> None:
     """Add recognise to the verbs."""
     recognise = verb(verbs, "recognise", _recognise)
-    about = f"a FAP stream ({', '.join(STREAMS)}), or deformed meshes; several meshes are frames one after another"
+    about = f"a FAP stream ({', '.join(STREAMS)}), or deformed meshes; several meshes are successive frames"
     recognise.add_argument("files", type=Path, nargs="+", metavar="FILE", help=about)
     recognise.add_argument("--rule", choices=("paper", "robust"), default="paper", help="default: paper")
-    recognise.add_argument("--frame", type=int, help="which frame (default: the strongest)")
-    about = "say more: closeness to these words (without any: the closest of all), strength, decisive FAPs"
+    recognise.add_argument("--frame", type=int, help="frame to recognise (default: the strongest)")
+    about = "also print these words (default: the closest words), the strength and the decisive FAPs"
     recognise.add_argument("--words", nargs="*", metavar="WORD", help=about)
-    recognise.add_argument("--over-time", action="store_true", help="every frame instead of one")
-    recognise.add_argument("--out", type=Path, help="with --over-time: a .csv table to write, a row per frame")
+    recognise.add_argument("--over-time", action="store_true", help="recognise every frame instead of one")
+    recognise.add_argument("--out", type=Path, help="with --over-time: write a .csv table, one row per frame")
     add_face(recognise)
 
 
 def _recognise(arguments: argparse.Namespace) -> Result:
-    """Which of the six emotions a FAP stream or a deformed mesh shows."""
+    """Recognise which of the six emotions a FAP stream or a deformed mesh shows."""
     if arguments.over_time and (arguments.words is not None or arguments.frame is not None):
-        raise UsageError("--over-time goes with neither --words nor --frame")
+        raise UsageError("--over-time cannot be used with --words or --frame")
     if arguments.out is not None and not arguments.over_time:
         raise UsageError("--out needs --over-time")
     frames, fps, first = _frames(arguments)
@@ -47,7 +47,7 @@ def _recognise(arguments: argparse.Namespace) -> Result:
         return _over_time(arguments, frames, fps, first)
     index = int(np.nansum(np.abs(frames), axis=1).argmax()) if arguments.frame is None else arguments.frame
     if not 0 <= index < len(frames):
-        raise ParameterError("frame", f"must lie in 0..{len(frames) - 1}", index)
+        raise ParameterError("frame", f"must be in 0..{len(frames) - 1}", index)
     return _one(arguments, frames[index], index)
 
 
@@ -61,7 +61,7 @@ def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int]:
         face = face_of(arguments)
         return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0
     if others:
-        raise UsageError("one stream at a time")
+        raise UsageError("give one stream only")
     readers = {".fap": api.read_fap, ".fba": api.read_fba, ".json": api.read_fap_json}
     stream = api.read_capture(path) if suffix == ".csv" else readers[suffix](path)
     if not len(stream.frames):

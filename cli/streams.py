@@ -19,9 +19,7 @@ if TYPE_CHECKING:
     from ..api import FapStream
 
 READABLE, WRITABLE = (".fap", ".fba", ".json", ".csv"), (".fap", ".fba", ".json", ".csv")
-SOURCES = (
-    "info FILE | convert FILE OUT | play FILE OUT; or a FILE to look into, or an emotion WORD to write as a stream"
-)
+SOURCES = "info FILE | convert FILE OUT | play FILE OUT; or a FILE to inspect, or an emotion WORD to write as a stream"
 
 
 #: Seconds of work after which its progress is said.
@@ -37,26 +35,28 @@ def add_stream_verbs(verbs: Any) -> None:
     add_engine(fap)
     add_creases(fap)
     fap.add_argument("--out", type=Path, help=f"the stream to write: {', '.join(WRITABLE)}")
-    fap.add_argument("--fill", choices=("copy", "hold", "standard"), help="fill FAPs that frames do not state")
-    fap.add_argument("--expand", action="store_true", help="turn visemes and expressions into low-level FAPs")
+    fap.add_argument("--fill", choices=("copy", "hold", "standard"), help="fill FAPs that are not stated")
+    fap.add_argument("--expand", action="store_true", help="convert visemes and expressions to low-level FAPs")
     fap.add_argument(
-        "--strict", action="store_true", help="refuse a damaged .fba instead of going on behind the damage"
+        "--strict", action="store_true", help="stop at damage in an .fba file instead of continuing after it"
     )
     fap.add_argument("--quantiser", type=int, default=1, help=".fba: 0 (lossless) to 31 (default: 1)")
     fap.add_argument("--refresh", type=float, default=10.0, help=".fba: seconds between I frames (default: 10)")
-    fap.add_argument("--decimals", type=int, default=0, help=".fap: digits after the point (default: 0)")
+    fap.add_argument("--decimals", type=int, default=0, help=".fap: number of decimals (default: 0)")
 
     tables = verb(verbs, "tables", _tables)
     add_face(tables)
-    tables.add_argument("--out", type=Path, required=True, help="the file to write: .json, or .wrl or .txt for nodes")
+    tables.add_argument(
+        "--out", type=Path, required=True, help="the file to write: .json, or .wrl or .txt for BIFS nodes"
+    )
     tables.add_argument("--steps", type=int, default=4, help="intervals on either side of 0 (default: 4)")
     tables.add_argument("--faps", type=int, nargs="+", help="FAP numbers (default: all)")
-    about = "other points stay (default), or follow as skin and jaw take them"
+    about = "still: other points keep their place (default); free: they follow skin and jaw"
     tables.add_argument("--others", choices=("still", "free"), default="still", help=about)
 
 
 def _fap(arguments: argparse.Namespace) -> Result:
-    """Look into a FAP stream, convert it, play it on a face, or write an expression as one."""
+    """Inspect a FAP stream, convert it, play it on a face, or write an expression as a stream."""
     actions: dict[str, tuple[Callable[[argparse.Namespace], Result], int]] = {
         "info": (_info, 1),
         "convert": (_convert, 2),
@@ -68,7 +68,7 @@ def _fap(arguments: argparse.Namespace) -> Result:
         if len(rest) == count - 1 and count == 2 and arguments.out is not None:
             rest.append(str(arguments.out))
         if len(rest) != count:
-            raise UsageError(f"{first} takes {'a file' if count == 1 else 'a file and what to write'}")
+            raise UsageError(f"{first} needs {'one file' if count == 1 else 'an input file and an output file'}")
         arguments.files = [Path(name) for name in rest]
         return run(arguments)
     if rest:
@@ -145,7 +145,7 @@ def _read(path: Path, arguments: argparse.Namespace) -> tuple[FapStream, list[st
     elif suffix == ".fap":
         stream = api.read_fap(path)
     else:
-        raise FormatError(path, f"is no FAP stream that is read: {', '.join(READABLE)}")
+        raise FormatError(path, f"is not a readable FAP stream: use {', '.join(READABLE)}")
     for problem in damage:
         print(f"risorius fap: {problem}", file=sys.stderr)
     if arguments.fill:
@@ -171,7 +171,7 @@ def _write(path: Path, stream: FapStream, arguments: argparse.Namespace) -> None
     elif suffix == ".fap":
         api.write_fap(path, stream, decimals=arguments.decimals)
     else:
-        raise FormatError(path, f"is no FAP stream that is written: {', '.join(WRITABLE)}")
+        raise FormatError(path, f"is not a writable FAP stream: use {', '.join(WRITABLE)}")
 
 
 def _described(stream: FapStream, *, out: Path | None = None, damage: list[str] | None = None) -> Result:
@@ -212,7 +212,7 @@ def _described(stream: FapStream, *, out: Path | None = None, damage: list[str] 
 
 
 def _tables(arguments: argparse.Namespace) -> Result:
-    """Face Animation Tables: what every FAP does to every vertex, for players without muscles."""
+    """Write Face Animation Tables: the effect of every FAP on every vertex, for players without muscles."""
     from .. import api
 
     suffix = arguments.out.suffix.lower()

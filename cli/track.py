@@ -19,13 +19,15 @@ from .result import Result, UsageError
 if TYPE_CHECKING:
     from ..track import Track
 
-SOURCES = 'a film; pictures, a folder or a pattern of them ("shots/*.png"); "camera", or "camera:1" for the second'
-NEUTRAL = 'seconds FROM:TO in which the face is neutral, or "generic" for a face of nobody (default: its usual shape)'
+SOURCES = (
+    'a video; images, or a folder or pattern of images ("shots/*.png"); "camera", or "camera:1" for the second camera'
+)
+NEUTRAL = 'FROM:TO in seconds with a neutral face, or "generic" for a generic face (default: found automatically)'
 TIMES = re.compile(r"(\d+(?:\.\d+)?):(\d+(?:\.\d+)?)")
 WRITABLE = (".fap", ".json")
 
 #: The extension leaves the folder `track` out: it would need a camera's permission and packages from outside.
-OUTSIDE_BLENDER = "tracking runs outside Blender: install Risorius in a Python of its own (docs/tracking.md)"
+OUTSIDE_BLENDER = "tracking runs outside Blender: install Risorius in a separate Python (docs/tracking.md)"
 
 
 def add_track_verb(verbs: Any) -> None:
@@ -34,16 +36,16 @@ def add_track_verb(verbs: Any) -> None:
     track.add_argument("source", nargs="+", metavar="SOURCE", help=SOURCES)
     track.add_argument("--out", type=Path, required=True, help=f"the stream to write: {', '.join(WRITABLE)}")
     track.add_argument("--neutral", help=NEUTRAL)
-    ways = "savgol looks ahead and does not lag (default); euro knows the past only, as live use would; none"
+    ways = "savgol: no lag, uses later frames (default); euro: past frames only, for live use; none"
     track.add_argument("--smooth", choices=("savgol", "euro", "none"), default="savgol", help=ways)
-    track.add_argument("--fps", type=float, help="frames per second (default: the film's; 25 for pictures)")
-    track.add_argument("--seconds", type=float, help="how long (default: to the end; a camera: until Ctrl-C)")
-    track.add_argument("--least", type=float, help="mask values less sure than this, 0..1 (default: 0.3)")
-    track.add_argument("--confidence", type=Path, metavar="FILE.csv", help="write how sure each value is")
+    track.add_argument("--fps", type=float, help="frames per second (default: those of the video; 25 for images)")
+    track.add_argument("--seconds", type=float, help="duration in seconds (default: to the end; camera: until Ctrl-C)")
+    track.add_argument("--least", type=float, help="mask values with a lower confidence, 0 to 1 (default: 0.3)")
+    track.add_argument("--confidence", type=Path, metavar="FILE.csv", help="write the confidence of each value")
 
 
 def _track(arguments: argparse.Namespace) -> Result:
-    """Read FAPs off a film, pictures or a camera (needs `pip install risorius[track]`)."""
+    """Track FAPs in a video, images or a camera (needs `pip install risorius[track]`)."""
     from .. import api
 
     try:
@@ -57,7 +59,7 @@ def _track(arguments: argparse.Namespace) -> Result:
     neutral = _neutral(arguments.neutral)
     pictures = track.open_pictures(arguments.source, fps=arguments.fps, seconds=arguments.seconds)
     if pictures.live:
-        print("reading the camera; Ctrl-C ends it", file=sys.stderr, flush=True)
+        print("reading the camera; press Ctrl-C to stop", file=sys.stderr, flush=True)
     landmarks = track.find_landmarks(pictures, progress=_counted)
     options = {} if arguments.least is None else {"least": arguments.least}
     found = track.track_landmarks(
@@ -80,7 +82,7 @@ def _neutral(text: str | None) -> tuple[float, float] | str | None:
         return text
     times = TIMES.fullmatch(text)
     if times is None:
-        raise UsageError('--neutral is FROM:TO in seconds, as 0:0.5, or "generic"')
+        raise UsageError('--neutral must be FROM:TO in seconds, such as 0:0.5, or "generic"')
     return float(times[1]), float(times[2])
 
 
@@ -88,7 +90,7 @@ def _counted(done: int, count: int | None) -> None:
     """Progress on standard error, every 25 pictures."""
     if done % 25 == 0 or done == count:
         share = f"{100 * done // count:3d} %  " if count else ""
-        print(f"{share}{done} pictures", file=sys.stderr, flush=True)
+        print(f"{share}{done} images", file=sys.stderr, flush=True)
 
 
 def _write_confidence(path: Path, found: Track) -> None:
@@ -126,22 +128,22 @@ def _described(found: Track, out: Path) -> Result:
         lines.append(f"{len(found.lost)} frames without a face are masked")
     if found.generic:
         lines.append(
-            "no neutral face of this person: a generic one stands in, and FAPs hold how this face differs from it"
+            "no neutral face of this person: FAPs are relative to a generic face and include the difference from it"
         )
     else:
         lines.append(
-            f"neutral face from {len(found.neutral)} pictures at {found.neutral.min():.2f} .. "
-            f"{found.neutral.max():.2f} s"
+            f"neutral face from {len(found.neutral)} images at {found.neutral.min():.2f} .. {found.neutral.max():.2f} s"
         )
     if found.doubts:
         lines.append(
-            f"its mouth is unusual for a neutral face ({', '.join(found.doubts)}): if it smiles or speaks there, name "
-            "seconds of rest with --neutral FROM:TO, or use --neutral generic"
+            f"its mouth is unusual for a neutral face ({', '.join(found.doubts)}): if it smiles or speaks there, give "
+            "a time range at rest with --neutral FROM:TO, or use --neutral generic"
         )
     if found.delay:
-        lines.append(f"slow motions come {1000.0 * found.delay:.0f} ms late")
+        lines.append(f"slow motions lag by {1000.0 * found.delay:.0f} ms")
     lines += [
-        f"F{number:<3} {api.fap(number).name:<24} {min(values):8.0f} .. {max(values):8.0f}   sure {sure[number]:.2f}"
+        f"F{number:<3} {api.fap(number).name:<24} {min(values):8.0f} .. {max(values):8.0f}"
+        f"   confidence {sure[number]:.2f}"
         for number, values in used.items()
     ]
     return Result(data, [*lines, f"wrote {out}"])

@@ -33,7 +33,7 @@ def test_pictures_become_the_faps_that_they_show(tmp_path: Path, capsys: pytest.
     printed = capsys.readouterr()
     said = json.loads(printed.out)
     assert (said["frames"], said["fps"], said["lost"], said["neutral"]) == (7, 25.0, [], [0.0, 0.04])
-    assert "100 %  7 pictures" in printed.err
+    assert "100 %  7 images" in printed.err
     frames = api.read_fap(out).frames
     seen = {number: frames[:, number - 1] for number in range(1, 69)}
     for number in (3, 6, 7, 12, 13, 19, 20, 33, 34):
