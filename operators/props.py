@@ -1,8 +1,12 @@
 """The one property that Risorius adds to objects, the one it adds to scenes, and the one it adds to the window."""
 
+from __future__ import annotations
+
 from contextlib import ExitStack
+from typing import Annotated
 
 import bpy
+from bpy.props import PointerProperty
 
 from .bake.props import RISORIUS_PG_bake
 from .emotion.props import RISORIUS_PG_emotion
@@ -23,31 +27,31 @@ from .wheel.props import RISORIUS_PG_wheel
 class RISORIUS_PG_object(bpy.types.PropertyGroup):
     """All that is chosen for one face; saved with its object."""
 
-    face: bpy.props.PointerProperty(type=RISORIUS_PG_face)  # type: ignore[valid-type]
-    emotion: bpy.props.PointerProperty(type=RISORIUS_PG_emotion)  # type: ignore[valid-type]
-    timeline: bpy.props.PointerProperty(type=RISORIUS_PG_timeline)  # type: ignore[valid-type]
-    muscles: bpy.props.PointerProperty(type=RISORIUS_PG_muscles)  # type: ignore[valid-type]
-    tissue: bpy.props.PointerProperty(type=RISORIUS_PG_tissue)  # type: ignore[valid-type]
-    bake: bpy.props.PointerProperty(type=RISORIUS_PG_bake)  # type: ignore[valid-type]
+    face: Annotated[RISORIUS_PG_face, PointerProperty(type=RISORIUS_PG_face)]
+    emotion: Annotated[RISORIUS_PG_emotion, PointerProperty(type=RISORIUS_PG_emotion)]
+    timeline: Annotated[RISORIUS_PG_timeline, PointerProperty(type=RISORIUS_PG_timeline)]
+    muscles: Annotated[RISORIUS_PG_muscles, PointerProperty(type=RISORIUS_PG_muscles)]
+    tissue: Annotated[RISORIUS_PG_tissue, PointerProperty(type=RISORIUS_PG_tissue)]
+    bake: Annotated[RISORIUS_PG_bake, PointerProperty(type=RISORIUS_PG_bake)]
 
 
 class RISORIUS_PG_scene(bpy.types.PropertyGroup):
     """All that is chosen for a scene."""
 
-    film: bpy.props.PointerProperty(type=RISORIUS_PG_film)  # type: ignore[valid-type]
-    shapes: bpy.props.PointerProperty(type=RISORIUS_PG_shapes)  # type: ignore[valid-type]
-    read: bpy.props.PointerProperty(type=RISORIUS_PG_read)  # type: ignore[valid-type]
+    film: Annotated[RISORIUS_PG_film, PointerProperty(type=RISORIUS_PG_film)]
+    shapes: Annotated[RISORIUS_PG_shapes, PointerProperty(type=RISORIUS_PG_shapes)]
+    read: Annotated[RISORIUS_PG_read, PointerProperty(type=RISORIUS_PG_read)]
 
 
 class RISORIUS_PG_window(bpy.types.PropertyGroup):
     """How things are shown; not saved with the file."""
 
-    points: bpy.props.PointerProperty(type=RISORIUS_PG_points)  # type: ignore[valid-type]
-    parts: bpy.props.PointerProperty(type=RISORIUS_PG_parts)  # type: ignore[valid-type]
-    muscles: bpy.props.PointerProperty(type=RISORIUS_PG_muscle_list)  # type: ignore[valid-type]
-    wheel: bpy.props.PointerProperty(type=RISORIUS_PG_wheel)  # type: ignore[valid-type]
-    preview: bpy.props.PointerProperty(type=RISORIUS_PG_preview)  # type: ignore[valid-type]
-    show: bpy.props.PointerProperty(type=RISORIUS_PG_show)  # type: ignore[valid-type]
+    points: Annotated[RISORIUS_PG_points, PointerProperty(type=RISORIUS_PG_points)]
+    parts: Annotated[RISORIUS_PG_parts, PointerProperty(type=RISORIUS_PG_parts)]
+    muscles: Annotated[RISORIUS_PG_muscle_list, PointerProperty(type=RISORIUS_PG_muscle_list)]
+    wheel: Annotated[RISORIUS_PG_wheel, PointerProperty(type=RISORIUS_PG_wheel)]
+    preview: Annotated[RISORIUS_PG_preview, PointerProperty(type=RISORIUS_PG_preview)]
+    show: Annotated[RISORIUS_PG_show, PointerProperty(type=RISORIUS_PG_show)]
 
 
 def attach(undo: ExitStack) -> None:
@@ -57,5 +61,5 @@ def attach(undo: ExitStack) -> None:
         (bpy.types.Scene, RISORIUS_PG_scene),
         (bpy.types.WindowManager, RISORIUS_PG_window),
     ):
-        owner.risorius = bpy.props.PointerProperty(type=group)
+        owner.risorius = PointerProperty(type=group)
         undo.callback(delattr, owner, "risorius")

@@ -14,6 +14,7 @@ import bpy
 from ..scene.faces import forget_faces
 from . import props, translations
 from .classes import CLASSES
+from .declared import declare
 from .parts import overlay as parts_overlay
 from .points import drag as points_drag
 from .points import hover as points_hover
@@ -57,6 +58,7 @@ def register() -> None:
     with ExitStack() as undo:
         undo.callback(forget_faces)
         for cls in CLASSES:
+            declare(cls)
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         for attach in ATTACHED:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import StringProperty
 
 from ...scene.bake import baking as bake
 from ...scene.bake import shape_keys
@@ -227,9 +228,10 @@ class RISORIUS_OT_clear(RisoriusOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     needs_scipy = False
 
-    clip: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="Name", description="Which bake to remove. Empty: all of this face", options={"SKIP_SAVE"}
-    )
+    clip: Annotated[
+        str,
+        StringProperty(name="Name", description="Which bake to remove. Empty: all of this face", options={"SKIP_SAVE"}),
+    ]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:

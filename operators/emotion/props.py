@@ -3,11 +3,14 @@
 An emotion is a word, or a point of the emotion wheel: an angle beside the activation.
 """
 
+from __future__ import annotations
+
 import math
 import zlib
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import EnumProperty, FloatProperty, IntProperty
 
 from ...mpeg4.emotions.archetypes import BASE_WORDS, VARIANTS
 from ...mpeg4.emotions.emotion_presets import WORDS
@@ -101,62 +104,82 @@ def _turned(owner: Any, context: Any) -> None:
 class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
     """Word or point of the wheel, variant, activation and seed."""
 
-    by: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Choose By",
-        description="Whether the emotion is a word, or a point of the emotion wheel",
-        items=(
-            ("WORD", "Word", "One of the emotion words"),
-            ("WHEEL", "Wheel", "Any point of the emotion wheel: a direction, and how far out"),
+    by: Annotated[
+        str,
+        EnumProperty(
+            name="Choose By",
+            description="Whether the emotion is a word, or a point of the emotion wheel",
+            items=(
+                ("WORD", "Word", "One of the emotion words"),
+                ("WHEEL", "Wheel", "Any point of the emotion wheel: a direction, and how far out"),
+            ),
+            update=changed,
         ),
-        update=changed,
-    )
-    angle: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Angle",
-        description="Direction on the emotion wheel, counter-clockwise from the right: fear is at 70°, joy at 323°. "
-        "Between two archetypes their expressions mix",
-        default=own_angle(FIRST_WORD),
-        subtype="ANGLE",
-        soft_min=-WHOLE,
-        soft_max=2.0 * WHOLE,
-        step=100,
-        precision=1,
-        update=_turned,
-    )
-    word: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Emotion", description="What the face expresses", items=word_items, update=_word_chosen
-    )
-    variant: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Variant",
-        description="People show an emotion in several ways: which one",
-        items=variant_items,
-        update=changed,
-    )
-    activation: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Activation",
-        description="How strongly it is felt, from 1 (hardly) to 7 (utterly). Below the slider is the word's own value",
-        default=own_activation(FIRST_WORD),
-        min=1.0,
-        max=7.0,
-        step=10,
-        precision=1,
-        update=changed,
-    )
-    seed: bpy.props.IntProperty(  # type: ignore[valid-type]
-        name="Seed",
-        description="0 is the typical face; every other number draws another one within the emotion's ranges",
-        default=0,
-        min=0,
-        update=changed,
-    )
-    drive: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Drive",
-        description="What the face does with what is asked of it",
-        items=(
-            ("natural", "Natural", "What a face can do: anatomy and habit fill what the emotion leaves open"),
-            ("exact", "Exact", "Meet the requested animation parameters exactly"),
-            ("muscles", "Muscles Only", "Muscle contractions alone"),
-            ("points", "Points Only", "Feature points are moved and the skin follows; no muscles"),
+    ]
+    angle: Annotated[
+        float,
+        FloatProperty(
+            name="Angle",
+            description="Direction on the emotion wheel, counter-clockwise from the right: fear is at 70°, joy at "
+            "323°. Between two archetypes their expressions mix",
+            default=own_angle(FIRST_WORD),
+            subtype="ANGLE",
+            soft_min=-WHOLE,
+            soft_max=2.0 * WHOLE,
+            step=100,
+            precision=1,
+            update=_turned,
         ),
-        default="natural",
-        update=changed,
-    )
+    ]
+    word: Annotated[
+        str,
+        EnumProperty(name="Emotion", description="What the face expresses", items=word_items, update=_word_chosen),
+    ]
+    variant: Annotated[
+        str,
+        EnumProperty(
+            name="Variant",
+            description="People show an emotion in several ways: which one",
+            items=variant_items,
+            update=changed,
+        ),
+    ]
+    activation: Annotated[
+        float,
+        FloatProperty(
+            name="Activation",
+            description="How strongly it is felt, from 1 (hardly) to 7 (utterly). Below the slider is the "
+            "word's own value",
+            default=own_activation(FIRST_WORD),
+            min=1.0,
+            max=7.0,
+            step=10,
+            precision=1,
+            update=changed,
+        ),
+    ]
+    seed: Annotated[
+        int,
+        IntProperty(
+            name="Seed",
+            description="0 is the typical face; every other number draws another one within the emotion's ranges",
+            default=0,
+            min=0,
+            update=changed,
+        ),
+    ]
+    drive: Annotated[
+        str,
+        EnumProperty(
+            name="Drive",
+            description="What the face does with what is asked of it",
+            items=(
+                ("natural", "Natural", "What a face can do: anatomy and habit fill what the emotion leaves open"),
+                ("exact", "Exact", "Meet the requested animation parameters exactly"),
+                ("muscles", "Muscles Only", "Muscle contractions alone"),
+                ("points", "Points Only", "Feature points are moved and the skin follows; no muscles"),
+            ),
+            default="natural",
+            update=changed,
+        ),
+    ]

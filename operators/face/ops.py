@@ -1,8 +1,11 @@
 """Operators for the face: add the default head, import and forget feature points."""
 
-from typing import Any
+from __future__ import annotations
+
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ...scene import faces, refusals
@@ -48,7 +51,7 @@ class RISORIUS_OT_import_points(RisoriusOperator, bpy.types.Operator, ImportHelp
     needs_scipy = False
 
     filename_ext = ".json"
-    filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})  # type: ignore[valid-type]
+    filter_glob: Annotated[str, StringProperty(default="*.json", options={"HIDDEN"})]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:

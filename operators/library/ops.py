@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ...errors import FormatError, SceneError
@@ -30,17 +31,25 @@ class RISORIUS_OT_save_preset(RisoriusOperator, bpy.types.Operator):
     bl_options = {"REGISTER"}
     needs_scipy = False
 
-    preset: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="Name", description="Name of the preset; one of this name is replaced", default="Mine"
-    )
-    kind: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="What",
-        description="What is saved",
-        items=(
-            (PresetKind.EXPRESSION.value, "Expression", "What the Emotion panel shows, and muscles set by hand"),
-            (PresetKind.TIMELINE.value, "Timeline", "All clips with their times, the variation, muscles set by hand"),
+    preset: Annotated[
+        str,
+        StringProperty(name="Name", description="Name of the preset; one of this name is replaced", default="Mine"),
+    ]
+    kind: Annotated[
+        str,
+        EnumProperty(
+            name="What",
+            description="What is saved",
+            items=(
+                (PresetKind.EXPRESSION.value, "Expression", "What the Emotion panel shows, and muscles set by hand"),
+                (
+                    PresetKind.TIMELINE.value,
+                    "Timeline",
+                    "All clips with their times, the variation, muscles set by hand",
+                ),
+            ),
         ),
-    )
+    ]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
@@ -75,10 +84,11 @@ class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, bpy.types.Operator
     needs_scipy = False
 
     filename_ext = ".toml"
-    filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})  # type: ignore[valid-type]
-    filepath: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="File", description="The preset file", subtype="FILE_PATH", options={"SKIP_SAVE"}
-    )
+    filter_glob: Annotated[str, StringProperty(default="*.toml", options={"HIDDEN"})]
+    filepath: Annotated[
+        str,
+        StringProperty(name="File", description="The preset file", subtype="FILE_PATH", options={"SKIP_SAVE"}),
+    ]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
@@ -104,10 +114,10 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
     title = "Baking the FAP file"
 
     filename_ext = ".fap"
-    filter_glob: bpy.props.StringProperty(default="*.fap", options={"HIDDEN"})  # type: ignore[valid-type]
-    filepath: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="File", description="The .fap file", subtype="FILE_PATH", options={"SKIP_SAVE"}
-    )
+    filter_glob: Annotated[str, StringProperty(default="*.fap", options={"HIDDEN"})]
+    filepath: Annotated[
+        str, StringProperty(name="File", description="The .fap file", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    ]
 
     _was_asked_for = False
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import StringProperty
 
 from ..base import RisoriusOperator
 from ..changes import changed
@@ -18,9 +19,9 @@ class RISORIUS_OT_reset_muscles(RisoriusOperator, bpy.types.Operator):
     bl_label = "Reset Muscles"
     bl_options = {"REGISTER", "UNDO"}
 
-    muscle: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="Muscle", description="Which muscle; empty: all of them", options={"SKIP_SAVE"}
-    )
+    muscle: Annotated[
+        str, StringProperty(name="Muscle", description="Which muscle; empty: all of them", options={"SKIP_SAVE"})
+    ]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty
 
+from ..blender_types import Entries
 from ..changes import changed
 from ..names import fill_soon
 from ..session import session
@@ -14,22 +16,28 @@ from ..session import session
 class RISORIUS_PG_by_hand(bpy.types.PropertyGroup):
     """One contraction set by hand; its name is the muscle's."""
 
-    contraction: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Contraction", description="From 0 (slack) to 1 (as far as the muscle goes)", min=0.0, max=1.0
-    )
+    contraction: Annotated[
+        float,
+        FloatProperty(
+            name="Contraction", description="From 0 (slack) to 1 (as far as the muscle goes)", min=0.0, max=1.0
+        ),
+    ]
 
 
 class RISORIUS_PG_muscles(bpy.types.PropertyGroup):
     """What is set by hand on one face."""
 
-    by_hand: bpy.props.CollectionProperty(  # type: ignore[valid-type]
-        type=RISORIUS_PG_by_hand,
-        name="By Hand",
-        description="Contractions set by hand; they stay when the emotion changes",
-    )
-    linked: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Link Sides", description="Both sides of the face contract alike", default=True
-    )
+    by_hand: Annotated[
+        Entries[RISORIUS_PG_by_hand],
+        CollectionProperty(
+            type=RISORIUS_PG_by_hand,
+            name="By Hand",
+            description="Contractions set by hand; they stay when the emotion changes",
+        ),
+    ]
+    linked: Annotated[
+        bool, BoolProperty(name="Link Sides", description="Both sides of the face contract alike", default=True)
+    ]
 
 
 def by_hand_of(obj: Any) -> dict[str, float]:
@@ -83,27 +91,32 @@ def _set(item: Any, value: float) -> None:
 class RISORIUS_PG_muscle_name(bpy.types.PropertyGroup):
     """A muscle in the list, and its slider on the active face; nothing is stored in it."""
 
-    contraction: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Contraction",
-        description="How far this muscle is contracted, 0 to 1. Moving the slider sets it by hand: it then stays when "
-        "the emotion changes, until you reset it",
-        min=0.0,
-        max=1.0,
-        get=_get,
-        set=_set,
-    )
+    contraction: Annotated[
+        float,
+        FloatProperty(
+            name="Contraction",
+            description="How far this muscle is contracted, 0 to 1. Moving the slider sets it by hand: it then stays "
+            "when the emotion changes, until you reset it",
+            min=0.0,
+            max=1.0,
+            get=_get,
+            set=_set,
+        ),
+    ]
 
 
 class RISORIUS_PG_muscle_list(bpy.types.PropertyGroup):
     """How the list of muscles is shown."""
 
-    names: bpy.props.CollectionProperty(  # type: ignore[valid-type]
-        type=RISORIUS_PG_muscle_name, name="Muscles", description="All muscles, lids and the jaw"
-    )
-    active: bpy.props.IntProperty(name="Muscle", description="The marked muscle", default=0, min=0)  # type: ignore[valid-type]
-    busy_only: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Contracted Only", description="List only muscles that do something now, or are set by hand"
-    )
+    names: Annotated[
+        Entries[RISORIUS_PG_muscle_name],
+        CollectionProperty(type=RISORIUS_PG_muscle_name, name="Muscles", description="All muscles, lids and the jaw"),
+    ]
+    active: Annotated[int, IntProperty(name="Muscle", description="The marked muscle", default=0, min=0)]
+    busy_only: Annotated[
+        bool,
+        BoolProperty(name="Contracted Only", description="List only muscles that do something now, or are set by hand"),
+    ]
 
 
 def list_muscles() -> None:

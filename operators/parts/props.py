@@ -1,6 +1,11 @@
 """What is shown and set of the parts of a face's mesh. Kept with the window: the parts are the mesh's own."""
 
+from __future__ import annotations
+
+from typing import Annotated
+
 import bpy
+from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ...face.mesh.parts import Part
 from ..points.props import redraw
@@ -20,12 +25,16 @@ PARTS = {
 class RISORIUS_PG_parts(bpy.types.PropertyGroup):
     """How parts are shown, and which one a vertex group is to become."""
 
-    show: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Show Parts", description="Draw the parts of the face's mesh as colours", default=False, update=redraw
-    )
-    part: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Part", description="What the vertices of the group are", items=tuple(PARTS.values()), default="OTHER"
-    )
-    group: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="Vertex Group", description="Whose vertices are set to that part"
-    )
+    show: Annotated[
+        bool,
+        BoolProperty(
+            name="Show Parts", description="Draw the parts of the face's mesh as colours", default=False, update=redraw
+        ),
+    ]
+    part: Annotated[
+        str,
+        EnumProperty(
+            name="Part", description="What the vertices of the group are", items=tuple(PARTS.values()), default="OTHER"
+        ),
+    ]
+    group: Annotated[str, StringProperty(name="Vertex Group", description="Whose vertices are set to that part")]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
 import numpy as np
+from bpy.props import StringProperty
 
 from ...arrays import Floats
 from ...errors import RisoriusError, SceneError
@@ -94,11 +95,14 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     title = "Finding the face from the clicks"
 
-    clicks: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="Clicks",
-        description='For scripts: the points as JSON, {"3.7": [x, y, z], ...} in the mesh\'s own coordinates',
-        options={"SKIP_SAVE"},
-    )
+    clicks: Annotated[
+        str,
+        StringProperty(
+            name="Clicks",
+            description='For scripts: the points as JSON, {"3.7": [x, y, z], ...} in the mesh\'s own coordinates',
+            options={"SKIP_SAVE"},
+        ),
+    ]
     _clicks: Clicks | None = None
     _handler: Any = None
     _hover: tuple[float, float] | None = None

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
 import numpy as np
+from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 from mathutils import Vector
 
@@ -84,7 +85,7 @@ class RISORIUS_OT_jump_to_point(OnePoint, bpy.types.Operator):
     bl_label = "Look at Point"
     bl_options = {"INTERNAL"}
 
-    point: bpy.props.StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})  # type: ignore[valid-type]
+    point: Annotated[str, StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})]
 
     def run(self, context: Any) -> str:
         """Mark it, and turn a 3D viewport towards it."""
@@ -125,18 +126,21 @@ class RISORIUS_OT_reset_points(OnePoint, bpy.types.Operator):
     bl_label = "Reset Points"
     bl_options = {"REGISTER", "UNDO"}
 
-    which: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Which",
-        description="Which points to put back",
-        items=(
-            ("ONE", "One", "The named point"),
-            ("LEFT", "Left Side", "All points on the subject's left"),
-            ("RIGHT", "Right Side", "All points on the subject's right"),
-            ("ALL", "All", "All points"),
+    which: Annotated[
+        str,
+        EnumProperty(
+            name="Which",
+            description="Which points to put back",
+            items=(
+                ("ONE", "One", "The named point"),
+                ("LEFT", "Left Side", "All points on the subject's left"),
+                ("RIGHT", "Right Side", "All points on the subject's right"),
+                ("ALL", "All", "All points"),
+            ),
+            default="ALL",
         ),
-        default="ALL",
-    )
-    point: bpy.props.StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})  # type: ignore[valid-type]
+    ]
+    point: Annotated[str, StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})]
 
     def run(self, context: Any) -> str:
         """Put them back, and those back in that were lost."""
@@ -166,7 +170,7 @@ class RISORIUS_OT_follow_mesh(OnePoint, bpy.types.Operator):
     bl_idname = "risorius.follow_mesh"
     bl_label = "Follow Edited Mesh"
     bl_options = {"REGISTER", "UNDO"}
-    point: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})  # type: ignore[valid-type]
+    point: Annotated[str, StringProperty(options={"HIDDEN", "SKIP_SAVE"})]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
@@ -203,7 +207,7 @@ class RISORIUS_OT_export_points(RisoriusOperator, bpy.types.Operator, ExportHelp
     needs_scipy = False
 
     filename_ext = ".json"
-    filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})  # type: ignore[valid-type]
+    filter_glob: Annotated[str, StringProperty(default="*.json", options={"HIDDEN"})]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntProperty
 
 from ...mpeg4 import FEATURE_POINTS
+from ..blender_types import Entries
 
 
 def redraw(owner: Any = None, context: Any = None) -> None:
@@ -25,32 +27,50 @@ class RISORIUS_PG_point_name(bpy.types.PropertyGroup):
 class RISORIUS_PG_points(bpy.types.PropertyGroup):
     """What the overlay and the list of feature points show."""
 
-    names: bpy.props.CollectionProperty(  # type: ignore[valid-type]
-        type=RISORIUS_PG_point_name, name="Points", description="All feature points of the standard"
-    )
-    active: bpy.props.IntProperty(  # type: ignore[valid-type]
-        name="Feature Point", description="The point that is marked on the face", default=0, min=0, update=redraw
-    )
-    show: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Show Points", description="Draw the feature points on the face", default=False, update=redraw
-    )
-    labels: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Labels",
-        description="What is written beside the points; the marked one always has its name",
-        items=(
-            ("NONE", "None", "Nothing"),
-            ("NUMBERS", "Numbers", "The standard's numbers, as 8.4"),
-            ("PLACES", "Places", "Numbers and places in words"),
+    names: Annotated[
+        Entries[RISORIUS_PG_point_name],
+        CollectionProperty(
+            type=RISORIUS_PG_point_name, name="Points", description="All feature points of the standard"
         ),
-        default="NUMBERS",
-        update=redraw,
-    )
-    mirror: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Mirror", description="A point that is clicked or dragged takes its counterpart along", default=True
-    )
-    doubtful_only: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Doubtful Only", description="List and draw only the points that want to be looked at", update=redraw
-    )
+    ]
+    active: Annotated[
+        int,
+        IntProperty(
+            name="Feature Point", description="The point that is marked on the face", default=0, min=0, update=redraw
+        ),
+    ]
+    show: Annotated[
+        bool,
+        BoolProperty(
+            name="Show Points", description="Draw the feature points on the face", default=False, update=redraw
+        ),
+    ]
+    labels: Annotated[
+        str,
+        EnumProperty(
+            name="Labels",
+            description="What is written beside the points; the marked one always has its name",
+            items=(
+                ("NONE", "None", "Nothing"),
+                ("NUMBERS", "Numbers", "The standard's numbers, as 8.4"),
+                ("PLACES", "Places", "Numbers and places in words"),
+            ),
+            default="NUMBERS",
+            update=redraw,
+        ),
+    ]
+    mirror: Annotated[
+        bool,
+        BoolProperty(
+            name="Mirror", description="A point that is clicked or dragged takes its counterpart along", default=True
+        ),
+    ]
+    doubtful_only: Annotated[
+        bool,
+        BoolProperty(
+            name="Doubtful Only", description="List and draw only the points that want to be looked at", update=redraw
+        ),
+    ]
 
 
 def active_name(state: Any) -> str | None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import StringProperty
 
 from ...scene.points.presets import preset_paths, remove_preset, save_preset
 from ..base import RisoriusOperator
@@ -20,9 +21,12 @@ its shape. Correct the points first"""
     bl_options = {"REGISTER"}
     needs_scipy = False
 
-    called: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="Name", description="What this kind of mesh is called. A topology of the same name is replaced"
-    )
+    called: Annotated[
+        str,
+        StringProperty(
+            name="Name", description="What this kind of mesh is called. A topology of the same name is replaced"
+        ),
+    ]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
@@ -48,9 +52,9 @@ class RISORIUS_OT_remove_topology(RisoriusOperator, bpy.types.Operator):
     bl_options = {"REGISTER"}
     needs_scipy = False
 
-    file: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="File", description="Name of its file without ending", options={"SKIP_SAVE"}
-    )
+    file: Annotated[
+        str, StringProperty(name="File", description="Name of its file without ending", options={"SKIP_SAVE"})
+    ]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:

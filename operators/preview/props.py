@@ -1,8 +1,11 @@
 """Whether the preview is on; not saved with the file."""
 
-from typing import Any
+from __future__ import annotations
+
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import BoolProperty
 
 
 def _switched(owner: Any, context: Any) -> None:
@@ -18,10 +21,13 @@ def _switched(owner: Any, context: Any) -> None:
 class RISORIUS_PG_preview(bpy.types.PropertyGroup):
     """The live preview of a window."""
 
-    show: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Live Preview",
-        description="Show on the face what is chosen here, while it is being chosen, and let unbaked expressions "
-        "play. Shape keys, renders and the saved file stay as they are",
-        default=True,
-        update=_switched,
-    )
+    show: Annotated[
+        bool,
+        BoolProperty(
+            name="Live Preview",
+            description="Show on the face what is chosen here, while it is being chosen, and let unbaked expressions "
+            "play. Shape keys, renders and the saved file stay as they are",
+            default=True,
+            update=_switched,
+        ),
+    ]

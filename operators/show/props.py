@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import BoolProperty
 
 from ..points.props import redraw
 
@@ -20,20 +21,29 @@ def _switched(owner: Any, context: Any) -> None:
 class RISORIUS_PG_show(bpy.types.PropertyGroup):
     """What is drawn over the active face."""
 
-    muscles: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Muscles",
-        description="Draw the muscles from the bone to the skin, blue where slack, red where contracted. "
-        "Needs Live Preview",
-        update=_switched,
-    )
-    strain: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Strain",
-        description="Colour the skin: red where it is stretched by 30 % or more, blue where it is squeezed so far",
-        update=redraw,
-    )
-    paths: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Paths",
-        description="Draw the way that the skin takes into the expression, blue at rest to red at its apex. "
-        "Needs Live Preview",
-        update=_switched,
-    )
+    muscles: Annotated[
+        bool,
+        BoolProperty(
+            name="Muscles",
+            description="Draw the muscles from the bone to the skin, blue where slack, red where contracted. "
+            "Needs Live Preview",
+            update=_switched,
+        ),
+    ]
+    strain: Annotated[
+        bool,
+        BoolProperty(
+            name="Strain",
+            description="Colour the skin: red where it is stretched by 30 % or more, blue where it is squeezed so far",
+            update=redraw,
+        ),
+    ]
+    paths: Annotated[
+        bool,
+        BoolProperty(
+            name="Paths",
+            description="Draw the way that the skin takes into the expression, blue at rest to red at its apex. "
+            "Needs Live Preview",
+            update=_switched,
+        ),
+    ]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import EnumProperty
 
 from ...mpeg4.timing import load_timings
 from ..active import face_reason
@@ -120,12 +121,15 @@ class RISORIUS_OT_move_clip(_ClipOperator, bpy.types.Operator):
     bl_label = "Move Clip"
     bl_options = {"REGISTER", "UNDO"}
 
-    direction: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Direction",
-        description="Where to in the list",
-        items=(("UP", "Up", "One place up"), ("DOWN", "Down", "One place down")),
-        options={"SKIP_SAVE"},
-    )
+    direction: Annotated[
+        str,
+        EnumProperty(
+            name="Direction",
+            description="Where to in the list",
+            items=(("UP", "Up", "One place up"), ("DOWN", "Down", "One place down")),
+            options={"SKIP_SAVE"},
+        ),
+    ]
 
     def run(self, context: Any) -> str:
         """Move it, and keep it selected."""
@@ -183,12 +187,15 @@ class RISORIUS_OT_time_clip(_ClipOperator, bpy.types.Operator):
     bl_label = "Timing"
     bl_options = {"REGISTER", "UNDO"}
 
-    timing: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Timing",
-        description="The kind of expression whose times are taken",
-        items=[(name, name.capitalize(), timing.reason) for name, timing in load_timings().items()],
-        options={"SKIP_SAVE"},
-    )
+    timing: Annotated[
+        str,
+        EnumProperty(
+            name="Timing",
+            description="The kind of expression whose times are taken",
+            items=[(name, name.capitalize(), timing.reason) for name, timing in load_timings().items()],
+            options={"SKIP_SAVE"},
+        ),
+    ]
 
     @classmethod
     def description(cls, context: Any, properties: Any) -> str:

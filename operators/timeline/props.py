@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
 
 from ...mpeg4.timing import Ramp, load_timings
 from ..bake.props import seconds
+from ..blender_types import Entries
 from ..changes import retimed
 from ..emotion.props import RISORIUS_PG_emotion
 
@@ -31,108 +41,138 @@ def _renamed(owner: Any, context: Any) -> None:
 class RISORIUS_PG_clip(bpy.types.PropertyGroup):
     """One expression in time."""
 
-    name: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="Name",
-        description="What the clip, its marker and its strip are called. Empty: named after the emotion",
-        update=_renamed,
-    )
-    emotion: bpy.props.PointerProperty(type=RISORIUS_PG_emotion)  # type: ignore[valid-type]
-    start: bpy.props.IntProperty(  # type: ignore[valid-type]
-        name="Start Frame", description="Frame at which the expression begins to show", default=1, update=retimed
-    )
-    onset: seconds("Onset (s)", "Seconds until it is full", _TIMING.onset, update=retimed)  # type: ignore[valid-type]
-    apex: seconds("Apex (s)", "Seconds that it is held", _TIMING.apex, update=retimed)  # type: ignore[valid-type]
-    offset: seconds("Offset (s)", "Seconds until it is gone", _TIMING.offset, update=retimed)  # type: ignore[valid-type]
-    peak: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Peak",
-        description="How much of the expression shows at its apex, from 0 (nothing) to 1 (all of it)",
-        default=_TIMING.peak,
-        min=0.0,
-        max=1.0,
-        update=retimed,
-    )
-    ramp: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Ramp",
-        description="How the expression comes and goes",
-        items=(
-            (Ramp.MINIMUM_JERK.value, "Brisk", "As aimed movements go: still at both ends, quick in between"),
-            (Ramp.COSINE.value, "Gentle", "More evenly, as felt expressions come and go"),
+    name: Annotated[
+        str,
+        StringProperty(
+            name="Name",
+            description="What the clip, its marker and its strip are called. Empty: named after the emotion",
+            update=_renamed,
         ),
-        default=_TIMING.ramp.value,
-        update=retimed,
-    )
-    mute: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Mute", description="Leave this clip out of playback and of bakes", update=retimed
-    )
-    solo: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Solo", description="Play and bake only this clip, and others that are solo too", update=retimed
-    )
+    ]
+    emotion: Annotated[RISORIUS_PG_emotion, PointerProperty(type=RISORIUS_PG_emotion)]
+    start: Annotated[
+        int,
+        IntProperty(
+            name="Start Frame", description="Frame at which the expression begins to show", default=1, update=retimed
+        ),
+    ]
+    onset: Annotated[float, seconds("Onset (s)", "Seconds until it is full", _TIMING.onset, update=retimed)]
+    apex: Annotated[float, seconds("Apex (s)", "Seconds that it is held", _TIMING.apex, update=retimed)]
+    offset: Annotated[float, seconds("Offset (s)", "Seconds until it is gone", _TIMING.offset, update=retimed)]
+    peak: Annotated[
+        float,
+        FloatProperty(
+            name="Peak",
+            description="How much of the expression shows at its apex, from 0 (nothing) to 1 (all of it)",
+            default=_TIMING.peak,
+            min=0.0,
+            max=1.0,
+            update=retimed,
+        ),
+    ]
+    ramp: Annotated[
+        str,
+        EnumProperty(
+            name="Ramp",
+            description="How the expression comes and goes",
+            items=(
+                (Ramp.MINIMUM_JERK.value, "Brisk", "As aimed movements go: still at both ends, quick in between"),
+                (Ramp.COSINE.value, "Gentle", "More evenly, as felt expressions come and go"),
+            ),
+            default=_TIMING.ramp.value,
+            update=retimed,
+        ),
+    ]
+    mute: Annotated[
+        bool, BoolProperty(name="Mute", description="Leave this clip out of playback and of bakes", update=retimed)
+    ]
+    solo: Annotated[
+        bool,
+        BoolProperty(
+            name="Solo", description="Play and bake only this clip, and others that are solo too", update=retimed
+        ),
+    ]
 
 
 def _amount(name: str, description: str, most: float, **options: Any) -> Any:
     """How much of a variation."""
-    return bpy.props.FloatProperty(
-        name=name, description=description, default=0.0, min=0.0, max=most, precision=2, **options
-    )
+    return FloatProperty(name=name, description=description, default=0.0, min=0.0, max=most, precision=2, **options)
 
 
 def _seed(what: str, **options: Any) -> Any:
     """From which number it is drawn."""
-    return bpy.props.IntProperty(
-        name="Seed", description=f"Another number draws other {what}", default=1, min=0, **options
-    )
+    return IntProperty(name="Seed", description=f"Another number draws other {what}", default=1, min=0, **options)
 
 
 class RISORIUS_PG_variation(bpy.types.PropertyGroup):
     """What makes the performance look alive; nothing of it unless it is asked for."""
 
-    draws: _amount(  # type: ignore[valid-type]
-        "Draws",
-        "How far each expression departs from the typical one: 0 not at all, 1 anywhere within the emotion's ranges. "
-        "Clips with a seed of their own keep it",
-        1.0,
-        update=retimed,
-    )
-    draws_seed: _seed("expressions", update=retimed)  # type: ignore[valid-type]
-    blinks: _amount(  # type: ignore[valid-type]
-        "Blinks (/min)",
-        "Blinks per minute: people at rest blink 17 times, in conversation 26 times, when reading 4.5 times. "
-        "Seen in a baked motion",
-        60.0,
-        step=100,
-    )
-    blinks_seed: _seed("blinks")  # type: ignore[valid-type]
-    head: _amount(  # type: ignore[valid-type]
-        "Head",
-        "Small turns of the head: 1 is about one degree, as of someone who holds still. Seen in a baked motion",
-        5.0,
-    )
-    head_seed: _seed("turns")  # type: ignore[valid-type]
-    eyes: _amount(  # type: ignore[valid-type]
-        "Eyes",
-        "Small movements of the eyes: 1 looks about two degrees aside and back. Seen in a baked motion",
-        5.0,
-    )
-    eyes_seed: _seed("looks")  # type: ignore[valid-type]
+    draws: Annotated[
+        float,
+        _amount(
+            "Draws",
+            "How far each expression departs from the typical one: 0 not at all, 1 anywhere within the emotion's "
+            "ranges. Clips with a seed of their own keep it",
+            1.0,
+            update=retimed,
+        ),
+    ]
+    draws_seed: Annotated[int, _seed("expressions", update=retimed)]
+    blinks: Annotated[
+        float,
+        _amount(
+            "Blinks (/min)",
+            "Blinks per minute: people at rest blink 17 times, in conversation 26 times, when reading 4.5 times. "
+            "Seen in a baked motion",
+            60.0,
+            step=100,
+        ),
+    ]
+    blinks_seed: Annotated[int, _seed("blinks")]
+    head: Annotated[
+        float,
+        _amount(
+            "Head",
+            "Small turns of the head: 1 is about one degree, as of someone who holds still. Seen in a baked motion",
+            5.0,
+        ),
+    ]
+    head_seed: Annotated[int, _seed("turns")]
+    eyes: Annotated[
+        float,
+        _amount(
+            "Eyes",
+            "Small movements of the eyes: 1 looks about two degrees aside and back. Seen in a baked motion",
+            5.0,
+        ),
+    ]
+    eyes_seed: Annotated[int, _seed("looks")]
 
 
 class RISORIUS_PG_timeline(bpy.types.PropertyGroup):
     """The clips of one face, and which of them is being edited."""
 
-    clips: bpy.props.CollectionProperty(  # type: ignore[valid-type]
-        type=RISORIUS_PG_clip, name="Clips", description="Expressions in time; where they overlap they blend"
-    )
-    active: bpy.props.IntProperty(  # type: ignore[valid-type]
-        name="Active Clip", description="The clip that is being edited", default=0, min=0, update=_chosen
-    )
-    linked: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Edit in Emotion Panel",
-        description="The Emotion panel shows the emotion of the selected clip, and what is changed there changes the "
-        "clip. Off: the panel is free to try something out, and clips stay as they are",
-        default=True,
-        update=_chosen,
-    )
-    variation: bpy.props.PointerProperty(type=RISORIUS_PG_variation)  # type: ignore[valid-type]
+    clips: Annotated[
+        Entries[RISORIUS_PG_clip],
+        CollectionProperty(
+            type=RISORIUS_PG_clip, name="Clips", description="Expressions in time; where they overlap they blend"
+        ),
+    ]
+    active: Annotated[
+        int,
+        IntProperty(name="Active Clip", description="The clip that is being edited", default=0, min=0, update=_chosen),
+    ]
+    linked: Annotated[
+        bool,
+        BoolProperty(
+            name="Edit in Emotion Panel",
+            description="The Emotion panel shows the emotion of the selected clip, and what is changed there changes "
+            "the clip. Off: the panel is free to try something out, and clips stay as they are",
+            default=True,
+            update=_chosen,
+        ),
+    ]
+    variation: Annotated[RISORIUS_PG_variation, PointerProperty(type=RISORIUS_PG_variation)]
 
 
 def active_clip(timeline: Any) -> Any | None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import bpy
+from bpy.props import EnumProperty, FloatProperty
 
 from ...resources import PRESETS
 from ...tables import read_toml
@@ -47,7 +48,7 @@ def _edited(owner: Any, context: Any) -> None:
 
 def _figure(name: str, title: str, description: str, *, least: float, most: float, precision: int = 2) -> Any:
     """A figure of the tissue, in SI units."""
-    return bpy.props.FloatProperty(
+    return FloatProperty(
         name=title,
         description=description,
         default=_DEFAULT[name],
@@ -61,75 +62,119 @@ def _figure(name: str, title: str, description: str, *, least: float, most: floa
 class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
     """Tissue of one face. It shapes how the skin moves (Bake Motion); an expression that is held stays the same."""
 
-    kind: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Tissue",
-        description="What the skin is made of: how it swings and comes to rest in a baked motion",
-        items=[*_ITEMS, (OWN, "Own", "Figures of your own, below; save them as a preset above", len(_ITEMS))],
-        default=FIRST,
-        update=_chosen,
-    )
-    youngs_modulus: _figure(  # type: ignore[valid-type]
-        "youngs_modulus", "Stiffness (Pa)", "Young's modulus of the skin at low strain, pascals", least=1.0, most=1e5
-    )
-    thickness: _figure(  # type: ignore[valid-type]
-        "thickness",
-        "Thickness (m)",
-        "Thickness of the sheet that carries tension, metres",
-        least=1e-5,
-        most=0.01,
-        precision=5,
-    )
-    depth: _figure(  # type: ignore[valid-type]
-        "depth",
-        "Depth (m)",
-        "Depth of soft tissue that moves with the skin, metres",
-        least=1e-4,
-        most=0.05,
-        precision=4,
-    )
-    density: _figure("density", "Density (kg/m³)", "Density of that tissue", least=1.0, most=3000.0)  # type: ignore[valid-type]
-    stiffening: _figure(  # type: ignore[valid-type]
-        "stiffening", "Stiffening", "How many times stiffer the skin gets beyond the threshold", least=1.0, most=20.0
-    )
-    threshold: _figure(  # type: ignore[valid-type]
-        "threshold", "Threshold", "Strain beyond which the skin stiffens", least=0.001, most=1.0, precision=3
-    )
-    bending_length: _figure(  # type: ignore[valid-type]
-        "bending_length",
-        "Bending Length (m)",
-        "Length below which the skin smooths what moves it, metres",
-        least=0.0,
-        most=0.05,
-        precision=4,
-    )
-    anchor_length: _figure(  # type: ignore[valid-type]
-        "anchor_length",
-        "Anchor Length (m)",
-        "Length over which a pull dies away along the skin, metres",
-        least=1e-3,
-        most=0.05,
-        precision=4,
-    )
-    damping_ratio: _figure(  # type: ignore[valid-type]
-        "damping_ratio", "Damping", "Damping where skin is firmly held; 1 is critical: no swinging", least=0.0, most=3.0
-    )
-    loose_depth: _figure(  # type: ignore[valid-type]
-        "loose_depth",
-        "Loose Depth (m)",
-        "Depth of the soft tissue that moves with cheek and jowl, metres",
-        least=1e-4,
-        most=0.06,
-        precision=4,
-    )
-    loose_damping_ratio: _figure(  # type: ignore[valid-type]
-        "loose_damping_ratio", "Loose Damping", "Damping in cheek and jowl; below 1 they swing", least=0.0, most=3.0
-    )
-    jaw_frequency: _figure(  # type: ignore[valid-type]
-        "jaw_frequency", "Jaw (Hz)", "Frequency of the mandible in its muscles", least=0.5, most=20.0
-    )
-    jaw_damping_ratio: _figure(  # type: ignore[valid-type]
-        "jaw_damping_ratio", "Jaw Damping", "Damping of the mandible; 1 is critical", least=0.0, most=3.0
-    )
+    kind: Annotated[
+        str,
+        EnumProperty(
+            name="Tissue",
+            description="What the skin is made of: how it swings and comes to rest in a baked motion",
+            items=[*_ITEMS, (OWN, "Own", "Figures of your own, below; save them as a preset above", len(_ITEMS))],
+            default=FIRST,
+            update=_chosen,
+        ),
+    ]
+    youngs_modulus: Annotated[
+        float,
+        _figure(
+            "youngs_modulus",
+            "Stiffness (Pa)",
+            "Young's modulus of the skin at low strain, pascals",
+            least=1.0,
+            most=1e5,
+        ),
+    ]
+    thickness: Annotated[
+        float,
+        _figure(
+            "thickness",
+            "Thickness (m)",
+            "Thickness of the sheet that carries tension, metres",
+            least=1e-5,
+            most=0.01,
+            precision=5,
+        ),
+    ]
+    depth: Annotated[
+        float,
+        _figure(
+            "depth",
+            "Depth (m)",
+            "Depth of soft tissue that moves with the skin, metres",
+            least=1e-4,
+            most=0.05,
+            precision=4,
+        ),
+    ]
+    density: Annotated[float, _figure("density", "Density (kg/m³)", "Density of that tissue", least=1.0, most=3000.0)]
+    stiffening: Annotated[
+        float,
+        _figure(
+            "stiffening",
+            "Stiffening",
+            "How many times stiffer the skin gets beyond the threshold",
+            least=1.0,
+            most=20.0,
+        ),
+    ]
+    threshold: Annotated[
+        float,
+        _figure("threshold", "Threshold", "Strain beyond which the skin stiffens", least=0.001, most=1.0, precision=3),
+    ]
+    bending_length: Annotated[
+        float,
+        _figure(
+            "bending_length",
+            "Bending Length (m)",
+            "Length below which the skin smooths what moves it, metres",
+            least=0.0,
+            most=0.05,
+            precision=4,
+        ),
+    ]
+    anchor_length: Annotated[
+        float,
+        _figure(
+            "anchor_length",
+            "Anchor Length (m)",
+            "Length over which a pull dies away along the skin, metres",
+            least=1e-3,
+            most=0.05,
+            precision=4,
+        ),
+    ]
+    damping_ratio: Annotated[
+        float,
+        _figure(
+            "damping_ratio",
+            "Damping",
+            "Damping where skin is firmly held; 1 is critical: no swinging",
+            least=0.0,
+            most=3.0,
+        ),
+    ]
+    loose_depth: Annotated[
+        float,
+        _figure(
+            "loose_depth",
+            "Loose Depth (m)",
+            "Depth of the soft tissue that moves with cheek and jowl, metres",
+            least=1e-4,
+            most=0.06,
+            precision=4,
+        ),
+    ]
+    loose_damping_ratio: Annotated[
+        float,
+        _figure(
+            "loose_damping_ratio", "Loose Damping", "Damping in cheek and jowl; below 1 they swing", least=0.0, most=3.0
+        ),
+    ]
+    jaw_frequency: Annotated[
+        float, _figure("jaw_frequency", "Jaw (Hz)", "Frequency of the mandible in its muscles", least=0.5, most=20.0)
+    ]
+    jaw_damping_ratio: Annotated[
+        float,
+        _figure("jaw_damping_ratio", "Jaw Damping", "Damping of the mandible; 1 is critical", least=0.0, most=3.0),
+    ]
 
 
 #: Names of the figures, as `physics.tissue.Tissue` has them.

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import FloatProperty
 
 from ..base import RisoriusOperator
 from .caption import title_of
@@ -54,18 +55,24 @@ class RISORIUS_OT_nudge_emotion(RisoriusOperator, bpy.types.Operator):
     bl_undo_group = "Move on the Emotion Wheel"
     needs_scipy = False
 
-    turn: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Turn",
-        description="Degrees to turn the point around the centre, counter-clockwise",
-        default=0.0,
-        options={"SKIP_SAVE"},
-    )
-    strengthen: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Strengthen",
-        description="Activation to add, on the scale from 1 to 7",
-        default=0.0,
-        options={"SKIP_SAVE"},
-    )
+    turn: Annotated[
+        float,
+        FloatProperty(
+            name="Turn",
+            description="Degrees to turn the point around the centre, counter-clockwise",
+            default=0.0,
+            options={"SKIP_SAVE"},
+        ),
+    ]
+    strengthen: Annotated[
+        float,
+        FloatProperty(
+            name="Strengthen",
+            description="Activation to add, on the scale from 1 to 7",
+            default=0.0,
+            options={"SKIP_SAVE"},
+        ),
+    ]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:

@@ -1,8 +1,11 @@
 """Whether the wheel is shown, where and how large; not saved with the file."""
 
-from typing import Any
+from __future__ import annotations
+
+from typing import Annotated, Any
 
 import bpy
+from bpy.props import BoolProperty, EnumProperty, IntProperty
 
 from .geometry import Corner
 from .view import redraw
@@ -16,26 +19,35 @@ def _shown_otherwise(owner: Any, context: Any) -> None:
 class RISORIUS_PG_wheel(bpy.types.PropertyGroup):
     """The emotion wheel in the viewport."""
 
-    show: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Emotion Wheel",
-        description="Show the wheel of emotions in the viewport: click and drag in it to choose. The direction is the "
-        "kind of emotion, the distance from the centre its activation",
-        default=True,
-        update=_shown_otherwise,
-    )
-    corner: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Corner",
-        description="Where in the viewport the wheel is",
-        items=tuple((corner.value, corner.value.replace("_", " ").title(), "") for corner in Corner),
-        default=Corner.BOTTOM_LEFT.value,
-        update=_shown_otherwise,
-    )
-    size: bpy.props.IntProperty(  # type: ignore[valid-type]
-        name="Size",
-        description="Pixels across at an interface scale of 1. In a small viewport the wheel is smaller",
-        default=280,
-        min=120,
-        max=800,
-        subtype="PIXEL",
-        update=_shown_otherwise,
-    )
+    show: Annotated[
+        bool,
+        BoolProperty(
+            name="Emotion Wheel",
+            description="Show the wheel of emotions in the viewport: click and drag in it to choose. The direction is "
+            "the kind of emotion, the distance from the centre its activation",
+            default=True,
+            update=_shown_otherwise,
+        ),
+    ]
+    corner: Annotated[
+        str,
+        EnumProperty(
+            name="Corner",
+            description="Where in the viewport the wheel is",
+            items=tuple((corner.value, corner.value.replace("_", " ").title(), "") for corner in Corner),
+            default=Corner.BOTTOM_LEFT.value,
+            update=_shown_otherwise,
+        ),
+    ]
+    size: Annotated[
+        int,
+        IntProperty(
+            name="Size",
+            description="Pixels across at an interface scale of 1. In a small viewport the wheel is smaller",
+            default=280,
+            min=120,
+            max=800,
+            subtype="PIXEL",
+            update=_shown_otherwise,
+        ),
+    ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
@@ -49,6 +49,19 @@ def _registered() -> Iterator[None]:
 def empty_file(_registered: None) -> None:
     """Every test starts from an empty file."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+
+@pytest.fixture
+def properties_of() -> Callable[[type], Any]:
+    """A registered class -> its properties, which Blender keeps elsewhere for operators."""
+
+    def found(cls: Any) -> Any:
+        if not issubclass(cls, bpy.types.Operator):
+            return cls.bl_rna.properties
+        room, _, name = cls.bl_idname.partition(".")
+        return getattr(getattr(bpy.ops, room), name).get_rna_type().properties
+
+    return found
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pkgutil
 import subprocess
 import sys
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from typing import Any
 
@@ -132,11 +132,11 @@ def test_every_class_there_is_is_registered() -> None:
     assert len(CLASSES) == len(set(CLASSES))
 
 
-def test_every_class_has_a_name_and_a_tooltip() -> None:
+def test_every_class_has_a_name_and_a_tooltip(properties_of: Callable[[type], Any]) -> None:
     for cls in CLASSES:
         assert cls.__name__.startswith("RISORIUS_")
         assert cls.__doc__
-        for prop in cls.bl_rna.properties:
+        for prop in properties_of(cls):
             if prop.identifier in getattr(cls, "__annotations__", {}) and not prop.is_hidden:
                 is_group = prop.type == "POINTER" and prop.fixed_type.identifier.startswith("RISORIUS_PG")
                 assert is_group or prop.description, f"{cls.__name__}.{prop.identifier} has no tooltip"
