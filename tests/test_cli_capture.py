@@ -79,7 +79,7 @@ def test_export_shapes_as_arrays(tmp_path: Path, capsys: pytest.CaptureFixture[s
         (["import", "a.csv", "--kind", "dance"], 2, "dance"),
         (["import", "a.csv", "--aspect", "0:0"], 2, "aspect"),
         (["import", "gone.csv"], 1, "gone.csv"),
-        (["export", "csv", "--out", "a.csv"], 2, "one file"),
+        (["export", "csv", "--out", "a.csv"], 2, "one input file"),
         (["export", "csv", "gone.fap", "--out", "a.csv"], 1, "gone.fap"),
         (["export", "shapes", "a.fap", "--out", "a.npz"], 2, "--mesh"),
         (["export", "shapes", "--out", "a.fbx"], 2, ".npz"),
@@ -96,7 +96,7 @@ def test_errors_name_the_thing(arguments: list[str], code: int, named: str, caps
 def test_a_damaged_recording_names_line_and_column(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "a.csv").write_text("timestamp,jawOpen\n0,0.1\n0.04,wide\n")
     assert main(["import", str(tmp_path / "a.csv")]) == 1
-    assert "line 3: column jawOpen must be a number, but it is 'wide'" in capsys.readouterr().err
+    assert "line 3, column jawOpen: must be a number, but it is 'wide'" in capsys.readouterr().err
 
 
 def test_shapes_that_need_blender_say_so_without_it(tmp_path: Path) -> None:
