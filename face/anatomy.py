@@ -23,7 +23,7 @@ from .mechanisms.lids import Eye, build_eye
 from .mesh.face_mesh import FaceMesh
 from .mesh.fap_rows import FapRows, displacement_rows
 from .mesh.fap_units import unit_length
-from .mesh.openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, edge_graph, find_opening, outer_faces
+from .mesh.openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, find_opening, outer_faces
 from .mesh.parts import Part
 from .mesh.points import FeaturePoints
 from .mesh.template import TEMPLATE_POINTS, TemplateWarp
@@ -83,8 +83,7 @@ class Anatomy:
         """The outer skin with the mesh's own vertices."""
         face_mesh = self.mesh
         polygons = self._skin_polygons
-        edges = mesh.unique_edges(polygons)
-        graph = edge_graph(edges, face_mesh.positions)
+        graph = mesh.adjacency(face_mesh.positions, polygons, diagonals=False)
         nearest = _vertex_of(face_mesh.points)
         openings = [find_opening(graph, nearest, LIP_UPPER, LIP_LOWER)]
         openings += [find_opening(graph, nearest, *LIDS[side]) for side in "lr"]

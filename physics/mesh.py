@@ -177,53 +177,22 @@ def face_pairs(polygons: Polygons) -> tuple[Ints, Ints, Ints]:
     return np.concatenate(pairs), np.concatenate(owners), np.concatenate(counts)
 
 
+#: An edge counts as at least so long, metres: a graph has no edge of length 0.
+SHORTEST = 1e-9
+
+
 def adjacency(vertices: Floats, polygons: Polygons, *, diagonals: bool = True) -> Sparse:
     """Symmetric (V, V) matrix of the lengths in metres of the edges, with face diagonals unless told otherwise.
 
-    A graph for shortest paths along the surface (`scipy.sparse.csgraph`).
+    A graph for shortest paths along the surface (`scipy.sparse.csgraph`); vertices in one spot stay joined.
     """
     corners(polygons, len(vertices))
     pairs = unique_edges(polygons)
     if diagonals:
         pairs = np.concatenate([pairs, face_diagonals(polygons)])
-    length = np.linalg.norm(vertices[pairs[:, 0]] - vertices[pairs[:, 1]], axis=1)
+    length = np.maximum(np.linalg.norm(vertices[pairs[:, 0]] - vertices[pairs[:, 1]], axis=1), SHORTEST)
     rows, columns = np.concatenate([pairs, pairs[:, ::-1]]).T
     return sparse.csr_array((np.tile(length, 2), (rows, columns)), shape=(len(vertices), len(vertices)))
-
-
-def boundary_loops(polygons: Polygons) -> list[Ints]:
-    """Open borders: vertex indices in order along the polygons' winding, the longest loop first.
-
-    A border edge is a side that only one polygon has. Where two borders touch in a vertex, the walk leaves it by any
-    unused edge.
-    """
-    sides = [np.stack([index, np.roll(index, -1, axis=1)], axis=2).reshape(-1, 2) for _, index in by_size(polygons)]
-    if not sides:
-        return []
-    directed = np.concatenate(sides)
-    _, first, count = np.unique(pair_keys(np.sort(directed, axis=1)), return_index=True, return_counts=True)
-    border = directed[np.sort(first[count == 1])]
-    around: dict[int, list[int]] = {}
-    for number, (a, b) in enumerate(border.tolist()):
-        around.setdefault(a, []).append(number)
-        around.setdefault(b, []).append(number)
-    used = np.zeros(len(border), dtype=bool)
-    loops = []
-    for number, (start, here) in enumerate(border.tolist()):
-        if used[number]:
-            continue
-        used[number], loop = True, [start]
-        while here != start:
-            loop.append(here)
-            free = [edge for edge in around[here] if not used[edge]]
-            if not free:
-                break
-            forward = [edge for edge in free if border[edge, 0] == here]
-            edge = (forward or free)[0]
-            used[edge] = True
-            here = int(border[edge].sum()) - here
-        loops.append(np.array(loop, dtype=np.int64))
-    return sorted(loops, key=len, reverse=True)
 
 
 def _side_areas(points: Floats) -> Floats:

@@ -17,7 +17,6 @@ CROWN_SAMPLES = (0.0, 0.08, 0.25, 0.5, 0.75, 0.92)  # sections per crown, as sha
 GROOVE = 0.9e-3  # depth of the groove between two crowns
 SECTION = 12  # points per section; 0-2 and 9-11 are gum, 2-9 the crown
 FRONT_GUM, FRONT_EDGE = 2, 5  # section points on the gum line and on the biting edge, both in front
-FRONT_GUM_TOP = 0
 
 
 @dataclass(frozen=True)
@@ -25,7 +24,6 @@ class DentalArch:
     """A row of teeth with the vertices that carry feature points, all on the midline in front."""
 
     piece: Piece
-    gum_top: int
     gum_line: int
     edge: int
 
@@ -57,7 +55,7 @@ def build_teeth(figures: TeethFigures, part: Part) -> DentalArch:
     vertices = 0.5 * (vertices + vertices[mirror] * np.array([-1.0, 1.0, 1.0]))
     middle = (count // 2) * SECTION
     piece = Piece(vertices, quads, part, materials, mirror)
-    return DentalArch(piece, middle + FRONT_GUM_TOP, middle + FRONT_GUM, middle + FRONT_EDGE)
+    return DentalArch(piece, middle + FRONT_GUM, middle + FRONT_EDGE)
 
 
 def _crown_places(widths: Floats) -> Floats:

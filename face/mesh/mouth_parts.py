@@ -12,7 +12,6 @@ from scipy.spatial import cKDTree
 from ...arrays import Bools, Floats, Ints
 from ...physics import mesh
 from ..figures import Length, Pair, Share, read_figures
-from .openings import edge_graph
 from .parts import Part
 
 
@@ -97,7 +96,7 @@ def split_gums(parts: Ints, gums: Bools, positions: Floats, polygons: Sequence[I
     if any(len(seed) == 0 for seed in seeds):
         return
     own = [polygon for polygon in polygons if gums[polygon].all()]
-    graph = edge_graph(mesh.unique_edges(own), positions)
+    graph = mesh.adjacency(positions, own, diagonals=False)
     far = [dijkstra(graph, directed=False, indices=seed, min_only=True)[index] for seed in seeds]
     parts[index] = np.where(far[0] <= far[1], int(Part.TEETH_UPPER), int(Part.TEETH_LOWER))
 
@@ -141,6 +140,6 @@ def split_tongue(
     inside[foremost] = True
     own = [polygon for polygon in polygons if inside[polygon].all()]
     if own:
-        graph = edge_graph(mesh.unique_edges(own), positions)
+        graph = mesh.adjacency(positions, own, diagonals=False)
         far = dijkstra(graph, directed=False, indices=np.array([foremost]), min_only=True)
         parts[np.isfinite(far)] = int(Part.TONGUE)

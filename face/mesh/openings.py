@@ -14,7 +14,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from ...arrays import Bools, Floats, Ints
+from ...arrays import Bools, Ints
 from ...errors import ModelError
 from ...physics.mesh import Sparse
 
@@ -42,15 +42,6 @@ class Opening:
         return np.asarray(np.unique(np.concatenate([self.upper, self.lower])), dtype=np.int64)
 
 
-def edge_graph(edges: Ints, vertices: Floats) -> Sparse:
-    """(V, V) symmetric graph of edge lengths."""
-    lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
-    lengths = np.maximum(lengths, 1e-9)
-    n = len(vertices)
-    half = sparse.coo_array((lengths, (edges[:, 0], edges[:, 1])), shape=(n, n))
-    return sparse.csr_array(half + half.T)
-
-
 def _path(graph: Sparse, stops: Sequence[int], names: Sequence[str]) -> Ints:
     """Shortest path along edges through the given vertices, each vertex named once per leg."""
     steps = [stops[0]]
@@ -72,7 +63,7 @@ def find_opening(graph: Sparse, nearest: Mapping[str, int], upper: Sequence[str]
 
     Parameters
     ----------
-    graph : (V, V) edge lengths (`edge_graph`).
+    graph : (V, V) edge lengths (`physics.mesh.adjacency`).
     nearest : feature point -> vertex index.
     upper, lower : point names along the two arcs; those that the face lacks are skipped.
 

@@ -8,7 +8,6 @@ from enum import StrEnum
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...arrays import Floats, Ints
 from ...errors import ParameterError
@@ -183,22 +182,3 @@ def distance(played: Floats, solved: Floats) -> TableError:
     """How far (..., 3) positions lie apart."""
     apart = np.linalg.norm(played - solved, axis=-1)
     return TableError(float(np.sqrt((apart**2).mean())), float(apart.max(initial=0.0)))
-
-
-def frame_error(
-    face: Face, tables: AnimationTables, frame: ArrayLike, *, drive: str | Drive = Drive.NATURAL
-) -> TableError:
-    """How far tables are from the face for a whole frame (68,), over the skin that moves.
-
-    The face is posed for the frame, its FAPs are measured, and these are played from the tables: what a decoder with
-    tables makes of a stream that this face has sent.
-
-    Raises
-    ------
-    ParameterError : as `Face.pose`.
-    """
-    pose = face.pose(frame, drive=drive)
-    played = tables.play(pose.achieved)
-    reach = np.maximum(*(np.linalg.norm(each - face.vertices, axis=1) for each in (pose.positions, played)))
-    moving = (reach > MOVED * face.units.es0) & (face.parts == Part.SKIN)
-    return distance(played[moving], pose.positions[moving])

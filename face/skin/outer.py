@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 
@@ -100,11 +99,7 @@ class OuterSkin:
     @cached_property
     def graph(self) -> Sparse:
         """(n, n) lengths of edges and face diagonals: distances along it are distances along the skin."""
-        pairs = np.concatenate([mesh.unique_edges(self.polygons), mesh.face_diagonals(self.polygons)])
-        lengths = np.linalg.norm(self.positions[pairs[:, 0]] - self.positions[pairs[:, 1]], axis=1)
-        n = self.vertex_count
-        half = sparse.coo_array((np.maximum(lengths, 1e-9), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
-        return sparse.csr_array(half + half.T)
+        return mesh.adjacency(self.positions, self.polygons)
 
     def distance_from(self, sources: Ints) -> Floats:
         """(n,) distance along the skin from the nearest of some vertices, metres; far pieces count as 1 m away.

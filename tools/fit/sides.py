@@ -7,8 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import risorius.api as api
 from risorius.arrays import Floats
-from risorius.face.mesh.openings import edge_graph
-from risorius.physics.mesh import unique_edges
+from risorius.physics.mesh import adjacency
 from scipy.sparse.csgraph import dijkstra
 
 from .heads import TrueHead
@@ -29,7 +28,7 @@ def wrong_sides(head: TrueHead, positions: Mapping[str, Floats]) -> list[str]:
     ModelError : no face can be made of the head with these points.
     """
     face = api.Face.from_arrays(head.vertices, head.polygons, dict(positions))
-    graph = edge_graph(unique_edges(face.polygons), face.vertices)
+    graph = adjacency(face.vertices, face.polygons, diagonals=False)
     wrong = []
     for pair in PAIRS:
         if not all(name in head.points and name in face.points for name in pair):

@@ -11,7 +11,7 @@ from risorius.api import Face, Part
 from risorius.errors import ModelError
 from risorius.face.default_head import HeadMesh
 from risorius.face.mechanisms.separation import upper_lip_side
-from risorius.face.mesh.openings import edge_graph, find_opening, outer_faces
+from risorius.face.mesh.openings import find_opening, outer_faces
 from risorius.face.mesh.points import closest_on_triangles, lies_on_skin
 from risorius.physics import mesh
 
@@ -139,7 +139,7 @@ def test_an_opening_runs_along_edges_through_its_points() -> None:
     x, y = np.meshgrid(np.arange(5.0), np.arange(5.0))
     vertices = np.column_stack([x.ravel(), y.ravel(), np.zeros(25)])
     polygons = [np.array([i, i + 1, i + 6, i + 5]) for r in range(4) for i in range(5 * r, 5 * r + 4)]
-    graph = edge_graph(mesh.unique_edges(polygons), vertices)
+    graph = mesh.adjacency(vertices, polygons, diagonals=False)
     nearest = {"a": 6, "b": 8, "c": 18, "d": 16}
     opening = find_opening(graph, nearest, ("a", "d", "missing", "c"), ("c", "b", "a"))
     assert opening.upper.tolist() == [6, 11, 16, 17, 18]
@@ -150,6 +150,6 @@ def test_an_opening_runs_along_edges_through_its_points() -> None:
 
 def test_points_on_separate_pieces_are_named() -> None:
     vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 0, 0], [6, 0, 0], [5, 1, 0]])
-    graph = edge_graph(mesh.unique_edges([np.array([0, 1, 2]), np.array([3, 4, 5])]), vertices)
+    graph = mesh.adjacency(vertices, [np.array([0, 1, 2]), np.array([3, 4, 5])], diagonals=False)
     with pytest.raises(ModelError, match=r"2\.4 and 2\.2 are on separate pieces"):
         find_opening(graph, {"2.4": 0, "2.2": 4}, ("2.4", "2.2"), ("2.2", "2.4"))

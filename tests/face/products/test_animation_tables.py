@@ -11,7 +11,8 @@ import pytest
 import risorius.api as api
 from risorius.api import AnimationTable, AnimationTables, Face
 from risorius.errors import FormatError, ParameterError
-from risorius.face.products.animation_table_building import distance, frame_error, table_borders, table_ranges
+from risorius.face.products.animation_table_building import MOVED, distance, table_borders, table_ranges
+from risorius.face.products.animation_tables import TableError
 
 #: The mouth's FAPs, and one of every other kind: lid, eye, brow, head.
 MOUTH = (*range(3, 19), *range(51, 61))
@@ -117,6 +118,15 @@ def test_an_opening_jaw_with_its_lips_leaves_no_spikes(face: Face, tables: Anima
     error = distance(tables.play(frame)[lower], pose.positions[lower])
     assert error.rms < 1.5e-3
     assert error.largest < 6.0e-3
+
+
+def frame_error(face: Face, tables: AnimationTables, frame: np.ndarray) -> TableError:
+    """How far tables are from the face for a whole frame (68,) that is posed, measured and played, where skin moves."""
+    pose = face.pose(frame)
+    played = tables.play(pose.achieved)
+    reach = np.maximum(*(np.linalg.norm(each - face.vertices, axis=1) for each in (pose.positions, played)))
+    moving = (reach > MOVED * face.units.es0) & (face.parts == api.Part.SKIN)
+    return distance(played[moving], pose.positions[moving])
 
 
 def test_the_error_of_a_whole_frame(face: Face, tables: AnimationTables) -> None:
