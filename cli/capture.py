@@ -142,7 +142,7 @@ def _shapes_in_blender(arguments: argparse.Namespace) -> tuple[tuple[str, ...], 
     if arguments.mesh is None and arguments.points is not None:
         raise UsageError("--points needs --mesh")
     try:
-        from ..scene.blendshape_keys import blendshape_file
+        from ..scene.jobs.shapes import blendshape_file
     except ModuleNotFoundError as missing:
         if missing.name in ("bpy", "mathutils"):
             raise RisoriusError(NEEDS_BLENDER) from None

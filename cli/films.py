@@ -61,12 +61,12 @@ def _demo(arguments: argparse.Namespace) -> Result:
 def _jobs() -> Any:
     """The jobs that need Blender; imported only here."""
     try:
-        from ..scene.jobs import jobs
+        from ..scene.jobs import words
     except ModuleNotFoundError as missing:
         if missing.name in ("bpy", "mathutils"):
             raise RisoriusError(NEEDS_BLENDER) from None
         raise
-    return jobs
+    return words
 
 
 def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:

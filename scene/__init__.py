@@ -6,11 +6,13 @@ so that an error or a cancelled bake leaves the scene as it was.
 
 blender_types         what is used of Blender's types, for mypy
 attributes            one figure of all items at once, to arrays and back
+fcurves               the F-curves of an action, whatever Blender keeps them in
 mesh, head, faces     meshes to arrays and back; the default head; from objects to a face
 parts_found           parts of a face's mesh, told and corrected
 refusals              what Risorius refuses to touch, and the remedy
 progress              long work as generators
 node_graph            node groups built in a few words
+materials             materials and worlds with nodes
 gltf                  a face with its clips as glTF
 points                feature points on objects: found, kept, bound, shown
 bake                  shape keys, actions and strips

@@ -2,7 +2,7 @@
 
 Blender ships no types, and the published ones contradict it. So each protocol names the members that scene/ and
 operators/ use, no others; a member that comes into use is added here, with the type that it has in every supported
-Blender. Members that only some Blenders have stay out: code asks for them with `hasattr`.
+Blender. What only some Blenders have is marked so, and code asks for it with `hasattr`.
 
 No object is ever asked at run time whether it is one of these.
 """
@@ -10,16 +10,18 @@ No object is ever asked at run time whether it is one of these.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Protocol, Self, TypeAlias, TypeVar, overload
+from typing import Literal, Protocol, Self, TypeAlias, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 T_co = TypeVar("T_co", covariant=True)
 
-#: A vector, colour or matrix of Blender's, as far as arrays can be made of it.
+#: A vector or colour of Blender's, as far as arrays can be made of it.
 Numbers: TypeAlias = Sequence[float]
-Matrix: TypeAlias = Sequence[Sequence[float]]
+
+#: What one figure of all items is copied to and from.
+Buffer: TypeAlias = NDArray[np.float32] | NDArray[np.int32] | NDArray[np.bool_]
 
 
 class Items(Protocol[T_co]):
@@ -31,13 +33,13 @@ class Items(Protocol[T_co]):
     @overload
     def __getitem__(self, key: int | str) -> T_co: ...
     @overload
-    def __getitem__(self, key: slice) -> Sequence[T_co]: ...
+    def __getitem__(self, key: slice[int | None, int | None, None]) -> Sequence[T_co]: ...
     def get(self, name: str) -> T_co | None: ...
     def find(self, name: str) -> int: ...
     def keys(self) -> Sequence[str]: ...
     def values(self) -> Sequence[T_co]: ...
-    def foreach_get(self, attribute: str, flat: NDArray[np.generic]) -> None: ...
-    def foreach_set(self, attribute: str, flat: NDArray[np.generic]) -> None: ...
+    def foreach_get(self, attribute: str, flat: Buffer) -> None: ...
+    def foreach_set(self, attribute: str, flat: Buffer) -> None: ...
 
 
 class Growing(Items[T_co], Protocol[T_co]):
@@ -76,6 +78,22 @@ class Datablock(WithProperties, Protocol):
     def animation_data_clear(self) -> None: ...
     def copy(self) -> Self: ...
     def update_tag(self) -> None: ...
+
+
+class Matrix(Protocol):
+    """`mathutils.Matrix`."""
+
+    def __iter__(self) -> Iterator[Numbers]: ...
+    def __matmul__(self, place: Numbers) -> Numbers: ...
+    def inverted(self) -> Matrix: ...
+    def transposed(self) -> Matrix: ...
+    def to_3x3(self) -> Matrix: ...
+
+
+class SearchTree(Protocol):
+    """`mathutils.bvhtree.BVHTree`: triangles to look places up on. Where nothing is found, all four are None."""
+
+    def find_nearest(self, place: Numbers, reach: float = ...) -> tuple[Numbers | None, Numbers, int, float]: ...
 
 
 # Meshes ---------------------------------------------------------------------------------------------------------------
@@ -236,7 +254,7 @@ class Object(Datablock, Protocol):
     @property
     def dimensions(self) -> Numbers: ...
     @property
-    def bound_box(self) -> Matrix: ...
+    def bound_box(self) -> Sequence[Numbers]: ...
     @property
     def is_editable(self) -> bool: ...
     @property
@@ -330,9 +348,55 @@ class Slot(Protocol):
     def users(self) -> Sequence[Datablock]: ...
 
 
-class Action(Datablock, Protocol):
-    """An action, without where it keeps its F-curves: that differs (`baked.action.fcurves_of`)."""
+class Slots(Items[Slot], Protocol):
+    """An action's slots."""
 
+    def new(self, *, id_type: str, name: str) -> Slot: ...
+    def remove(self, slot: Slot) -> None: ...
+
+
+class ChannelBag(Protocol):
+    """The F-curves of one slot."""
+
+    fcurves: FCurves
+
+
+class KeyframeStrip(Protocol):
+    """A strip of a layer: F-curves, slot by slot."""
+
+    channelbags: Items[ChannelBag]
+
+    @overload
+    def channelbag(self, slot: Slot | None) -> ChannelBag | None: ...
+    @overload
+    def channelbag(self, slot: Slot | None, *, ensure: Literal[True]) -> ChannelBag: ...
+
+
+class KeyframeStrips(Items[KeyframeStrip], Protocol):
+    """Strips of a layer."""
+
+    def new(self, *, type: str) -> KeyframeStrip: ...
+
+
+class ActionLayer(Protocol):
+    """A layer of an action."""
+
+    strips: KeyframeStrips
+
+
+class ActionLayers(Items[ActionLayer], Protocol):
+    """An action's layers."""
+
+    def new(self, name: str) -> ActionLayer: ...
+
+
+class Action(Datablock, Protocol):
+    """An action. Blender has `fcurves` and `id_root` up to 4.5, `slots` and `layers` from 4.4 on: see `fcurves`."""
+
+    id_root: str
+    fcurves: FCurves
+    slots: Slots
+    layers: ActionLayers
     frame_start: float
     frame_end: float
     use_frame_range: bool
@@ -352,6 +416,7 @@ class NlaStrip(Protocol):
     frame_end: float
     extrapolation: str
     blend_type: str
+    action_slot: Slot | None  # from Blender 4.4 on
 
 
 class NlaStrips(Items[NlaStrip], Protocol):
@@ -379,6 +444,7 @@ class AnimData(Protocol):
     """What animates a datablock."""
 
     action: Action | None
+    action_slot: Slot | None  # from Blender 4.4 on
     use_tweak_mode: bool
     nla_tracks: NlaTracks
 
@@ -459,7 +525,7 @@ class Material(Datablock, Protocol):
     roughness: float
 
     @property
-    def node_tree(self) -> NodeTree: ...
+    def node_tree(self) -> NodeTree | None: ...
 
 
 class World(Datablock, Protocol):
@@ -469,7 +535,7 @@ class World(Datablock, Protocol):
     color: Numbers
 
     @property
-    def node_tree(self) -> NodeTree: ...
+    def node_tree(self) -> NodeTree | None: ...
 
 
 class Pixels(Protocol):
@@ -499,6 +565,7 @@ class Image(Datablock, Protocol):
 class ImageSettings(Protocol):
     """How pictures are written."""
 
+    media_type: str  # from Blender 5.0 on
     file_format: str
     color_mode: str
 
@@ -584,6 +651,31 @@ class Cursor(Protocol):
     location: Numbers
 
 
+class StripElements(Items[object], Protocol):
+    """The pictures of a strip."""
+
+    def append(self, filename: str) -> object: ...
+
+
+class ImageStrip(Protocol):
+    """A strip of pictures."""
+
+    elements: StripElements
+
+
+class SequenceStrips(Items[object], Protocol):
+    """Strips of the video sequencer."""
+
+    def new_image(self, name: str, path: str, channel: int, start: int) -> ImageStrip: ...
+
+
+class SequenceEditor(Protocol):
+    """The video sequencer of a scene."""
+
+    strips: SequenceStrips  # from Blender 4.4 on
+    sequences: SequenceStrips  # before
+
+
 class LayerObjects(Items[Object], Protocol):
     """Objects of a view layer."""
 
@@ -629,6 +721,7 @@ class Scene(Datablock, Protocol):
     @property
     def frame_current_final(self) -> float: ...
     def frame_set(self, frame: int, *, subframe: float = 0.0) -> None: ...
+    def sequence_editor_create(self) -> SequenceEditor: ...
 
 
 class DepsgraphUpdate(Protocol):

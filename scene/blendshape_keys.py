@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-import bpy
 import numpy as np
 
 from ..arrays import Floats
-from ..errors import ParameterError, SceneError
+from ..errors import SceneError
 from .bake.baking import STILL, Target
+from .blender_types import Object
 from .faces import FaceSource, face_of
-from .jobs.jobs import empty_file, save
-from .jobs.subjects import subject
-from .mesh import write_key_vertices
-from .pictures.film import refuse_unwritable_output
-from .progress import Progress, Work, run
+from .mesh import keys_of, write_key_vertices
+from .progress import Progress, Work
 from .refusals import own_mesh
-
-#: Files that a whole job writes.
-SUFFIXES = (".blend", ".glb")
 
 
 @dataclass(frozen=True)
@@ -84,57 +77,10 @@ def _taken(source: FaceSource, wanted: Mapping[str, object]) -> tuple[str, ...]:
     return tuple(sorted({block.name for keys in blocks for block in keys if block.name in wanted}))
 
 
-def _write(obj: Any, shapes: Mapping[str, Floats]) -> None:
+def _write(obj: Object, shapes: Mapping[str, Floats]) -> None:
     """Shape keys at rest, positions (V, 3) in the mesh's own coordinates."""
-    if obj.data.shape_keys is None and shapes:
-        obj.shape_key_add(name="Basis", from_mix=False)
     for name, positions in shapes.items():
-        block = obj.data.shape_keys.key_blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
+        block = keys_of(obj).key_blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
         block.slider_min, block.slider_max, block.value = 0.0, 1.0, 0.0
         write_key_vertices(block, positions)
     obj.data.update_tag()
-
-
-def blendshape_file(
-    out: str | Path,
-    *,
-    mesh: str | Path | None = None,
-    points: str | Path | None = None,
-    names: str | Path = "arkit",
-    replace: bool = False,
-    progress: Callable[[Progress], None] | None = None,
-) -> WrittenKeys:
-    """Make the shape keys of a face and save it as .blend, or as .glb for engines.
-
-    Parameters
-    ----------
-    mesh, points : see `subjects.subject`; by default the default head.
-    names, replace : as for `write_blendshapes`.
-    progress : called with each step.
-
-    Raises
-    ------
-    RisoriusError : nothing has been written then.
-    """
-    path = Path(out)
-    if path.suffix.lower() not in SUFFIXES:
-        raise ParameterError("out", f"must end in {' or '.join(SUFFIXES)}", str(out))
-    refuse_unwritable_output(path)
-    empty_file(25.0)
-    obj = subject(mesh, points)
-    written = run(write_blendshapes(Target(obj), names, replace=replace), progress)
-    if path.suffix.lower() == ".blend":
-        save(path)
-    else:
-        _export_glb(path)
-    return written
-
-
-def _export_glb(path: Path) -> None:
-    """Save all objects with their shape keys as morph targets."""
-    if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
-        raise SceneError(str(path), "this Blender has no glTF exporter: write a .blend instead")
-    try:
-        bpy.ops.export_scene.gltf(filepath=str(path.resolve()), export_format="GLB", export_morph=True)
-    except RuntimeError as problem:
-        raise SceneError(str(path), f"could not be written ({problem}): choose another folder") from problem

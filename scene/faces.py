@@ -11,7 +11,7 @@ import json
 from collections import OrderedDict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from ..arrays import Floats, Ints
 from ..errors import SceneError
 from ..face.mesh.parts import Part
 from . import mesh as meshes
+from .blender_types import Mesh, Object, Scene
 from .points.bound import bind, followed, table_of
 from .points.file import PointTable
 from .points.kept import Origin, read_kept, write_kept
@@ -43,13 +44,13 @@ class Piece:
     to_metres : (4, 4) from those to the joined arrays' metres.
     """
 
-    obj: Any
+    obj: Object
     first: int
     rest: Floats
     to_metres: Floats
 
     @property
-    def slice(self) -> slice:
+    def slice(self) -> slice[int, int, None]:
         """This piece's rows of the joined arrays."""
         return slice(self.first, self.first + len(self.rest))
 
@@ -81,17 +82,17 @@ class FaceSource:
     fingerprint: str
 
     @property
-    def head(self) -> Any:
+    def head(self) -> Object:
         """The object that the face is named after."""
         return self.pieces[0].obj
 
     @property
-    def objects(self) -> tuple[Any, ...]:
+    def objects(self) -> tuple[Object, ...]:
         """All objects of the face, the head first."""
         return tuple(piece.obj for piece in self.pieces)
 
 
-def store_points(obj: Any, points: PointTable, *, origin: Origin = Origin.FILE) -> None:
+def store_points(obj: Object, points: PointTable, *, origin: Origin = Origin.FILE) -> None:
     """Keep feature points with the mesh of `obj`: name -> vertex index, or position (3,) in the mesh's own coordinates.
 
     Raises
@@ -108,7 +109,7 @@ def store_points(obj: Any, points: PointTable, *, origin: Origin = Origin.FILE) 
     write_kept(obj, bind(obj.data, points, origins=origin), as_given=True)
 
 
-def stored_points(obj: Any) -> dict[str, int | tuple[float, float, float]]:
+def stored_points(obj: Object) -> dict[str, int | tuple[float, float, float]]:
     """Feature points kept with the mesh of `obj`, where they are on it now.
 
     Raises
@@ -127,11 +128,11 @@ def stored_points(obj: Any) -> dict[str, int | tuple[float, float, float]]:
 
 
 def read_face(
-    obj: Any,
+    obj: Object,
     *,
-    companions: Mapping[Part, Any] | None = None,
+    companions: Mapping[Part, Object] | None = None,
     points: PointTable | None = None,
-    scene: Any | None = None,
+    scene: Scene | None = None,
 ) -> FaceSource:
     """Read a face from its object, and from the objects of its eyes, teeth and tongue where they are apart.
 
@@ -170,7 +171,7 @@ def read_face(
     return FaceSource(tuple(pieces), vertices, polygons, metric, known, _fingerprint(vertices, polygons, table, joined))
 
 
-def _refuse_twice(obj: Any, others: Iterable[Any]) -> None:
+def _refuse_twice(obj: Object, others: Iterable[Object]) -> None:
     """Refuse an object that stands for two parts."""
     seen = {obj}
     for other in others:
@@ -179,7 +180,7 @@ def _refuse_twice(obj: Any, others: Iterable[Any]) -> None:
         seen.add(other)
 
 
-def _parts_of(mesh: Any, part: Part | None) -> Ints:
+def _parts_of(mesh: Mesh, part: Part | None) -> Ints:
     """(V,) parts of one object: the given part, or those stored with the mesh, or -1."""
     count = len(mesh.vertices)
     if part is not None:

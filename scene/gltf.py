@@ -9,13 +9,13 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import bpy
 
 from ..errors import SceneError
 from .bake import action as actions
 from .bake import shape_keys
+from .blender_types import Action, Key, Object, Scene
 from .pictures.film import refuse_unwritable_output
 
 
@@ -27,7 +27,7 @@ class Exported:
     clips: tuple[str, ...]
 
 
-def export_gltf(objects: Sequence[Any], path: str | Path) -> Exported:
+def export_gltf(objects: Sequence[Object], path: str | Path) -> Exported:
     """Write the objects of a face, the head first, with every clip that is baked on it.
 
     Parameters
@@ -62,17 +62,17 @@ def export_gltf(objects: Sequence[Any], path: str | Path) -> Exported:
     return Exported(path, tuple(clips))
 
 
-def clips_of(head: Any) -> dict[str, Any]:
+def clips_of(head: Object) -> dict[str, Action]:
     """Clip name -> action of every clip that is baked on a head."""
     own = actions.own_actions(shape_keys.own_face(head.data))
     return {str(action[actions.CLIP_TAG]): action for action in own}
 
 
 @contextmanager
-def _copies(objects: Sequence[Any], clips: dict[str, Any]) -> Iterator[Any]:
+def _copies(objects: Sequence[Object], clips: dict[str, Action]) -> Iterator[Scene]:
     """A scene of copies whose shape keys hold each clip on an NLA track of its name; removed on leaving."""
     scene = bpy.data.scenes.new("Risorius Export")
-    made: list[Any] = []
+    made: list[Object] = []
     try:
         source = bpy.context.scene
         scene.render.fps, scene.render.fps_base = source.render.fps, source.render.fps_base
@@ -100,7 +100,7 @@ def _copies(objects: Sequence[Any], clips: dict[str, Any]) -> Iterator[Any]:
 
 
 @contextmanager
-def _named(names: dict[Any, str]) -> Iterator[None]:
+def _named(names: dict[Object, str]) -> Iterator[None]:
     """Lend copies the names of what they are copies of, which step aside meanwhile."""
     originals = {copy: bpy.data.objects[name] for copy, name in names.items()}
     try:
@@ -114,13 +114,13 @@ def _named(names: dict[Any, str]) -> Iterator[None]:
             originals[copy].name = name
 
 
-def _strip_modifiers(copy: Any) -> None:
+def _strip_modifiers(copy: Object) -> None:
     """Only armatures go with morph targets; others would change the vertices that these move."""
     for modifier in [modifier for modifier in copy.modifiers if modifier.type != "ARMATURE"]:
         copy.modifiers.remove(modifier)
 
 
-def _lay_out(keys: Any | None, clips: dict[str, Any]) -> None:
+def _lay_out(keys: Key | None, clips: dict[str, Action]) -> None:
     """Put every clip on an NLA track of its own name."""
     if keys is None:
         return
@@ -136,7 +136,7 @@ def _lay_out(keys: Any | None, clips: dict[str, Any]) -> None:
 
 
 @contextmanager
-def _shown(scene: Any) -> Iterator[dict[str, Any]]:
+def _shown(scene: Scene) -> Iterator[dict[str, object]]:
     """What to override so that operators see `scene`: the exporter asks the window, where there is one."""
     window = bpy.context.window
     if window is None:

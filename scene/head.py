@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 import numpy as np
 from mathutils import Vector
 
 from ..arrays import Floats
-from ..face.default_head import HeadMesh, Material
+from ..face.default_head import HeadMesh
+from ..face.default_head import Material as HeadMaterial
 from . import mesh as meshes
+from .blender_types import Context, Material, Object
 from .creases.marks import draw_in
 from .faces import store_points
+from .materials import new_material
 from .points.kept import Origin
 
 NAME = "Risorius Head"
@@ -24,7 +25,7 @@ SKIN = "skin"
 ROOM = 0.3
 
 
-def add_default_head(context: Any | None = None, *, location: Floats | None = None) -> Any:
+def add_default_head(context: Context | None = None, *, location: Floats | None = None) -> Object:
     """Add the default head to the scene, select it and make it active.
 
     Parameters
@@ -40,12 +41,12 @@ def add_default_head(context: Any | None = None, *, location: Floats | None = No
     obj = head_object(api.build_default_head(), NAME)
     (context or bpy.context).collection.objects.link(obj)
     if location is not None:
-        obj.location = location
+        obj.location = location.tolist()
     select_only(obj, context)
     return obj
 
 
-def free_place(context: Any, wanted: Floats) -> Floats:
+def free_place(context: Context, wanted: Floats) -> Floats:
     """(3,) a place for a head near `wanted`: to the right of any visible mesh that would hide it.
 
     A new file has a cube of two metres at the place where things are added; a head would vanish inside it.
@@ -63,7 +64,7 @@ def free_place(context: Any, wanted: Floats) -> Floats:
     return place
 
 
-def head_object(head: HeadMesh, name: str) -> Any:
+def head_object(head: HeadMesh, name: str) -> Object:
     """An object for a built head, not yet linked to a scene."""
     corners, sizes = meshes.flatten_polygons(head.polygons)
     mesh = meshes.new_mesh(name, head.vertices, corners, sizes)
@@ -71,7 +72,7 @@ def head_object(head: HeadMesh, name: str) -> Any:
         mesh.materials.append(_material(material))
     meshes.set_materials(mesh, head.material_index)
     meshes.write_parts(mesh, np.asarray(head.parts))
-    obj = bpy.data.objects.new(name, mesh)
+    obj: Object = bpy.data.objects.new(name, mesh)
     store_points(obj, {n: _place(point) for n, point in head.points.items()}, origin=Origin.TOPOLOGY)
     return obj
 
@@ -84,7 +85,7 @@ def _place(point: int | Floats) -> int | tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
-def select_only(obj: Any, context: Any | None = None) -> None:
+def select_only(obj: Object, context: Context | None = None) -> None:
     """Select `obj` alone and make it active."""
     layer = (context or bpy.context).view_layer
     for other in layer.objects:
@@ -93,21 +94,13 @@ def select_only(obj: Any, context: Any | None = None) -> None:
     layer.objects.active = obj
 
 
-def _material(material: Material) -> Any:
+def _material(material: HeadMaterial) -> Material:
     """The Blender material for one of the head's; one that is there already is used again."""
     name = f"Risorius {material.name}"
-    found = bpy.data.materials.get(name)
+    found: Material | None = bpy.data.materials.get(name)
     if found is not None and found.library is None:
         return found
-    made = bpy.data.materials.new(name)
-    if made.node_tree is None:
-        made.use_nodes = True
-    made.diffuse_color = (*material.colour, 1.0)
-    made.roughness = material.roughness
-    principled = next((node for node in made.node_tree.nodes if node.type == "BSDF_PRINCIPLED"), None)
-    if principled is not None:
-        principled.inputs["Base Color"].default_value = (*material.colour, 1.0)
-        principled.inputs["Roughness"].default_value = material.roughness
-        if material.name == SKIN:
-            draw_in(made)
+    made = new_material(name, material.colour, roughness=material.roughness)
+    if material.name == SKIN:
+        draw_in(made)
     return made

@@ -25,7 +25,7 @@ from .attributes import (
     write_ints,
     write_numbers,
 )
-from .blender_types import Depsgraph, Mesh, Object, Scene, ShapeKey
+from .blender_types import Depsgraph, Key, Mesh, Object, Scene, ShapeKey
 
 PART_ATTRIBUTE = "risorius_part"
 
@@ -49,6 +49,15 @@ def key_vertices(key: ShapeKey) -> Floats:
 def write_key_vertices(key: ShapeKey, positions: Floats) -> None:
     """Set the vertices (V, 3) of one shape key, in the mesh's own coordinates."""
     write_floats(key.data, "co", positions)
+
+
+def keys_of(obj: Object) -> Key:
+    """The shape keys of the mesh of `obj`: where it has none, with a Basis now."""
+    if obj.data.shape_keys is None:
+        obj.shape_key_add(name="Basis", from_mix=False)
+    keys = obj.data.shape_keys
+    assert keys is not None
+    return keys
 
 
 def evaluated_vertices(obj: Object, depsgraph: Depsgraph | None = None) -> Floats:
@@ -105,6 +114,11 @@ def remove_parts(mesh: Mesh) -> None:
     remove_attribute(mesh, PART_ATTRIBUTE)
 
 
+def world_matrix(obj: Object) -> Floats:
+    """(4, 4) matrix from the object's own coordinates to the world's."""
+    return np.array([tuple(row) for row in obj.matrix_world], dtype=np.float64)
+
+
 def metres_matrix(obj: Object, scene: Scene | None = None) -> Floats:
     """(3, 3) symmetric matrix from the object's own coordinates to metres: its stretch in the world.
 
@@ -112,7 +126,7 @@ def metres_matrix(obj: Object, scene: Scene | None = None) -> Floats:
     ------
     SceneError : the object is scaled to nothing, or mirrored (its left would be its right).
     """
-    world = np.array(obj.matrix_world, dtype=np.float64)[:3, :3]
+    world = world_matrix(obj)[:3, :3]
     if not np.isfinite(world).all():
         raise SceneError(obj.name, "its transform is not finite: clear its location, rotation and scale (Alt G, R, S)")
     _, stretch, axes = np.linalg.svd(world)
@@ -131,8 +145,7 @@ def metres_matrix(obj: Object, scene: Scene | None = None) -> Floats:
 
 def relative_matrix(obj: Object, other: Object) -> Floats:
     """(4, 4) matrix from the coordinates of `other` to those of `obj`."""
-    ours = np.array(obj.matrix_world, dtype=np.float64)
-    theirs = np.array(other.matrix_world, dtype=np.float64)
+    ours, theirs = world_matrix(obj), world_matrix(other)
     if abs(np.linalg.det(theirs[:3, :3])) < 1e-30:
         raise SceneError(other.name, "has a scale of zero along an axis: set a scale above zero")
     matrix: Floats = np.linalg.inv(ours) @ theirs

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import TypeAlias
 
 import bpy
 
-#: A node's socket, or a plain figure for an input.
-Value = Any
+from .blender_types import Node, NodeSocket, NodeTree
+
+#: A node's socket, or what an input is set to: a figure, or a name.
+Value: TypeAlias = NodeSocket | float | str
 
 
 class NodeGraph:
@@ -15,10 +18,10 @@ class NodeGraph:
 
     def __init__(self, name: str, kind: str) -> None:
         """A new group: kind "GeometryNodeTree" or "ShaderNodeTree"."""
-        self.tree = bpy.data.node_groups.new(name, kind)
-        self._inputs: Any = None
+        self.tree: NodeTree = bpy.data.node_groups.new(name, kind)
+        self._inputs: Node | None = None
 
-    def takes(self, name: str, kind: str, default: Value = None) -> Value:
+    def takes(self, name: str, kind: str, default: float | None = None) -> NodeSocket:
         """A new input of the group, such as "NodeSocketFloat"; returns what flows from it."""
         socket = self.tree.interface.new_socket(name, in_out="INPUT", socket_type=kind)
         if default is not None:
@@ -27,7 +30,7 @@ class NodeGraph:
             self._inputs = self.tree.nodes.new("NodeGroupInput")
         return self._inputs.outputs[name]
 
-    def gives(self, **values: Value) -> None:
+    def gives(self, **values: NodeSocket) -> None:
         """The group's outputs, all at once; the kind of each is that of its value's socket."""
         kinds = {"GEOMETRY": "NodeSocketGeometry", "VECTOR": "NodeSocketVector", "VALUE": "NodeSocketFloat"}
         for name, value in values.items():
@@ -36,44 +39,44 @@ class NodeGraph:
         for name, value in values.items():
             self.tree.links.new(value, outputs.inputs[name])
 
-    def node(self, kind: str, *, settings: dict[str, Any] | None = None, **inputs: Value) -> Any:
+    def node(self, kind: str, *, settings: Mapping[str, object] | None = None, **inputs: Value) -> Node:
         """A node; `settings` are its properties, the rest its inputs by name, underscores for blanks."""
         node = self.tree.nodes.new(kind)
         for name, value in (settings or {}).items():
             setattr(node, name, value)
         for name, value in inputs.items():
-            self._feed(node, node.inputs[name.replace("_", " ")], value)
+            self._feed(node.inputs[name.replace("_", " ")], value)
         return node
 
-    def math(self, operation: str, *values: Value) -> Value:
+    def math(self, operation: str, *values: Value) -> NodeSocket:
         """The result of a Math node."""
         node = self.node("ShaderNodeMath", settings={"operation": operation})
         for socket, value in zip(node.inputs, values, strict=False):
-            self._feed(node, socket, value)
+            self._feed(socket, value)
         return node.outputs[0]
 
-    def vector(self, operation: str, *vectors: Value) -> Any:
+    def vector(self, operation: str, *vectors: Value) -> Node:
         """A Vector Math node."""
         node = self.node("ShaderNodeVectorMath", settings={"operation": operation})
         for socket, value in zip(node.inputs, vectors, strict=False):
-            self._feed(node, socket, value)
+            self._feed(socket, value)
         return node
 
-    def group(self, tree: Any, **inputs: Value) -> Any:
+    def group(self, tree: NodeTree, **inputs: Value) -> Node:
         """A node that is another group."""
         kind = "GeometryNodeGroup" if self.tree.bl_idname == "GeometryNodeTree" else "ShaderNodeGroup"
         return self.node(kind, settings={"node_tree": tree}, **inputs)
 
-    def separate(self, vector: Value) -> tuple[Value, Value, Value]:
+    def separate(self, vector: Value) -> tuple[NodeSocket, NodeSocket, NodeSocket]:
         """The three figures of a vector."""
         x, y, z = self.node("ShaderNodeSeparateXYZ", Vector=vector).outputs
         return x, y, z
 
-    def combine(self, x: Value, y: Value, z: Value) -> Value:
+    def combine(self, x: Value, y: Value, z: Value) -> NodeSocket:
         """A vector of three figures."""
         return self.node("ShaderNodeCombineXYZ", X=x, Y=y, Z=z).outputs[0]
 
-    def arranged(self) -> Any:
+    def arranged(self) -> NodeTree:
         """The finished group, its nodes in columns by how many others they wait for."""
         depth: dict[str, int] = {}
         nodes = list(self.tree.nodes)
@@ -92,7 +95,7 @@ class NodeGraph:
             node.hide = node.bl_idname in {"ShaderNodeMath", "ShaderNodeVectorMath"}
         return self.tree
 
-    def _feed(self, node: Any, socket: Any, value: Value) -> None:
+    def _feed(self, socket: NodeSocket, value: Value) -> None:
         """Link a socket to an input, or set a figure on it."""
         if isinstance(value, bpy.types.NodeSocket):
             self.tree.links.new(value, socket)

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ..arrays import Bools, Ints
 from ..errors import SceneError
 from ..face.mesh.parts import Part
 from . import mesh as meshes
+from .blender_types import Object
 from .faces import face_of, read_face
 from .points.kept import refuse_foreign_mesh
 
 
-def find_parts(obj: Any) -> Ints:
+def find_parts(obj: Object) -> Ints:
     """(V,) parts of the mesh of `obj` as its shape and its feature points tell them; stored with the mesh.
 
     Raises
@@ -34,7 +33,7 @@ def find_parts(obj: Any) -> Ints:
     return parts
 
 
-def set_part(obj: Any, group: str, part: Part) -> int:
+def set_part(obj: Object, group: str, part: Part) -> int:
     """Store `part` for the vertices of a vertex group; returns how many. What is untold the face tells.
 
     Raises
@@ -53,12 +52,12 @@ def set_part(obj: Any, group: str, part: Part) -> int:
     return int(member.sum())
 
 
-def forget_parts(obj: Any) -> None:
+def forget_parts(obj: Object) -> None:
     """Remove stored parts: the face tells them again."""
     meshes.remove_parts(obj.data)
 
 
-def in_group(obj: Any, name: str) -> Bools:
+def in_group(obj: Object, name: str) -> Bools:
     """(V,) which vertices are more in a vertex group than out of it.
 
     Raises

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 import numpy as np
 
 from ..errors import SceneError
+from .blender_types import Object
 from .mesh import rest_vertices
 
 #: Modes in which Blender holds a copy of the mesh that would overwrite ours.
 BUSY_MODES = {"EDIT": "Edit Mode", "SCULPT": "Sculpt Mode"}
 
 
-def refuse_unreadable(obj: Any | None) -> None:
+def refuse_unreadable(obj: Object | None) -> None:
     """Refuse what cannot be read as a face. Cheap enough for a button's poll.
 
     Raises
@@ -31,7 +30,7 @@ def refuse_unreadable(obj: Any | None) -> None:
         raise SceneError(obj.name, "has no polygons: select the mesh of a face")
 
 
-def refuse_unwritable(obj: Any | None, *, make_single_user: bool = False) -> None:
+def refuse_unwritable(obj: Object | None, *, make_single_user: bool = False) -> None:
     """Refuse what cannot be baked onto without harming something else. Cheap enough for a button's poll.
 
     Parameters
@@ -69,7 +68,7 @@ def refuse_unwritable(obj: Any | None, *, make_single_user: bool = False) -> Non
         raise SceneError(obj.name, "is in NLA tweak mode: leave it first (Tab in the NLA editor)")
 
 
-def refuse_broken_vertices(obj: Any) -> None:
+def refuse_broken_vertices(obj: Object) -> None:
     """Refuse resting vertices that are not finite. Reads the whole mesh.
 
     Raises
@@ -85,13 +84,13 @@ def refuse_broken_vertices(obj: Any) -> None:
         )
 
 
-def own_mesh(obj: Any) -> None:
+def own_mesh(obj: Object) -> None:
     """Give `obj` its own copy of a mesh that other objects share."""
     if any(other.data == obj.data and other != obj for other in bpy.data.objects):
         obj.data = obj.data.copy()
 
 
-def reason(obj: Any | None, *, writing: bool = True, make_single_user: bool = False) -> str | None:
+def reason(obj: Object | None, *, writing: bool = True, make_single_user: bool = False) -> str | None:
     """Why the object cannot be used, as a sentence for a greyed button; None where it can."""
     try:
         if writing:

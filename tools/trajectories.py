@@ -31,7 +31,8 @@ from risorius.scene import mesh as meshes
 from risorius.scene.head import head_object
 from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.lettering import read_picture
-from risorius.scene.pictures.studio import Look, render_frame, studio
+from risorius.scene.pictures.look import Look
+from risorius.scene.pictures.studio import render_frame, studio
 
 EMOTIONS = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
 

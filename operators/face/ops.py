@@ -31,7 +31,7 @@ class RISORIUS_OT_add_head(RisoriusOperator, bpy.types.Operator):
         """Add it."""
         from ...scene.head import add_default_head, free_place
 
-        obj = add_default_head(context, location=free_place(context, context.scene.cursor.location))
+        obj: Any = add_default_head(context, location=free_place(context, context.scene.cursor.location))
         obj.risorius.bake.creases = True
         if context.area is not None and context.area.type == "VIEW_3D":
             region = next(region for region in context.area.regions if region.type == "WINDOW")

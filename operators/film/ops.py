@@ -12,7 +12,7 @@ from ...scene import gltf, refusals
 from ...scene.bake import action, shape_keys
 from ...scene.bake import baking as bake
 from ...scene.pictures import film
-from ...scene.pictures.studio import Camera, Engine, Look
+from ...scene.pictures.look import Camera, Engine, Look
 from ...scene.points.found import Finding
 from ...scene.progress import Work, part_of
 from ..active import face_reason, target_of

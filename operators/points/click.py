@@ -12,6 +12,7 @@ from bpy.props import StringProperty
 from ...arrays import Floats
 from ...errors import RisoriusError, SceneError
 from ...mpeg4 import FEATURE_POINTS
+from ...scene.mesh import world_matrix
 from ...scene.points.bound import Surface
 from ...scene.points.found import Finding, find_points
 from ...scene.points.mirrored import MirrorPlane, plane_of_mesh
@@ -233,7 +234,7 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
         corner = (50.0 * scale, 40.0 * scale)
         draw_diagram(canvas, corner, scale, wanted, places)
         visible = Visible.of(here.object, here.evaluated_depsgraph_get())
-        world = np.array(here.object.matrix_world)
+        world = world_matrix(here.object)
         for name, place in places.items():
             shown = visible.shown_place(place, self._surface)
             there = viewport.on_screen(world[:3, :3] @ shown + world[:3, 3])

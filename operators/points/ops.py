@@ -16,6 +16,7 @@ from ...errors import RisoriusError, SceneError
 from ...files import write_whole
 from ...mpeg4 import FAPS, FEATURE_POINTS
 from ...scene.faces import stored_points
+from ...scene.mesh import world_matrix
 from ...scene.points.bound import followed
 from ...scene.points.found import Finding, find_points
 from ...scene.points.kept import KeptPoint, has_points, mesh_counts, read_kept, write_kept
@@ -109,9 +110,9 @@ class RISORIUS_OT_jump_to_point(OnePoint, bpy.types.Operator):
 
 def _outward(visible: Visible, place: Any) -> Vector:
     """The direction in the world in which the surface at a place looks."""
-    world = visible.obj.matrix_world
-    found, _, normal, _ = visible.shown.closest_point_on_mesh(world.inverted() @ Vector(place))
-    return (world.to_3x3().inverted().transposed() @ normal).normalized() if found else Vector((0.0, -1.0, 0.0))
+    inverse = np.linalg.inv(world_matrix(visible.obj))
+    found, _, normal, _ = visible.shown.closest_point_on_mesh(Vector(inverse[:3, :3] @ place + inverse[:3, 3]))
+    return Vector(inverse[:3, :3].T @ np.array(normal)).normalized() if found else Vector((0.0, -1.0, 0.0))
 
 
 def label_of(name: str) -> str:

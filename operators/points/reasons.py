@@ -12,7 +12,7 @@ from ...scene.points.kept import has_points, refuse_foreign_mesh
 def points_reason(obj: Any | None) -> str | None:
     """Why no points can be kept with the active object, or None."""
     reason = refusals.reason(obj, writing=False)
-    if reason is None:
+    if reason is None and obj is not None:
         try:
             refuse_foreign_mesh(obj)
         except SceneError as refusal:

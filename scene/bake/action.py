@@ -4,22 +4,20 @@ A face may be several meshes (eyes, teeth and tongue apart), but its clips are o
 keys bear the same names, and so share one action and its one slot. An own action keys *every* own shape of the
 face, with a constant zero for those of other clips, so that no clip leaks into the next in the NLA editor or a game
 engine. Own actions have a fake user, so that a clip that is not playing is saved too.
-
-Blender 4.4 gave actions slots, 5.0 took `Action.fcurves` away; `fcurves_of` is the only place that knows.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import bpy
 import numpy as np
 
 from ...arrays import Floats
 from ...errors import ParameterError
-from ..attributes import write_floats
+from ..blender_types import Action, Key, NlaStrip, NlaTrack
+from ..fcurves import add_keyframes, key_curves, key_slot
 from .shape_keys import own_names_of
 
 FACE_TAG, CLIP_TAG = "risorius_face", "risorius_clip"
@@ -39,64 +37,41 @@ class Curve:
             raise ParameterError("frames and values", "must be equally long and not empty", self.values.shape)
 
 
-def fcurves_of(action: Any) -> Any:
-    """The collection of the F-curves of an action for shape keys, whatever Blender keeps it in."""
-    if not hasattr(action, "slots"):
-        action.id_root = "KEY"
-        return action.fcurves
-    slot = slot_of(action)
-    layer = action.layers[0] if action.layers else action.layers.new("Layer")
-    strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
-    return strip.channelbag(slot, ensure=True).fcurves
-
-
-def slot_of(action: Any) -> Any | None:
-    """The action's slot for shape keys, made where there is none; None where Blender has no slots."""
-    if not hasattr(action, "slots"):
-        return None
-    for slot in action.slots:
-        if slot.target_id_type in {"KEY", "UNSPECIFIED"}:
-            return slot
-    return action.slots.new(id_type="KEY", name="Face")
-
-
 def data_path(key_name: str) -> str:
     """RNA path of a shape key's value."""
     return f'key_blocks["{bpy.utils.escape_identifier(key_name)}"].value'
 
 
-def write_curve(action: Any, key_name: str, curve: Curve) -> None:
+def write_curve(action: Action, key_name: str, curve: Curve) -> None:
     """Write one shape key's keyframes, in place of those it had."""
-    fcurves = fcurves_of(action)
+    fcurves = key_curves(action)
     path = data_path(key_name)
     old = fcurves.find(path)
     if old is not None:
         fcurves.remove(old)
     fcurve = fcurves.new(path)
-    points = fcurve.keyframe_points
-    points.add(len(curve.frames))
-    write_floats(points, "co", np.column_stack([curve.frames, curve.values]))
-    for point in points:
+    add_keyframes(fcurve, curve.frames, curve.values)
+    for point in fcurve.keyframe_points:
         point.interpolation = "LINEAR" if curve.linear else "BEZIER"
         point.handle_left_type = point.handle_right_type = "AUTO_CLAMPED"
     fcurve.update()
 
 
-def remove_curves(action: Any, key_names: Iterable[str]) -> None:
+def remove_curves(action: Action, key_names: Iterable[str]) -> None:
     """Remove the keyframes of the named shape keys."""
-    fcurves = fcurves_of(action)
+    fcurves = key_curves(action)
     for name in key_names:
         fcurve = fcurves.find(data_path(name))
         if fcurve is not None:
             fcurves.remove(fcurve)
 
 
-def own_actions(face: str) -> list[Any]:
+def own_actions(face: str) -> list[Action]:
     """All clips of one face."""
     return [action for action in bpy.data.actions if face and action.get(FACE_TAG) == face]
 
 
-def _used_elsewhere(action: Any, keys: Iterable[Any]) -> bool:
+def _used_elsewhere(action: Action, keys: Iterable[Key]) -> bool:
     """Whether anything besides these shape key datablocks plays the action."""
     users = bpy.data.user_map(subset=[action])[action]
     return bool(users - set(keys))
@@ -108,10 +83,10 @@ def write_clip(
     name: str,
     curves: Mapping[str, Curve],
     *,
-    keys: Iterable[Any],
+    keys: Iterable[Key],
     retired: Iterable[str] = (),
     silent: Iterable[str] = (),
-) -> Any:
+) -> Action:
     """Write one clip as an action, in place of the one it had, and silence its keys in the face's other clips.
 
     Keyframes that a user has added to an own action for anything else stay.
@@ -157,7 +132,7 @@ def _silence(frame: float) -> Curve:
     return Curve(np.array([frame]), np.zeros(1), linear=True)
 
 
-def play(keys: Any, action: Any) -> str | None:
+def play(keys: Key, action: Action) -> str | None:
     """Let a shape key datablock play the clip; a user's own action stays, and the clip goes on an NLA track then.
 
     Returns
@@ -169,7 +144,7 @@ def play(keys: Any, action: Any) -> str | None:
     if current is None or FACE_TAG in current:
         animation.action = action
         if hasattr(animation, "action_slot"):
-            animation.action_slot = slot_of(action)
+            animation.action_slot = key_slot(action)
         return None
     track = next((t for t in animation.nla_tracks if t.name == TRACK_NAME), None)
     if track is None:
@@ -181,25 +156,31 @@ def play(keys: Any, action: Any) -> str | None:
     return f"the action {current.name} stays; the clip plays on the NLA track {TRACK_NAME}"
 
 
-def add_strip(track: Any, action: Any) -> Any:
+def add_strip(track: NlaTrack, action: Action) -> NlaStrip:
     """Put a clip on an NLA track, at its own frames. Outside them it holds its ends, which are at rest.
 
     A strip that said nothing there would leave the face as the last frame shown had it.
     """
     strip = track.strips.new(action.name, int(action.frame_start), action)
     if hasattr(strip, "action_slot"):
-        strip.action_slot = slot_of(action)
+        strip.action_slot = key_slot(action)
     strip.frame_start = action.frame_start
     strip.extrapolation = "HOLD_FORWARD" if len(track.strips) > 1 else "HOLD"
     return strip
 
 
-def is_own_track(track: Any) -> bool:
+def frames_of(action: Action) -> tuple[float, float]:
+    """First and last frame of a clip."""
+    start, end = action.frame_range
+    return float(start), float(end)
+
+
+def is_own_track(track: NlaTrack) -> bool:
     """Whether an NLA track is ours; Blender numbers tracks of one name."""
     return str(track.name).partition(".")[0] == TRACK_NAME
 
 
-def remove_clip(face: str, clip: str, *, keys: Iterable[Any], key_names: Iterable[str]) -> None:
+def remove_clip(face: str, clip: str, *, keys: Iterable[Key], key_names: Iterable[str]) -> None:
     """Remove a clip's action, its strips, and its keys' silence in the face's other clips.
 
     An action that something else plays, or to which a user has added keyframes, loses only what is ours.
@@ -214,18 +195,18 @@ def remove_clip(face: str, clip: str, *, keys: Iterable[Any], key_names: Iterabl
         if _used_elsewhere(action, keys):
             continue
         remove_curves(action, [*key_names, *_own_names(keys)])
-        if len(fcurves_of(action)) == 0:
+        if len(key_curves(action)) == 0:
             bpy.data.actions.remove(action)
         else:
             del action[FACE_TAG], action[CLIP_TAG]
 
 
-def _own_names(keys: Iterable[Any]) -> set[str]:
+def _own_names(keys: Iterable[Key]) -> set[str]:
     """Names of all own shape keys in the datablocks."""
     return {name for datablock in keys for name in own_names_of(datablock)}
 
 
-def rename_face(old: str, new: str, keys: Iterable[Any]) -> None:
+def rename_face(old: str, new: str, keys: Iterable[Key]) -> None:
     """Give the clips that only these shape key datablocks play to the face `new`."""
     keys = list(keys)
     playing = bpy.data.user_map(subset=own_actions(old)) if own_actions(old) else {}
@@ -234,7 +215,7 @@ def rename_face(old: str, new: str, keys: Iterable[Any]) -> None:
             action[FACE_TAG] = new
 
 
-def _detach(keys: Any, action: Any) -> None:
+def _detach(keys: Key, action: Action) -> None:
     """Stop a shape key datablock from playing the action."""
     animation = keys.animation_data
     if animation is None:

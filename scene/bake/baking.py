@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
@@ -15,8 +15,10 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import ParameterError, SceneError
 from ...face.mesh.parts import Part
+from ..blender_types import Action, Mesh, Object, Scene
 from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of, read_face
+from ..mesh import keys_of
 from ..progress import Progress, Work
 from ..refusals import own_mesh, refuse_unwritable
 from . import action as actions
@@ -87,11 +89,11 @@ class BakeResult:
 class Target:
     """Where to bake: the head, the objects of its other parts, and whether shared meshes may be made its own."""
 
-    obj: Any
-    companions: Mapping[Part, Any] | None = None
+    obj: Object
+    companions: Mapping[Part, Object] | None = None
     make_single_user: bool = False
 
-    def objects(self) -> list[Any]:
+    def objects(self) -> list[Object]:
         """The head and the objects of its other parts."""
         return [self.obj, *(other for other in (self.companions or {}).values() if other is not None)]
 
@@ -143,7 +145,7 @@ def bake_expression(
         target, source, clip, [clip], shapes, [timing.curve(peak)], slider_min=0.0, creases=marks, note=note
     )
     return BakeResult(
-        clip, action.name, keys, 0.0, tuple(action.frame_range), np.asarray(pose.achieved), remarks(source.head) + said
+        clip, action.name, keys, 0.0, actions.frames_of(action), np.asarray(pose.achieved), remarks(source.head) + said
     )
 
 
@@ -198,7 +200,7 @@ def bake_motion(
         target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks, note=note
     )
     said = remarks(source.head) + said
-    return BakeResult(clip, action.name, keys, packed.error, tuple(action.frame_range), None, said)
+    return BakeResult(clip, action.name, keys, packed.error, actions.frames_of(action), None, said)
 
 
 def write_baked(
@@ -212,7 +214,7 @@ def write_baked(
     slider_min: float,
     creases: Creases | None,
     note: Note | None = None,
-) -> tuple[Any, tuple[str, ...], tuple[str, ...]]:
+) -> tuple[Action, tuple[str, ...], tuple[str, ...]]:
     """Write shape keys (K, V, 3 displacements, metres) on all pieces, and their clip; nothing can fail from here on."""
     if target.make_single_user:
         for obj in source.objects:
@@ -229,7 +231,7 @@ def write_baked(
             continue
         shapes = {name: piece.local_positions(d) for name, d in zip(free, displacements, strict=True)}
         face = shape_keys.write_keys(piece.obj, clip, shapes, slider_min=slider_min, face=face).face
-    datablocks = [piece.obj.data.shape_keys for piece in moving]
+    datablocks = [keys_of(piece.obj) for piece in moving]
     action = actions.write_clip(
         face,
         clip,
@@ -246,7 +248,7 @@ def write_baked(
     return action, free, tuple(sorted(remark for remark in said if remark))
 
 
-def _settle(members: list[Any]) -> str:
+def _settle(members: list[Mesh]) -> str:
     """The face's name; a duplicated face gets one of its own, and the clips that only it plays."""
     face, old = shape_keys.settle_face(members)
     if face != old:
@@ -284,7 +286,7 @@ def clear(target: Target, *, clips: list[str] | None = None) -> tuple[str, ...]:
     return tuple(removed)
 
 
-def scene_fps(scene: Any | None = None) -> float:
+def scene_fps(scene: Scene | None = None) -> float:
     """Frames per second of the scene."""
     render = (scene or bpy.context.scene).render
     return float(render.fps) / float(render.fps_base)

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
 
+from ..blender_types import Action
 from .action import CLIP_TAG, own_actions
 
 KIND_TAG, SETTINGS_TAG = "risorius_kind", "risorius_settings"
@@ -38,7 +38,7 @@ class Note:
     markers: tuple[tuple[str, float], ...] = ()
 
 
-def write_note(action: Any, note: Note) -> None:
+def write_note(action: Action, note: Note) -> None:
     """Note it on an action, in place of what was noted."""
     action[KIND_TAG], action[SETTINGS_TAG] = note.kind.value, note.settings
     for marker in list(action.pose_markers):
@@ -51,7 +51,8 @@ def read_notes(face: str) -> Mapping[str, Note]:
     """Clip -> what its bake has noted, of all clips of a face that have notes."""
     notes = {}
     for action in own_actions(face):
-        if action.get(KIND_TAG) in list(BakeKind):
+        kind = str(action.get(KIND_TAG))
+        if kind in list(BakeKind):
             markers = tuple((str(marker.name), float(marker.frame)) for marker in action.pose_markers)
-            notes[str(action[CLIP_TAG])] = Note(BakeKind(action[KIND_TAG]), str(action.get(SETTINGS_TAG, "")), markers)
+            notes[str(action[CLIP_TAG])] = Note(BakeKind(kind), str(action.get(SETTINGS_TAG, "")), markers)
     return notes

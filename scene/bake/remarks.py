@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 
+from ..blender_types import Key, Object
 from ..points.bound import followed
 from ..points.kept import has_points, read_kept
 from .shape_keys import own_names_of
 
 
-def _active_user_keys(keys: Any | None) -> list[str]:
+def _active_user_keys(keys: Key | None) -> list[str]:
     """Names of shape keys that are not ours and move the face now."""
     if keys is None:
         return []
@@ -19,7 +18,7 @@ def _active_user_keys(keys: Any | None) -> list[str]:
     return [k.name for k in keys.key_blocks[1:] if k.value != 0.0 and not k.mute and k.name not in own]
 
 
-def remarks(obj: Any) -> tuple[str, ...]:
+def remarks(obj: Object) -> tuple[str, ...]:
     """What an animator should know about a bake on this object that is nevertheless fine."""
     found = []
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())

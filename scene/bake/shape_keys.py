@@ -10,12 +10,12 @@ import json
 import uuid
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import bpy
 
 from ...arrays import Floats
-from ..mesh import write_key_vertices
+from ..blender_types import Key, Mesh, Object
+from ..mesh import keys_of, write_key_vertices
 
 RECORD = "risorius"
 
@@ -41,22 +41,22 @@ class OwnKeys:
         return tuple(name for keys in self.clips.values() for name in keys)
 
 
-def read_own(mesh: Any) -> OwnKeys:
+def read_own(mesh: Mesh) -> OwnKeys:
     """The record of `mesh`, without keys that no longer exist. Empty where there is none."""
     return _record_of(mesh.shape_keys)
 
 
-def own_names_of(keys: Any | None) -> tuple[str, ...]:
+def own_names_of(keys: Key | None) -> tuple[str, ...]:
     """Names of the own keys of a shape key datablock."""
     return _record_of(keys).names
 
 
-def _record_of(keys: Any | None) -> OwnKeys:
+def _record_of(keys: Key | None) -> OwnKeys:
     """The record of a shape key datablock."""
     if keys is None or RECORD not in keys:
         return OwnKeys()
     try:
-        stored = json.loads(keys[RECORD])
+        stored = json.loads(str(keys[RECORD]))
         clips = {
             str(clip): tuple(str(name) for name in names if name in keys.key_blocks)
             for clip, names in stored["clips"].items()
@@ -66,13 +66,13 @@ def _record_of(keys: Any | None) -> OwnKeys:
         return OwnKeys()
 
 
-def _write_own(mesh: Any, own: OwnKeys) -> None:
-    """Store the record with the mesh's shape keys."""
+def _write_own(keys: Key, own: OwnKeys) -> None:
+    """Store the record with a mesh's shape keys."""
     stored = {"face": own.face, "added_basis": own.added_basis, "clips": {c: list(n) for c, n in own.clips.items()}}
-    mesh.shape_keys[RECORD] = json.dumps(stored)
+    keys[RECORD] = json.dumps(stored)
 
 
-def free_names(wanted: Sequence[str], meshes: Iterable[Any], clip: str) -> tuple[str, ...]:
+def free_names(wanted: Sequence[str], meshes: Iterable[Mesh], clip: str) -> tuple[str, ...]:
     """`wanted` key names, numbered where a mesh already has such a key that is not `clip`'s own."""
     taken: set[str] = set()
     for mesh in meshes:
@@ -89,17 +89,8 @@ def free_names(wanted: Sequence[str], meshes: Iterable[Any], clip: str) -> tuple
     return tuple(chosen)
 
 
-def _ensure_basis(obj: Any) -> OwnKeys:
-    """Give the mesh a Basis where it has no shape keys, and the face a name; return the record."""
-    if obj.data.shape_keys is None:
-        obj.shape_key_add(name="Basis", from_mix=False)
-        return OwnKeys(uuid.uuid4().hex, added_basis=True)
-    own = read_own(obj.data)
-    return own if own.face else replace(own, face=uuid.uuid4().hex)
-
-
 def write_keys(
-    obj: Any, clip: str, shapes: Mapping[str, Floats], *, slider_min: float = 0.0, face: str = ""
+    obj: Object, clip: str, shapes: Mapping[str, Floats], *, slider_min: float = 0.0, face: str = ""
 ) -> OwnKeys:
     """Write the shape keys of one clip, in place of those it had before.
 
@@ -115,64 +106,65 @@ def write_keys(
     -------
     The new record of the mesh.
     """
-    own = _ensure_basis(obj)
-    _remove_blocks(obj, [name for name in own.clips.get(clip, ()) if name not in shapes])
-    blocks = obj.data.shape_keys.key_blocks
+    own = replace(read_own(obj.data), added_basis=True) if obj.data.shape_keys is None else read_own(obj.data)
+    keys = keys_of(obj)
+    _remove_blocks(obj, keys, [name for name in own.clips.get(clip, ()) if name not in shapes])
     for name, positions in shapes.items():
-        block = blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
+        block = keys.key_blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
         block.slider_min, block.slider_max = slider_min, 1.0
         block.value = 0.0
         write_key_vertices(block, positions)
-    own = replace(own, face=face or own.face, clips={**own.clips, clip: tuple(shapes)})
-    _write_own(obj.data, own)
+    own = replace(own, face=face or own.face or uuid.uuid4().hex, clips={**own.clips, clip: tuple(shapes)})
+    _write_own(keys, own)
     obj.data.update_tag()
     return own
 
 
-def remove_keys(obj: Any, clips: Iterable[str] | None = None) -> tuple[str, ...]:
+def remove_keys(obj: Object, clips: Iterable[str] | None = None) -> tuple[str, ...]:
     """Remove the shape keys of `clips` (default: all clips), and the Basis where it was ours and nothing is left.
 
     Returns
     -------
     Names of the removed keys.
     """
-    if obj.data.shape_keys is None:
+    keys = obj.data.shape_keys
+    if keys is None:
         return ()
     own = read_own(obj.data)
     going = set(own.clips) if clips is None else set(clips)
     removed = tuple(name for clip, names in own.clips.items() if clip in going for name in names)
-    _remove_blocks(obj, removed)
+    _remove_blocks(obj, keys, removed)
     left = {clip: names for clip, names in own.clips.items() if clip not in going}
-    if not left and own.added_basis and len(obj.data.shape_keys.key_blocks) == 1:
+    if not left and own.added_basis and len(keys.key_blocks) == 1:
         obj.shape_key_clear()
         return removed
     if left:
-        _write_own(obj.data, replace(own, clips=left))
-    elif RECORD in obj.data.shape_keys:
-        del obj.data.shape_keys[RECORD]
+        _write_own(keys, replace(own, clips=left))
+    elif RECORD in keys:
+        del keys[RECORD]
     obj.data.update_tag()
     return removed
 
 
-def _remove_blocks(obj: Any, names: Iterable[str]) -> None:
+def _remove_blocks(obj: Object, keys: Key, names: Iterable[str]) -> None:
     """Remove the named keys that exist."""
     for name in names:
-        block = obj.data.shape_keys.key_blocks.get(name)
+        block = keys.key_blocks.get(name)
         if block is not None:
             obj.shape_key_remove(block)
 
 
-def own_face(mesh: Any) -> str:
+def own_face(mesh: Mesh) -> str:
     """The name of the face that `mesh` is part of, or "" where nothing is baked on it."""
     return read_own(mesh).face
 
 
-def has_own(obj: Any) -> bool:
+def has_own(obj: Object | None) -> bool:
     """Whether Risorius has baked anything onto `obj`."""
     return obj is not None and obj.type == "MESH" and bool(read_own(obj.data).clips)
 
 
-def settle_face(members: Sequence[Any]) -> tuple[str, str]:
+def settle_face(members: Sequence[Mesh]) -> tuple[str, str]:
     """The name of the face that these meshes are, and the name it had before.
 
     They differ where another mesh carries the old name too, which happens when a user duplicates a baked face: the

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from ...arrays import Floats
+from ..blender_types import Action, Key, NlaTrack
 from ..creases import marks as crease_marks
 from ..faces import face_of
 from ..progress import Progress, Work
@@ -66,7 +67,7 @@ def bake_strips(
         moved.append((np.asarray(pose.positions) - source.vertices)[None])
     marks = crease_marks.prepare(source, creases)
     yield Progress(0.95, "Writing the shape keys")
-    written: list[Any] = []
+    written: list[Action] = []
     keys: list[str] = []
     said: set[str] = set(remarks(source.head))
     for shape, displacement in zip(shapes, moved, strict=True):
@@ -88,7 +89,7 @@ def bake_strips(
     _remove_gone(target, [shape.clip for shape in shapes])
     for datablock in _datablocks(target):
         line_up(datablock, written)
-    ends = [tuple(action.frame_range) for action in written]
+    ends = [actions.frames_of(action) for action in written]
     return BakeResult(
         ", ".join(shape.clip for shape in shapes),
         ", ".join(action.name for action in written),
@@ -108,12 +109,12 @@ def _remove_gone(target: Target, clips: Iterable[str]) -> None:
         clear(target, clips=gone)
 
 
-def _datablocks(target: Target) -> list[Any]:
+def _datablocks(target: Target) -> list[Key]:
     """Shape key datablocks of the face's meshes."""
     return [member.data.shape_keys for member in target.objects() if member.data.shape_keys is not None]
 
 
-def line_up(keys: Any, clips: Sequence[Any]) -> None:
+def line_up(keys: Key, clips: Sequence[Action]) -> None:
     """Lay actions on own NLA tracks of a shape key datablock, one below the other where they overlap, and play them.
 
     A user's own action stays where it is and plays on top.
@@ -123,14 +124,14 @@ def line_up(keys: Any, clips: Sequence[Any]) -> None:
         animation.action = None
     for track in [track for track in animation.nla_tracks if actions.is_own_track(track)]:
         animation.nla_tracks.remove(track)
-    tracks: list[Any] = []
+    tracks: list[NlaTrack] = []
     for action in sorted(clips, key=lambda clip: float(clip.frame_start)):
-        free = (track for track in tracks if track.strips[-1].frame_end <= action.frame_start)
-        track = next(free, None)
-        if track is None:
-            track = animation.nla_tracks.new()
-            track.name = actions.TRACK_NAME
-            tracks.append(track)
-        strip = actions.add_strip(track, action)
-        strip.blend_type = "REPLACE" if track == tracks[0] else "ADD"
+        free = (each for each in tracks if each.strips[-1].frame_end <= action.frame_start)
+        place = next(free, None)
+        if place is None:
+            place = animation.nla_tracks.new()
+            place.name = actions.TRACK_NAME
+            tracks.append(place)
+        strip = actions.add_strip(place, action)
+        strip.blend_type = "REPLACE" if place == tracks[0] else "ADD"
     bpy.context.view_layer.update()

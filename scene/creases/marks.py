@@ -7,12 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..attributes import remove_attribute, write_vectors
+from ..blender_types import Material, Modifier, Node, NodeSocket, NodeTree, Object
 from ..faces import FaceSource, face_of
+from ..materials import node_tree_of, principled_of
 from . import nodes as nodes
 
 if TYPE_CHECKING:
@@ -58,19 +60,19 @@ def settle(source: FaceSource, creases: Creases | None) -> None:
     nodes.drawing_group().use_fake_user = not shown_by(obj)
 
 
-def remove(obj: Any) -> None:
+def remove(obj: Object) -> None:
     """Take away all that `settle` has put on an object, and the node groups that nothing uses then."""
     if has(obj):
         _clear(obj)
         nodes.forget_unused()
 
 
-def has(obj: Any) -> bool:
+def has(obj: Object) -> bool:
     """Whether an object has creases."""
     return any(_is_ours(modifier) for modifier in obj.modifiers)
 
 
-def shown_by(obj: Any) -> bool:
+def shown_by(obj: Object) -> bool:
     """Whether a material of the object draws creases: then they are worth having without being asked for."""
     return any(
         nodes.is_drawing(getattr(node, "node_tree", None))
@@ -80,13 +82,12 @@ def shown_by(obj: Any) -> bool:
     )
 
 
-def draw_in(material: Any) -> None:
+def draw_in(material: Material) -> None:
     """Let a material of ours draw creases: as a bump, and a little darker and redder in their depth.
 
     The skin's colour stays a plain factor, which exporters understand.
     """
-    graph = material.node_tree
-    surface = next(node for node in graph.nodes if node.type == "BSDF_PRINCIPLED")
+    graph, surface = node_tree_of(material), principled_of(material)[0]
     x, y = surface.location
     group = graph.nodes.new("ShaderNodeGroup")
     group.node_tree = nodes.drawing_group()
@@ -102,7 +103,7 @@ def draw_in(material: Any) -> None:
     graph.links.new(_socket(colour.outputs, "Result_Color"), surface.inputs["Base Color"])
 
 
-def _mix(graph: Any, how: str, a: Any, b: Any) -> Any:
+def _mix(graph: NodeTree, how: str, a: object, b: object) -> Node:
     """A node that mixes two colours."""
     node = graph.nodes.new("ShaderNodeMix")
     node.data_type, node.blend_type = "RGBA", how
@@ -111,12 +112,12 @@ def _mix(graph: Any, how: str, a: Any, b: Any) -> Any:
     return node
 
 
-def _socket(sockets: Any, identifier: str) -> Any:
+def _socket(sockets: Iterable[NodeSocket], identifier: str) -> NodeSocket:
     """A socket by its identifier: several bear the same name."""
     return next(socket for socket in sockets if socket.identifier == identifier)
 
 
-def _write_places(obj: Any, creases: Creases, head: slice) -> None:
+def _write_places(obj: Object, creases: Creases, head: slice[int, int, None]) -> None:
     """The attributes that stay as they are in every pose."""
     vectors = {nodes.HEAD: creases.head_positions[head]}
     for name, crease in creases.creases.items():
@@ -127,7 +128,7 @@ def _write_places(obj: Any, creases: Creases, head: slice) -> None:
 
 
 @contextmanager
-def unmeasured(objects: Iterable[Any]) -> Iterator[None]:
+def unmeasured(objects: Iterable[Object]) -> Iterator[None]:
     """Renders that would not show creases, without measuring them: the modifiers rest, and are as they were after."""
     shown = [m for obj in objects for m in obj.modifiers if _is_ours(m) and m.show_render]
     for modifier in shown:
@@ -139,7 +140,7 @@ def unmeasured(objects: Iterable[Any]) -> Iterator[None]:
             modifier.show_render = True
 
 
-def _clear(obj: Any) -> None:
+def _clear(obj: Object) -> None:
     """Remove modifier and attributes."""
     for modifier in [modifier for modifier in obj.modifiers if _is_ours(modifier)]:
         obj.modifiers.remove(modifier)
@@ -151,6 +152,6 @@ def _clear(obj: Any) -> None:
         del obj[RESTING]
 
 
-def _is_ours(modifier: Any) -> bool:
+def _is_ours(modifier: Modifier) -> bool:
     """Whether a modifier is that of `settle`."""
     return modifier.type == "NODES" and nodes.is_measuring(modifier.node_group)

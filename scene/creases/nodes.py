@@ -6,13 +6,13 @@ The formulas of the first are those of `face.products.creases`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from hashlib import blake2b
-from typing import Any
 
 import bpy
 
 from ...face.products.crease_table import CreaseRow, Look, read_creases
+from ..blender_types import NodeSocket, NodeTree
 from ..node_graph import NodeGraph, Value
 
 #: Attributes of the mesh, written once: a vertex's resting place in head space, and its place on a crease.
@@ -34,7 +34,7 @@ _FULLNESS, _LINES = "Risorius Crease Fullness", "Risorius Crease Lines"
 TABLE = "risorius_table"
 
 
-def measuring_group(rounds: int) -> Any:
+def measuring_group(rounds: int) -> NodeTree:
     """The geometry node group that writes the attributes `CREASE` + name and `STRAIN` on a posed mesh.
 
     Parameters
@@ -45,17 +45,17 @@ def measuring_group(rounds: int) -> Any:
     return _ready(MEASURE, lambda rows: _measuring(rows, rounds), f"{rounds} rounds")
 
 
-def drawing_group() -> Any:
+def drawing_group() -> NodeTree:
     """The shader node group that turns the attributes `CREASE` + name into a normal and a shade."""
     return _ready(DRAW, _drawing, "")
 
 
-def is_measuring(tree: Any | None) -> bool:
+def is_measuring(tree: NodeTree | None) -> bool:
     """Whether a node tree is the measuring group, or a copy of it."""
     return tree is not None and tree.bl_idname == "GeometryNodeTree" and tree.name.startswith(MEASURE)
 
 
-def is_drawing(tree: Any | None) -> bool:
+def is_drawing(tree: NodeTree | None) -> bool:
     """Whether a node tree is the drawing group, or a copy of it."""
     return tree is not None and tree.bl_idname == "ShaderNodeTree" and tree.name.startswith(DRAW)
 
@@ -73,11 +73,12 @@ def seen(rows: Sequence[CreaseRow]) -> list[CreaseRow]:
     return [row for row in rows if row.look is not Look.UNSEEN]
 
 
-def _ready(name: str, build: Callable[[Sequence[CreaseRow]], Any], variant: str) -> Any:
+def _ready(name: str, build: Callable[[Sequence[CreaseRow]], NodeTree], variant: str) -> NodeTree:
     """The variant of the group for the table as it is: one that is there already, or a new one."""
     rows = read_creases()
     table = blake2b(f"{rows}{variant}".encode(), digest_size=8).hexdigest()
-    for tree in bpy.data.node_groups:
+    there: Iterable[NodeTree] = bpy.data.node_groups
+    for tree in there:
         if tree.name.startswith(name) and tree.get(TABLE) == table and tree.library is None:
             return tree
     tree = build(rows)
@@ -85,7 +86,7 @@ def _ready(name: str, build: Callable[[Sequence[CreaseRow]], Any], variant: str)
     return tree
 
 
-def _measuring(rows: Sequence[CreaseRow], rounds: int) -> Any:
+def _measuring(rows: Sequence[CreaseRow], rounds: int) -> NodeTree:
     """See `measuring_group`."""
     graph = NodeGraph(MEASURE, "GeometryNodeTree")
     graph.tree.is_modifier = True
@@ -114,7 +115,7 @@ def _measuring(rows: Sequence[CreaseRow], rounds: int) -> Any:
     return graph.arranged()
 
 
-def _fullness() -> Any:
+def _fullness() -> NodeTree:
     """The group that puts how full a crease is in the place of its presence."""
     graph = NodeGraph(_FULLNESS, "GeometryNodeTree")
     place, gauge = (graph.takes(name, "NodeSocketVector") for name in ("Place", "Gauge"))
@@ -159,14 +160,14 @@ def _averaged(graph: NodeGraph, value: Value, rounds: Value) -> Value:
     return graph.node("GeometryNodeBlurAttribute", Value=mean.outputs[0], Iterations=rounds).outputs[0]
 
 
-def _stored(graph: NodeGraph, geometry: Value, name: str, value: Value, kind: str) -> Value:
+def _stored(graph: NodeGraph, geometry: Value, name: str, value: Value, kind: str) -> NodeSocket:
     """The geometry with one more attribute of its vertices."""
     settings = {"data_type": kind, "domain": "POINT"}
     node = graph.node("GeometryNodeStoreNamedAttribute", settings=settings, Geometry=geometry, Name=name, Value=value)
     return node.outputs[0]
 
 
-def _drawing(rows: Sequence[CreaseRow]) -> Any:
+def _drawing(rows: Sequence[CreaseRow]) -> NodeTree:
     """See `drawing_group`."""
     graph = NodeGraph(DRAW, "ShaderNodeTree")
     strength = graph.takes("Strength", "NodeSocketFloat", 1.0)
@@ -204,7 +205,7 @@ def _noise(graph: NodeGraph, place: Value, often: float) -> Value:
     return graph.math("MULTIPLY_ADD", noise.outputs[0], 4.0, -2.0)
 
 
-def _lines() -> Any:
+def _lines() -> NodeTree:
     """The group of valleys along the lines, ridges beside them, that stray a little and break here and there."""
     graph = NodeGraph(_LINES, "ShaderNodeTree")
     across, full, _ = graph.separate(graph.takes("Crease", "NodeSocketVector"))

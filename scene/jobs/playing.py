@@ -13,9 +13,10 @@ from ..bake.motion import FapMotion
 from ..bake.performance import FIRST_FRAME
 from ..pictures import film
 from ..pictures.framing import framing_of
-from ..pictures.studio import Engine, Look, furnish
+from ..pictures.furniture import furnish
+from ..pictures.look import Engine, Look
 from ..progress import Progress, Work, part_of, run
-from .jobs import Made, Report, empty_file, save
+from .files import Made, Report, empty_file, save
 from .subjects import subject
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def play_stream(
     """Bake a stream onto a face with its muscles, at the stream's rate, and save the .blend or the film (.mp4).
 
     Visemes and expressions are expanded; FAPs that no frame states are left to anatomy. Fill the stream first
-    (`FapStream.filled`) where it states FAPs now and then only. Other parameters as for `jobs.bake_file`.
+    (`FapStream.filled`) where it states FAPs now and then only. Other parameters as for `words.bake_file`.
 
     Raises
     ------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
@@ -12,9 +12,11 @@ from ...arrays import Bools, Ints
 from ...errors import FormatError
 from ...face.mesh.parts import Part
 from .. import mesh as meshes
+from ..blender_types import Object
 from ..creases.marks import draw_in
 from ..faces import face_of, read_face, store_points
 from ..head import add_default_head, select_only
+from ..materials import new_material
 from ..pictures.irises import iris_polygons, lay_irises
 from ..points.file import read_points
 from ..points.found import find_points
@@ -50,7 +52,7 @@ _MOUTH = list(PLAIN_COLOURS).index("Mouth")
 MANY_TEETH = 8
 
 
-def subject(mesh: str | Path | None = None, points: str | Path | None = None, *, creases: bool = False) -> Any:
+def subject(mesh: str | Path | None = None, points: str | Path | None = None, *, creases: bool = False) -> Object:
     """Put the face of a job into the current scene.
 
     Parameters
@@ -90,19 +92,19 @@ def subject(mesh: str | Path | None = None, points: str | Path | None = None, *,
     return obj
 
 
-def _from_arrays(path: Path) -> Any:
+def _from_arrays(path: Path) -> Object:
     """A mesh that is read without Blender, vertex for vertex."""
     from ...face.mesh.files import read_mesh
 
     stored = read_mesh(path)
-    obj = bpy.data.objects.new(
+    obj: Object = bpy.data.objects.new(
         path.stem, meshes.new_mesh(path.stem, stored.vertices, *meshes.flatten_polygons(stored.polygons))
     )
     bpy.context.collection.objects.link(obj)
     return obj
 
 
-def _from_blend(path: Path) -> Any:
+def _from_blend(path: Path) -> Object:
     """The mesh object of a .blend: the one with feature points, else the one with the most vertices."""
     if not path.is_file():
         raise FormatError(path, "does not exist: check the path")
@@ -120,7 +122,7 @@ def _from_blend(path: Path) -> Any:
     return chosen
 
 
-def _from_gltf(path: Path) -> Any:
+def _from_gltf(path: Path) -> Object:
     """The largest mesh of a glTF file."""
     if not path.is_file():
         raise FormatError(path, "does not exist: check the path")
@@ -132,7 +134,7 @@ def _from_gltf(path: Path) -> Any:
     return _largest([obj for obj in bpy.data.objects if obj not in before], path)
 
 
-def _largest(objects: list[Any], path: Path) -> Any:
+def _largest(objects: list[Object], path: Path) -> Object:
     """The mesh with feature points, else the one with the most vertices."""
     candidates = [obj for obj in objects if obj.type == "MESH"]
     if not candidates:
@@ -140,7 +142,7 @@ def _largest(objects: list[Any], path: Path) -> Any:
     return max(candidates, key=lambda obj: (has_points(obj), len(obj.data.vertices)))
 
 
-def paint_parts(obj: Any, *, creases: bool = False) -> None:
+def paint_parts(obj: Object, *, creases: bool = False) -> None:
     """Give a mesh without materials one per part of its face, so that eyes and teeth can be told from skin."""
     face = face_of(read_face(obj))
     parts = np.asarray(face.parts)
@@ -156,13 +158,7 @@ def paint_parts(obj: Any, *, creases: bool = False) -> None:
     colours[_lining(face, corners, sizes)] = _MOUTH
     painted = {}
     for name, colour in PLAIN_COLOURS.items():
-        material = bpy.data.materials.new(f"Risorius plain {name.lower()}")
-        material.diffuse_color = (*colour, 1.0)
-        if material.node_tree is None:
-            material.use_nodes = True
-        for node in material.node_tree.nodes:
-            if node.type == "BSDF_PRINCIPLED":
-                node.inputs["Base Color"].default_value = (*colour, 1.0)
+        material = new_material(f"Risorius plain {name.lower()}", colour)
         if creases and name == "Skin":
             draw_in(material)
         obj.data.materials.append(material)

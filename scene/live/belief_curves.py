@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bpy
-import numpy as np
 
 from ...errors import SceneError
-from ..attributes import write_floats
+from ..blender_types import Action, AnimData, FCurve, Object, Slot
+from ..fcurves import add_keyframes, is_empty, played_curves
 
 if TYPE_CHECKING:
     from ...api import BeliefTrack
@@ -25,7 +25,7 @@ def property_names() -> tuple[str, ...]:
     return tuple(f"{PREFIX}{name}" for name in (*api.ARCHETYPES, STRENGTH))
 
 
-def write_curves(obj: Any, track: BeliefTrack) -> Any:
+def write_curves(obj: Object, track: BeliefTrack) -> Action:
     """Write beliefs as keyframes of custom properties, in place of those that were there; returns the action.
 
     They go into the action that the object plays, or a new one. Its other F-curves stay.
@@ -46,19 +46,20 @@ def write_curves(obj: Any, track: BeliefTrack) -> Any:
         )
         obj.id_properties_ui(name).update(min=0.0, max=10.0, soft_max=1.0, description=about)
         obj.keyframe_insert(_path(name), frame=float(track.numbers[0]), group=GROUP)
-        curve = _played(obj).find(_path(name))
-        points = curve.keyframe_points
-        points.add(len(values) - 1)
-        write_floats(points, "co", np.column_stack([track.numbers, values]))
-        for point in points:
+        curve = _curve(obj, name)
+        assert curve is not None
+        add_keyframes(curve, track.numbers, values)
+        for point in curve.keyframe_points:
             point.interpolation = "LINEAR"
         curve.update()
-    obj.animation_data.action.update_tag()
+    action = obj.animation_data.action if obj.animation_data is not None else None
+    assert action is not None
+    action.update_tag()
     obj.update_tag()
-    return obj.animation_data.action
+    return action
 
 
-def refuse_unwritable_curves(obj: Any) -> None:
+def refuse_unwritable_curves(obj: Object) -> None:
     """Refuse an object whose custom properties cannot be animated. Cheap enough for a button's poll.
 
     Raises
@@ -74,30 +75,31 @@ def refuse_unwritable_curves(obj: Any) -> None:
         raise SceneError(obj.name, f"plays the linked action {animation.action.name}: make it single user first")
 
 
-def has_curves(obj: Any) -> bool:
+def has_curves(obj: Object) -> bool:
     """Whether beliefs have been written on `obj`."""
     return any(name in obj for name in property_names())
 
 
-def remove_curves(obj: Any) -> None:
+def remove_curves(obj: Object) -> None:
     """Take beliefs and their F-curves away; an action that held nothing else goes, too."""
-    action = obj.animation_data.action if obj.animation_data is not None else None
+    animation = obj.animation_data
+    curves = played_curves(animation) if animation is not None else None
     for name in property_names():
         if name not in obj:
             continue
-        curves = _played(obj) if action is not None else None
-        if curves is not None and curves.find(_path(name)) is not None:
-            curves.remove(curves.find(_path(name)))
+        curve = curves.find(_path(name)) if curves is not None else None
+        if curves is not None and curve is not None:
+            curves.remove(curve)
         del obj[name]
-    if action is not None and not _played(obj):
-        _stop(obj, action)
+    if animation is not None and animation.action is not None and not played_curves(animation):
+        _stop(animation, animation.action)
 
 
-def _stop(obj: Any, action: Any) -> None:
+def _stop(animation: AnimData, action: Action) -> None:
     """Play no action that has nothing for the object; one that has nothing at all goes."""
-    slot = getattr(obj.animation_data, "action_slot", None)
-    obj.animation_data.action = None
-    if action.users == action.use_fake_user and not any(len(bag) for bag in _all_curves(action)):
+    slot: Slot | None = getattr(animation, "action_slot", None)
+    animation.action = None
+    if action.users == action.use_fake_user and is_empty(action):
         bpy.data.actions.remove(action)
     elif slot is not None and not slot.users():
         action.slots.remove(slot)
@@ -108,24 +110,7 @@ def _path(name: str) -> str:
     return f'["{name}"]'
 
 
-def _played(obj: Any) -> Any:
-    """The F-curves that the object plays, whatever this Blender keeps them in; None where its action has none."""
-    animation = obj.animation_data
-    if not hasattr(animation.action, "slots"):
-        return animation.action.fcurves
-    if animation.action_slot is None:
-        return None
-    bags = (strip.channelbag(animation.action_slot) for strip in _strips(animation.action))
-    return next((bag.fcurves for bag in bags if bag is not None), None)
-
-
-def _all_curves(action: Any) -> list[Any]:
-    """All collections of F-curves in an action."""
-    if not hasattr(action, "slots"):
-        return [action.fcurves]
-    return [bag.fcurves for strip in _strips(action) for bag in strip.channelbags]
-
-
-def _strips(action: Any) -> list[Any]:
-    """The keyframe strips of an action with layers."""
-    return [strip for layer in action.layers for strip in layer.strips]
+def _curve(obj: Object, name: str) -> FCurve | None:
+    """The F-curve of a custom property that the object plays; None where there is none."""
+    curves = played_curves(obj.animation_data) if obj.animation_data is not None else None
+    return None if curves is None else curves.find(_path(name))

@@ -7,14 +7,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import blake2b
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...arrays import Floats, Ints
 from ..bake.baking import Target
+from ..blender_types import Object
 from ..faces import face_of
-from ..mesh import rest_vertices
+from ..mesh import rest_vertices, world_matrix
 from ..points.kept import POINTS
 from ..progress import Progress, Work
 from . import preview
@@ -37,7 +38,7 @@ class LivePose:
     contractions: Mapping[str, float]
 
 
-def uid_of(obj: Any) -> int:
+def uid_of(obj: Object) -> int:
     """A number that an object keeps while Blender runs, through renaming and undo."""
     return int(obj.session_uid)
 
@@ -47,7 +48,7 @@ def print_of(target: Target) -> str:
     digest = blake2b(digest_size=16)
     for obj in target.objects():
         digest.update(f"{uid_of(obj)} {len(obj.data.polygons)}".encode())
-        digest.update(np.array(obj.matrix_world, dtype=np.float32)[:3, :3].tobytes())
+        digest.update(world_matrix(obj)[:3, :3].tobytes())
         digest.update(rest_vertices(obj.data).tobytes())
     digest.update(str(target.obj.data.get(POINTS, "")).encode())
     return digest.hexdigest()

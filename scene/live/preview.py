@@ -6,20 +6,20 @@ shape keys and animation stay as they are, and later modifiers go on working. Re
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
 
 import bpy
 
 from ...arrays import Floats
 from ..attributes import remove_attribute, write_vectors
+from ..blender_types import Modifier, NodeTree, Object
 from ..node_graph import NodeGraph
 
 NAME = "Risorius Preview"
 ATTRIBUTE = "risorius_preview"
 
 
-def show(obj: Any, positions: Floats) -> None:
+def show(obj: Object, positions: Floats) -> None:
     """Show positions (V, 3) in the mesh's own coordinates."""
     mesh = obj.data
     write_vectors(mesh, ATTRIBUTE, positions)
@@ -33,7 +33,7 @@ def show(obj: Any, positions: Floats) -> None:
     mesh.update_tag()
 
 
-def rest(objects: Sequence[Any]) -> None:
+def rest(objects: Sequence[Object]) -> None:
     """Let objects show themselves again, ready for the next `show`."""
     for obj in objects:
         modifier = _modifier(obj)
@@ -41,13 +41,13 @@ def rest(objects: Sequence[Any]) -> None:
             modifier.show_viewport = False
 
 
-def is_shown(obj: Any) -> bool:
+def is_shown(obj: Object) -> bool:
     """Whether `obj` shows a preview now."""
     modifier = _modifier(obj)
     return modifier is not None and bool(modifier.show_viewport)
 
 
-def has_preview(obj: Any) -> bool:
+def has_preview(obj: Object) -> bool:
     """Whether anything of a preview is on `obj`."""
     return obj.type == "MESH" and (_modifier(obj) is not None or ATTRIBUTE in obj.data.attributes)
 
@@ -73,19 +73,20 @@ def remove_unused() -> None:
             bpy.data.node_groups.remove(tree)
 
 
-def _modifier(obj: Any) -> Any | None:
+def _modifier(obj: Object) -> Modifier | None:
     """Our modifier on an object."""
     return next((m for m in obj.modifiers if m.type == "NODES" and _is_ours(m.node_group)), None)
 
 
-def _is_ours(tree: Any | None) -> bool:
+def _is_ours(tree: NodeTree | None) -> bool:
     """Whether a node tree is our group, or a copy of it."""
     return tree is not None and tree.bl_idname == "GeometryNodeTree" and tree.name.startswith(NAME)
 
 
-def _group() -> Any:
+def _group() -> NodeTree:
     """The geometry node group that puts vertices where the attribute says."""
-    for tree in bpy.data.node_groups:
+    groups: Iterable[NodeTree] = bpy.data.node_groups
+    for tree in groups:
         if _is_ours(tree) and tree.library is None:
             return tree
     graph = NodeGraph(NAME, "GeometryNodeTree")

@@ -10,13 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from hashlib import blake2b
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from ...arrays import Floats
 from ...errors import ModelError, ParameterError, SceneError
+from ..blender_types import Depsgraph, Object, Scene
 from ..faces import face_of, read_face
 from ..mesh import mesh_vertices, metres_matrix, rest_vertices
 from ..points.kept import POINTS
@@ -27,6 +28,7 @@ from .shown_rest import shown_rest
 
 if TYPE_CHECKING:
     from ...api import Beliefs, BeliefTrack
+    from ...physics.mesh import Sparse
 
 #: Corners of the eyes, bridge of the nose and ears: they tell how a mask without a skull has moved as a whole.
 STEADY = ("3.7", "3.8", "3.11", "3.12", "9.12", "10.7", "10.8", "10.9", "10.10")
@@ -62,7 +64,7 @@ class Reading:
 class FaceReader:
     """One face held ready to be read again and again, as long as its resting mesh stays as it is."""
 
-    def __init__(self, obj: Any) -> None:
+    def __init__(self, obj: Object) -> None:
         """Read the resting face.
 
         Raises
@@ -81,11 +83,11 @@ class FaceReader:
         is_mask = len(anatomy.head_turn.skull) < 4
         self._steady = anatomy.mesh.points.matrix(held) if is_mask and len(held) >= 4 else None
 
-    def is_of(self, obj: Any) -> bool:
+    def is_of(self, obj: Object) -> bool:
         """Whether `obj` still is the face that was read."""
         return uid_of(obj) == self.uid and print_of(obj) == self.print
 
-    def positions(self, depsgraph: Any) -> Floats:
+    def positions(self, depsgraph: Depsgraph) -> Floats:
         """(V, 3) vertices of the mesh in metres as they show.
 
         Raises
@@ -106,7 +108,7 @@ class FaceReader:
         moved: Floats = mesh_vertices(shown)[:count] - self._shown_rest[:count]
         return moved
 
-    def measure(self, depsgraph: Any) -> Floats:
+    def measure(self, depsgraph: Depsgraph) -> Floats:
         """(68,) FAPs as the face shows them; NaN where it has no such point.
 
         Raises
@@ -122,7 +124,7 @@ class FaceReader:
         except ParameterError as problem:
             raise SceneError(self.obj.name, f"cannot be measured as shown: {problem}") from problem
 
-    def read(self, depsgraph: Any, *, rule: str = "paper", words: Iterable[str] = ()) -> Reading:
+    def read(self, depsgraph: Depsgraph, *, rule: str = "paper", words: Iterable[str] = ()) -> Reading:
         """What the face shows now.
 
         Parameters
@@ -147,7 +149,7 @@ class FaceReader:
         return Reading(frame, features, beliefs, api.recognise_words(frame, words), strength)
 
 
-def print_of(obj: Any) -> bytes:
+def print_of(obj: Object) -> bytes:
     """A fingerprint of all that a resting face is read from; cheap."""
     digest = blake2b(rest_vertices(obj.data).tobytes(), digest_size=16)
     digest.update(metres_matrix(obj).round(6).tobytes())
@@ -155,7 +157,7 @@ def print_of(obj: Any) -> bytes:
     return digest.digest()
 
 
-def _steadied(positions: Floats, rest: Floats, reader: Any) -> Floats:
+def _steadied(positions: Floats, rest: Floats, reader: Sparse) -> Floats:
     """Positions (V, 3) moved back as a whole, so that their steady points lie on those at rest."""
     from scipy.spatial.transform import Rotation
 
@@ -165,7 +167,7 @@ def _steadied(positions: Floats, rest: Floats, reader: Any) -> Floats:
     return back
 
 
-def read_animation(obj: Any, scene: Any, *, start: int, end: int, rule: str = "paper") -> Work[BeliefTrack]:
+def read_animation(obj: Object, scene: Scene, *, start: int, end: int, rule: str = "paper") -> Work[BeliefTrack]:
     """Read a face at every frame of a range. The scene's frame is put back, also where the work is closed early.
 
     Raises

@@ -6,14 +6,13 @@ itself. The resting mesh is put through the same modifiers once, in a scene of i
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 import numpy as np
 
 from ...arrays import Floats
 from ...errors import SceneError
 from ..attributes import write_floats
+from ..blender_types import Object
 from ..mesh import mesh_vertices, rest_vertices
 
 #: Modifiers that keep the mesh's own vertices, first and in their order, and add others to them.
@@ -22,7 +21,7 @@ ADDING = {"SUBSURF", "MULTIRES", "MIRROR", "SOLIDIFY"}
 NEAR = 0.05
 
 
-def shown_rest(obj: Any, count: int) -> Floats:
+def shown_rest(obj: Object, count: int) -> Floats:
     """(`count`, 3) vertices of the resting mesh as modifiers show it; the mesh's own come first.
 
     Raises
@@ -42,7 +41,7 @@ def shown_rest(obj: Any, count: int) -> Floats:
     return found
 
 
-def _suspects(obj: Any) -> str:
+def _suspects(obj: Object) -> str:
     """Modifiers that may make other vertices."""
     moving = {"ARMATURE", "CAST", "CURVE", "DISPLACE", "HOOK", "LATTICE", "MESH_DEFORM", "SHRINKWRAP", "SMOOTH"}
     moving |= {"CORRECTIVE_SMOOTH", "LAPLACIANSMOOTH", "SURFACE_DEFORM", "WARP", "WAVE", *ADDING}
@@ -50,7 +49,7 @@ def _suspects(obj: Any) -> str:
     return ", ".join(m.name for m in others if m.type not in moving) or ", ".join(m.name for m in others)
 
 
-def _through(obj: Any, rest: Floats) -> Floats:
+def _through(obj: Object, rest: Floats) -> Floats:
     """(n, 3) what the adding modifiers of `obj` make of its resting mesh."""
     scene = bpy.data.scenes.new("Risorius Resting Face")
     for name in ("use_simplify", "simplify_subdivision"):

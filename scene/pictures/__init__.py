@@ -1,6 +1,8 @@
 """Pictures and films of a face.
 
-film, framing, studio       films; where camera and lights stand; a scene of their own
+film                        films
+look, framing, furniture    how a face is pictured; where it is in the world; camera, lights and background
+studio                      a scene of its own to picture it in
 contact_sheet, lettering    pictures side by side; text as pixels
 belief_plot                 beliefs over time as a picture
 irises                      irises of eyeballs that bring no colours

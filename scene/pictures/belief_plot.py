@@ -5,13 +5,14 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from ...arrays import Floats
 from ..attributes import write_pixels
+from ..blender_types import Image
 from ..live.reading import RESTING
 from .lettering import Text, write_text
 
@@ -123,10 +124,10 @@ def _texts(track: BeliefTrack, title: str, top: float) -> list[Text]:
     return texts
 
 
-def keep_plot(name: str, pixels: Floats) -> Any:
+def keep_plot(name: str, pixels: Floats) -> Image:
     """Keep a plot (h, w, 3) in the file as an image of this name, in place of the one that was there."""
     height, width, _ = pixels.shape
-    image = bpy.data.images.get(name) or bpy.data.images.new(name, width, height, alpha=False)
+    image: Image = bpy.data.images.get(name) or bpy.data.images.new(name, width, height, alpha=False)
     if tuple(image.size) != (width, height):
         image.scale(width, height)
     write_pixels(image, pixels)

@@ -7,14 +7,15 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import bpy
 
 from ...errors import SceneError
+from ..blender_types import Object, Scene
 from ..progress import Progress, Work
 from .framing import framing_of
-from .studio import Look, render_frame, studio, usable_engine
+from .look import Look, usable_engine
+from .studio import render_frame, studio
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,7 @@ def refuse_unwritable_output(path: Path) -> None:
 
 
 def render_film(
-    objects: Sequence[Any],
+    objects: Sequence[Object],
     path: str | Path | None,
     *,
     start: int,
@@ -91,7 +92,7 @@ def render_film(
     return FilmResult(film, len(pictures), kept, (remark,) if remark else ())
 
 
-def render_frames(objects: Sequence[Any], folder: Path, *, start: int, end: int, look: Look) -> Work[list[Path]]:
+def render_frames(objects: Sequence[Object], folder: Path, *, start: int, end: int, look: Look) -> Work[list[Path]]:
     """Render frames `start` to `end` as numbered PNGs into `folder`."""
     pictures = []
     count = end - start + 1
@@ -134,7 +135,7 @@ def encode(pictures: Sequence[Path], path: Path, *, look: Look, fps: tuple[int, 
     return path
 
 
-def _sequence(scene: Any, pictures: Sequence[Path]) -> None:
+def _sequence(scene: Scene, pictures: Sequence[Path]) -> None:
     """Put the pictures on the scene's timeline as one strip, which grows with every picture."""
     editor = scene.sequence_editor_create()
     strips = editor.strips if hasattr(editor, "strips") else editor.sequences

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ...arrays import Floats
 from .. import mesh as meshes
+from ..blender_types import Object
 from ..faces import stored_points
 from ..points.kept import has_points
 
@@ -40,10 +40,10 @@ class Framing:
         return position
 
 
-def framing_of(obj: Any) -> Framing:
+def framing_of(obj: Object) -> Framing:
     """How to frame the face of `obj`: by its feature points, or by its bounding box where it has none."""
     local = meshes.rest_vertices(obj.data)
-    world = np.array(obj.matrix_world, dtype=np.float64)
+    world = meshes.world_matrix(obj)
     vertices = local @ world[:3, :3].T + world[:3, 3]
     points = _world_points(obj, local, world)
     if points is None:
@@ -76,7 +76,7 @@ def _level(forward: Floats, up: Floats, world: Floats) -> tuple[Floats, Floats]:
     return level / np.linalg.norm(level), upright
 
 
-def _world_points(obj: Any, local: Floats, world: Floats) -> dict[str, Floats] | None:
+def _world_points(obj: Object, local: Floats, world: Floats) -> dict[str, Floats] | None:
     """The framing feature points in the world, or None where one is missing."""
     if not has_points(obj):
         return None

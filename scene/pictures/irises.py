@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
@@ -11,6 +11,8 @@ import numpy as np
 from ...arrays import Bools, Floats, Ints
 from .. import mesh as meshes
 from ..attributes import write_floats, write_pixels
+from ..blender_types import Image, Material, Object
+from ..materials import node_tree_of, principled_of
 
 if TYPE_CHECKING:
     from ...face.bodies.eyeball import Eyeball
@@ -26,7 +28,9 @@ RIM, RIM_SHADE = 0.15, 0.4
 FRONT = 1.6
 
 
-def lay_irises(obj: Any, face: Face, materials: Iterable[Any], *, sclera: Floats, iris: Floats, pupil: Floats) -> None:
+def lay_irises(
+    obj: Object, face: Face, materials: Iterable[Material], *, sclera: Floats, iris: Floats, pupil: Floats
+) -> None:
     """Lay the picture of an iris on the eyeballs of `obj`.
 
     Parameters
@@ -81,12 +85,12 @@ def _seen_from(ball: Eyeball, positions: Floats) -> tuple[Floats, Floats]:
     return away, np.arccos(np.clip(away @ ball.gaze, -1.0, 1.0))
 
 
-def has_irises(obj: Any) -> bool:
+def has_irises(obj: Object) -> bool:
     """Whether an object's eyeballs show a picture."""
     return obj.type == "MESH" and obj.data.uv_layers.get(IRISES) is not None
 
 
-def _picture(sclera: Floats, iris: Floats, pupil: Floats, pupil_share: float) -> Any:
+def _picture(sclera: Floats, iris: Floats, pupil: Floats, pupil_share: float) -> Image:
     """The image: a pupil, an iris that darkens towards its rim, and sclera."""
     step = (np.arange(SIZE) + 0.5) / SIZE * 2.0 - 1.0
     radius = np.hypot(step[:, None], step[None, :]) / SHARE
@@ -99,22 +103,21 @@ def _picture(sclera: Floats, iris: Floats, pupil: Floats, pupil_share: float) ->
     colour = np.asarray(pupil) + (colour - np.asarray(pupil)) * outside(pupil_share)
     colour = colour + (np.asarray(sclera) - colour) * outside(1.0)
     coded = np.where(colour <= 0.0031308, 12.92 * colour, 1.055 * np.maximum(colour, 0.0) ** (1.0 / 2.4) - 0.055)
-    image = bpy.data.images.new(IRISES, SIZE, SIZE)
+    image: Image = bpy.data.images.new(IRISES, SIZE, SIZE)
     write_pixels(image, coded)
     image.pack()
     return image
 
 
-def _show(material: Any, picture: Any) -> None:
+def _show(material: Material, picture: Image) -> None:
     """Make a material show the picture."""
-    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes, links = node_tree_of(material).nodes, node_tree_of(material).links
     image = nodes.new("ShaderNodeTexImage")
     image.image, image.extension = picture, "EXTEND"
     where = nodes.new("ShaderNodeUVMap")
     where.uv_map = IRISES
     links.new(where.outputs["UV"], image.inputs["Vector"])
-    for node in nodes:
-        if node.type == "BSDF_PRINCIPLED":
-            links.new(image.outputs["Color"], node.inputs["Base Color"])
+    for node in principled_of(material):
+        links.new(image.outputs["Color"], node.inputs["Base Color"])
     nodes.active = image
     material.roughness = 1.0  # a highlight on a flat cornea hides the pupil

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import bpy
 
 from ...arrays import Floats
 from ..attributes import read_pixels, write_pixels
-from .studio import Engine, usable_engine
+from ..blender_types import Object, Scene, World
+from ..materials import new_material, node_tree_of
+from .look import Engine, usable_engine
 
 #: Height of a line in letter sizes.
 LINE = 1.45
@@ -31,7 +32,7 @@ class Text:
 def write_text(texts: Sequence[Text], width: int, height: int, folder: Path) -> Floats:
     """(height, width, 3) black letters on white, 0..1, first row at the top; `folder` is for a passing file."""
     scene = bpy.data.scenes.new("Risorius Lettering")
-    made: list[Any] = []
+    made: list[Object] = []
     try:
         made = [_text_object(scene, text) for text in texts]
         made.append(_camera(scene, width, height))
@@ -56,40 +57,32 @@ def write_text(texts: Sequence[Text], width: int, height: int, folder: Path) -> 
 INK = "Risorius Ink"
 
 
-def _text_object(scene: Any, text: Text) -> Any:
+def _text_object(scene: Scene, text: Text) -> Object:
     """One text object; a pixel is a unit."""
     curve = bpy.data.curves.new("Risorius Text", "FONT")
     curve.body = "\n".join(text.lines)
     curve.size = text.size
     curve.space_line = LINE
     curve.align_x = "RIGHT" if text.right else "LEFT"
-    ink = bpy.data.materials.get(INK) or bpy.data.materials.new(INK)
-    ink.diffuse_color = (0.0, 0.0, 0.0, 1.0)
-    if ink.node_tree is None:
-        ink.use_nodes = True
-    for node in ink.node_tree.nodes:
-        if node.type == "BSDF_PRINCIPLED":
-            node.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
-            node.inputs["Roughness"].default_value = 1.0
-    curve.materials.append(ink)
-    obj = bpy.data.objects.new("Risorius Text", curve)
+    curve.materials.append(bpy.data.materials.get(INK) or new_material(INK, (0.0, 0.0, 0.0), roughness=1.0))
+    obj: Object = bpy.data.objects.new("Risorius Text", curve)
     obj.location = (text.x, -text.y, 0.0)
     scene.collection.objects.link(obj)
     return obj
 
 
-def _camera(scene: Any, width: int, height: int) -> Any:
+def _camera(scene: Scene, width: int, height: int) -> Object:
     """A camera straight above that sees width x height units."""
     data = bpy.data.cameras.new("Risorius Lettering")
     data.type, data.ortho_scale = "ORTHO", float(max(width, height))
-    camera = bpy.data.objects.new("Risorius Lettering", data)
+    camera: Object = bpy.data.objects.new("Risorius Lettering", data)
     camera.location = (0.5 * width, -0.5 * height, 10.0)
     scene.collection.objects.link(camera)
     scene.camera = camera
     return camera
 
 
-def _settings(scene: Any, width: int, height: int) -> None:
+def _settings(scene: Scene, width: int, height: int) -> None:
     """Flat black on white."""
     engine, _ = usable_engine(Engine.WORKBENCH)
     render = scene.render
@@ -103,11 +96,9 @@ def _settings(scene: Any, width: int, height: int) -> None:
     scene.display.render_aa = "16"
     shading = scene.display.shading
     shading.light, shading.color_type = "FLAT", "MATERIAL"
-    world = bpy.data.worlds.new("Risorius Paper")
+    world: World = bpy.data.worlds.new("Risorius Paper")
     world.color = (1.0, 1.0, 1.0)
-    if world.node_tree is None:
-        world.use_nodes = True
-    for node in world.node_tree.nodes:
+    for node in node_tree_of(world).nodes:
         if node.type == "BACKGROUND":
             node.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     scene.world = world

@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from mathutils import Vector
@@ -18,6 +18,7 @@ from mathutils.interpolate import poly_3d_calc
 
 from ...arrays import Floats
 from .. import mesh as meshes
+from ..blender_types import Mesh, SearchTree
 from .file import PointTable
 from .kept import KeptPoint, KeptPoints, Origin, mesh_counts, triple
 
@@ -41,10 +42,10 @@ class Surface:
     triangles: list[tuple[int, int, int]]
     counts: tuple[int, int, int]
     digest: str
-    tree: Any
+    tree: SearchTree
 
     @classmethod
-    def of(cls, mesh: Any) -> Surface:
+    def of(cls, mesh: Mesh) -> Surface:
         """Read a mesh's resting surface."""
         vertices = meshes.rest_vertices(mesh)
         polygons = meshes.polygon_sequence(*meshes.polygon_arrays(mesh))
@@ -96,7 +97,7 @@ def shares(corners: tuple[int, ...], vertices: Floats, place: Floats) -> Held:
     return tuple(int(v) for v in np.array(corners)[held]), tuple(float(w) for w in kept)
 
 
-def mesh_digest(mesh: Any) -> str:
+def mesh_digest(mesh: Mesh) -> str:
     """A name for exactly these polygons."""
     digest = hashlib.blake2b(digest_size=12)
     for array in meshes.polygon_arrays(mesh):
@@ -105,7 +106,7 @@ def mesh_digest(mesh: Any) -> str:
 
 
 def bind(
-    mesh: Any,
+    mesh: Mesh,
     points: PointTable,
     *,
     origins: Mapping[str, Origin] | Origin = Origin.FILE,
@@ -139,12 +140,12 @@ def moved(kept: KeptPoints, name: str, place: Floats, surface: Surface, origin: 
     return replace(kept, points={**kept.points, name: put})
 
 
-def fits(kept: KeptPoints, mesh: Any) -> bool:
+def fits(kept: KeptPoints, mesh: Mesh) -> bool:
     """Whether a mesh has the polygons that the points are bound to."""
     return kept.counts == mesh_counts(mesh) and kept.digest == mesh_digest(mesh)
 
 
-def followed(kept: KeptPoints, mesh: Any) -> Followed:
+def followed(kept: KeptPoints, mesh: Mesh) -> Followed:
     """Points on a mesh as it is now: the same polygons carry them along; on others they go to the nearest place."""
     if fits(kept, mesh):
         return Followed(kept, False, ())

@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 from collections import OrderedDict
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from mathutils import Vector
@@ -17,6 +16,7 @@ from mathutils.bvhtree import BVHTree
 
 from ...arrays import Floats
 from ..attributes import read_vectors
+from ..blender_types import Mesh, Object, SearchTree
 from ..mesh import triangle_corners
 from .bound import Held, shares
 
@@ -33,10 +33,10 @@ class Carried:
 
     rest: Floats
     triangles: list[tuple[int, int, int]]
-    tree: Any
+    tree: SearchTree
 
     @classmethod
-    def of(cls, shown: Any) -> Carried | None:
+    def of(cls, shown: Mesh) -> Carried | None:
         """Of an evaluated mesh; None where Blender carries none along."""
         rest = read_vectors(shown, REST)
         if rest is None:
@@ -58,7 +58,7 @@ class Carried:
         return None if found is None else shares(self.triangles[triangle], self.rest, np.array(found))
 
 
-def carry_rest(obj: Any) -> None:
+def carry_rest(obj: Object) -> None:
     """Let Blender carry the resting places through the modifiers of `obj`, where it may be written to."""
     if obj.library is None and not obj.add_rest_position_attribute:
         obj.add_rest_position_attribute = True

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from ...errors import FormatError
 
@@ -36,7 +36,7 @@ def read_points(path: str | Path) -> dict[str, int | tuple[float, float, float]]
     return points_of_table(table, path)
 
 
-def points_of_table(table: Any, path: str | Path) -> dict[str, int | tuple[float, float, float]]:
+def points_of_table(table: object, path: str | Path) -> dict[str, int | tuple[float, float, float]]:
     """Feature points of a decoded JSON object; `path` names it in errors.
 
     Raises
@@ -56,7 +56,7 @@ def points_of_table(table: Any, path: str | Path) -> dict[str, int | tuple[float
     return points
 
 
-def _point(entry: Any, path: str | Path, name: str) -> int | tuple[float, float, float]:
+def _point(entry: object, path: str | Path, name: str) -> int | tuple[float, float, float]:
     """One entry, checked."""
     if isinstance(entry, int) and not isinstance(entry, bool) and entry >= 0:
         return entry

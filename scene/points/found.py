@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from ...arrays import Floats
 from ...errors import ModelError, SceneError
 from .. import mesh as meshes
+from ..blender_types import Object, Scene
 from ..progress import Progress, Work
 from ..refusals import refuse_broken_vertices, refuse_unreadable
 from .bound import bind
@@ -44,7 +44,9 @@ class Finding:
         return f"{name}: {len(self.kept.points)} feature points found ({how}){look}"
 
 
-def find_points(obj: Any, clicks: Mapping[str, Floats] | None = None, *, scene: Any | None = None) -> Work[Finding]:
+def find_points(
+    obj: Object, clicks: Mapping[str, Floats] | None = None, *, scene: Scene | None = None
+) -> Work[Finding]:
     """Find the feature points of `obj` and keep them with its mesh; nothing is written before they are found.
 
     Parameters
@@ -90,7 +92,7 @@ def find_points(obj: Any, clicks: Mapping[str, Floats] | None = None, *, scene: 
     return Finding(kept, found.score, found.topology, unreadable)
 
 
-def _explained(obj: Any, refusal: ModelError) -> ModelError | SceneError:
+def _explained(obj: Object, refusal: ModelError) -> ModelError | SceneError:
     """The refusal, with what Blender knows of a mesh that is half a face."""
     if any(modifier.type == "MIRROR" and modifier.show_viewport for modifier in obj.modifiers):
         return SceneError(obj.name, "is half a face with a Mirror modifier: apply the modifier, then try again")

@@ -7,17 +7,15 @@ now.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
-
 import bpy
 import numpy as np
 
 from ...arrays import Floats, Ints
 from ...errors import SceneError
 from .. import mesh as meshes
+from ..blender_types import Mesh, Object
 from .bound import bind, followed, places
-from .kept import POINTS, Origin, has_points, read_kept, triple, write_kept
+from .kept import POINTS, Origin, has_points, read_kept_with, triple, write_kept
 
 #: Vertices that do not lie where an affine motion puts them, as a share of the mesh's size, are another mesh's.
 SAME = 1e-4
@@ -25,27 +23,14 @@ SAME = 1e-4
 FIRST = 64
 
 
-@dataclass(frozen=True)
-class _Left:
-    """A mesh that nothing uses any more, as if an object had it."""
-
-    data: Any
-    type: str = "MESH"
-
-    @property
-    def name(self) -> str:
-        """The mesh's name."""
-        return str(self.data.name)
-
-
-def may_be_joined(obj: Any) -> list[Any]:
+def may_be_joined(obj: Object) -> list[Mesh]:
     """Meshes with points that nothing uses any more and that `obj`, without points, has room for. Cheap to ask."""
     if has_points(obj):
         return []
     return [m for m in bpy.data.meshes if m.users == 0 and POINTS in m and len(m.polygons) <= len(obj.data.polygons)]
 
 
-def take_over_points(obj: Any) -> str:
+def take_over_points(obj: Object) -> str:
     """Give `obj` the points of the face that was joined into it; returns the name of that face's mesh.
 
     Raises
@@ -60,7 +45,7 @@ def take_over_points(obj: Any) -> str:
         motion = _motion(was, now)
         if motion is None:
             continue
-        kept = followed(read_kept(_Left(mesh)), mesh).kept
+        kept = followed(read_kept_with(mesh, mesh.name), mesh).kept
         table = {n: triple(np.append(place, 1.0) @ motion) for n, place in places(kept, was).items()}
         origins: dict[str, Origin] = {name: point.origin for name, point in kept.points.items()}
         sure = {name: point.confidence for name, point in kept.points.items()}
@@ -69,7 +54,7 @@ def take_over_points(obj: Any) -> str:
     raise SceneError(obj.name, "contains no face whose points can be restored: press Find Face")
 
 
-def _block_of(part: Any, whole: Any) -> Ints | None:
+def _block_of(part: Mesh, whole: Mesh) -> Ints | None:
     """(V,) the vertices of `whole` that those of `part` have become: a join appends polygons in their order."""
     part_corners, part_sizes = meshes.polygon_arrays(part)
     corners, sizes = meshes.polygon_arrays(whole)

@@ -11,7 +11,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -19,9 +18,12 @@ from ...arrays import Floats
 from ...errors import FormatError, ParameterError, SceneError
 from ...face.fit.doubt import DOUBTFUL, DOUBTFUL_SCORE
 from ...mpeg4 import FEATURE_POINTS
+from ..blender_types import Mesh, Object
 
 #: The mesh's points, and the same as they were before anything was corrected by hand.
 POINTS, AS_GIVEN = "risorius_points", "risorius_points_as_given"
+
+NO_POINTS = "has no feature points: find the face, click them, or import them"
 
 
 class Origin(Enum):
@@ -101,33 +103,40 @@ def triple(place: Sequence[float] | Floats) -> tuple[float, float, float]:
     return x, y, z
 
 
-def mesh_counts(mesh: Any) -> tuple[int, int, int]:
+def mesh_counts(mesh: Mesh) -> tuple[int, int, int]:
     """Vertices, corners and polygons of a mesh: cheap to ask at every redraw."""
     return len(mesh.vertices), len(mesh.loops), len(mesh.polygons)
 
 
-def has_points(obj: Any) -> bool:
+def has_points(obj: Object) -> bool:
     """Whether points are kept with the mesh of `obj`."""
     return obj.type == "MESH" and POINTS in obj.data
 
 
-def read_kept(obj: Any, *, as_given: bool = False) -> KeptPoints:
+def read_kept(obj: Object, *, as_given: bool = False) -> KeptPoints:
     """The points kept with the mesh of `obj`, or as they were before they were corrected.
 
     Raises
     ------
     SceneError : none there, or unreadable.
     """
-    text = obj.data.get(AS_GIVEN if as_given else POINTS) if obj.type == "MESH" else None
+    if obj.type != "MESH":
+        raise SceneError(obj.name, NO_POINTS)
+    return read_kept_with(obj.data, obj.name, as_given=as_given)
+
+
+def read_kept_with(mesh: Mesh, name: str, *, as_given: bool = False) -> KeptPoints:
+    """The points kept with a mesh; `name` names it in errors, which are those of `read_kept`."""
+    text = mesh.get(AS_GIVEN if as_given else POINTS)
     if text is None:
-        raise SceneError(obj.name, "has no feature points: find the face, click them, or import them")
+        raise SceneError(name, NO_POINTS)
     try:
         return _decoded(str(text))
     except (ValueError, KeyError, TypeError) as problem:
-        raise SceneError(obj.name, "has unreadable feature points: find or import them again") from problem
+        raise SceneError(name, "has unreadable feature points: find or import them again") from problem
 
 
-def write_kept(obj: Any, kept: KeptPoints, *, as_given: bool = False) -> None:
+def write_kept(obj: Object, kept: KeptPoints, *, as_given: bool = False) -> None:
     """Keep points with the mesh of `obj`; `as_given`: they are also what a reset goes back to.
 
     Raises
@@ -141,7 +150,7 @@ def write_kept(obj: Any, kept: KeptPoints, *, as_given: bool = False) -> None:
         obj.data[AS_GIVEN] = text
 
 
-def refuse_foreign_mesh(obj: Any) -> None:
+def refuse_foreign_mesh(obj: Object) -> None:
     """Refuse a mesh that nothing can be kept with.
 
     Raises
@@ -154,7 +163,7 @@ def refuse_foreign_mesh(obj: Any) -> None:
         )
 
 
-def forget_points(obj: Any) -> None:
+def forget_points(obj: Object) -> None:
     """Remove them."""
     for key in (POINTS, AS_GIVEN):
         if key in obj.data:

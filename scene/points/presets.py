@@ -9,13 +9,14 @@ import re
 from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from ...errors import FormatError, SceneError
 from .. import mesh as meshes
+from ..blender_types import Object
 from .bound import followed
 from .kept import read_kept
 
@@ -85,7 +86,7 @@ def _name_of(path: Path, changed: int) -> str:
         return f"{path.stem} (cannot be read)"
 
 
-def save_preset(obj: Any, name: str) -> Path:
+def save_preset(obj: Object, name: str) -> Path:
     """Save the points of `obj` for every mesh with its polygons; a topology of that name is replaced.
 
     Raises

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from mathutils import Vector
 
 from ...arrays import Bools, Floats
 from .. import mesh as meshes
+from ..blender_types import Depsgraph, Object
 from .bound import Surface, places, shares
 from .carried import Carried
 from .kept import KeptPoints
@@ -29,11 +29,11 @@ class Visible:
     shown : the same, evaluated.
     """
 
-    obj: Any
-    shown: Any
+    obj: Object
+    shown: Object
 
     @classmethod
-    def of(cls, obj: Any, depsgraph: Any) -> Visible:
+    def of(cls, obj: Object, depsgraph: Depsgraph) -> Visible:
         """As it shows in `depsgraph`."""
         return cls(obj, obj.evaluated_get(depsgraph))
 
@@ -52,7 +52,7 @@ class Visible:
 
     def hit(self, origin: Floats, direction: Floats, surface: Surface) -> Floats | None:
         """(3,) place on the resting surface under a ray of the world, in the mesh's own coordinates; None beside it."""
-        inverse = np.linalg.inv(np.array(self.obj.matrix_world))
+        inverse = np.linalg.inv(meshes.world_matrix(self.obj))
         start, way = inverse[:3, :3] @ origin + inverse[:3, 3], inverse[:3, :3] @ direction
         found, place, _, polygon = self.shown.ray_cast(Vector(start), Vector(way))
         if not found:
@@ -64,7 +64,7 @@ class Visible:
         if self._carried is not None:
             corners = tuple(self.shown.data.polygons[polygon].vertices)
             held, weights = shares(corners, self._shown_vertices, np.array(place))
-            place = np.array(weights) @ self._carried.rest[list(held)]
+            place = (np.array(weights) @ self._carried.rest[list(held)]).tolist()
         near = surface.nearest(np.array(place))
         return None if near is None else near[0]
 
@@ -80,7 +80,7 @@ class Visible:
 
     def places(self, kept: KeptPoints) -> dict[str, Floats]:
         """Name -> (3,) where points show, in the world."""
-        world = np.array(self.obj.matrix_world)
+        world = meshes.world_matrix(self.obj)
         there = places(kept, self.vertices)
         if not self.same_polygons:
             there = self._all_on_shown(kept, there)
@@ -128,7 +128,7 @@ class Visible:
             return np.zeros(0, dtype=bool)
         all_places = np.array(list(world_places.values()))
         before = BEFORE * float(np.linalg.norm(np.ptp(all_places, axis=0)))
-        inverse = np.linalg.inv(np.array(self.obj.matrix_world))
+        inverse = np.linalg.inv(meshes.world_matrix(self.obj))
         behind = []
         for place in all_places:
             way = (eye - place) if eye is not None else towards

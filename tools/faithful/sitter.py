@@ -20,7 +20,8 @@ from risorius.scene.head import head_object
 from risorius.scene.jobs.subjects import paint_parts
 from risorius.scene.pictures.framing import Framing, framing_of
 from risorius.scene.pictures.lettering import read_picture
-from risorius.scene.pictures.studio import Look, render_frame, studio
+from risorius.scene.pictures.look import Look
+from risorius.scene.pictures.studio import render_frame, studio
 
 from .heads import lash_vertices
 

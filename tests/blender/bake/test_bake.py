@@ -18,6 +18,7 @@ from risorius.scene import mesh as meshes
 from risorius.scene.bake import baking as bake
 from risorius.scene.bake import shape_keys
 from risorius.scene.bake.motion import FapMotion
+from risorius.scene.fcurves import key_curves
 
 
 def key(obj: Any, name: str) -> np.ndarray:
@@ -189,7 +190,7 @@ def test_a_copy_of_a_baked_head_is_a_face_of_its_own(head: Any) -> None:
     bpy.ops.risorius.bake_expression()
     assert key_names(head) == ["Basis", "joy"]
     assert head.data.shape_keys.animation_data.action == action
-    assert [c.data_path for c in bake.actions.fcurves_of(action)] == [bake.actions.data_path("joy")]
+    assert [c.data_path for c in key_curves(action)] == [bake.actions.data_path("joy")]
     bpy.ops.risorius.clear()
     assert key_names(head) == ["Basis", "joy"]
     assert twin.data.shape_keys is None

@@ -12,7 +12,8 @@ import pytest
 import risorius.api as api
 from risorius.errors import ParameterError, SceneError
 from risorius.scene.bake import baking as bake
-from risorius.scene.blendshape_keys import blendshape_file, write_blendshapes
+from risorius.scene.blendshape_keys import write_blendshapes
+from risorius.scene.jobs.shapes import blendshape_file
 from risorius.scene.mesh import key_vertices
 from risorius.scene.progress import run
 

@@ -17,7 +17,8 @@ from risorius.scene.creases import marks as creases
 from risorius.scene.creases import nodes as crease_nodes
 from risorius.scene.head import head_object
 from risorius.scene.pictures.framing import framing_of
-from risorius.scene.pictures.studio import Engine, Look, studio
+from risorius.scene.pictures.look import Engine, Look
+from risorius.scene.pictures.studio import studio
 
 
 def evaluated(obj: Any, name: str, width: int) -> np.ndarray | None:

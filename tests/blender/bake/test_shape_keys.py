@@ -10,6 +10,7 @@ import pytest
 from risorius.scene import mesh as meshes
 from risorius.scene.bake import action as actions
 from risorius.scene.bake import shape_keys
+from risorius.scene.fcurves import key_curves
 
 pytestmark = pytest.mark.smoke
 
@@ -38,7 +39,7 @@ def write(obj: Any, clip: str, *amounts: float) -> Any:
 
 
 def curves(action: Any) -> dict[str, list[float]]:
-    return {c.data_path: [p.co[1] for p in c.keyframe_points] for c in actions.fcurves_of(action)}
+    return {c.data_path: [p.co[1] for p in c.keyframe_points] for c in key_curves(action)}
 
 
 def test_keys_are_written_and_the_mesh_is_as_found_after_clearing(cube: Any) -> None:

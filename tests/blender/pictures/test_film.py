@@ -16,7 +16,7 @@ from risorius.scene.pictures import film, gpu_probe
 from risorius.scene.pictures.contact_sheet import Exhibit, write_sheet
 from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.lettering import Text, read_picture, write_picture, write_text
-from risorius.scene.pictures.studio import Camera, Engine, Look, usable_engine
+from risorius.scene.pictures.look import Camera, Engine, Look, usable_engine
 from risorius.scene.progress import run
 
 SMALL = Look(width=96, height=96)
@@ -193,9 +193,9 @@ def test_a_cancelled_film_leaves_no_trace_and_the_old_film(nodding: Any, tmp_pat
 
 
 def test_without_egl_cycles_draws_and_it_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    from risorius.scene.pictures import studio
+    from risorius.scene.pictures import look
 
-    monkeypatch.setattr(studio, "can_draw", lambda: False)
+    monkeypatch.setattr(look, "can_draw", lambda: False)
     assert usable_engine(Engine.WORKBENCH) == (Engine.CYCLES, gpu_probe.REMEDY)
     assert usable_engine(Engine.EEVEE)[0] is Engine.CYCLES
     assert usable_engine(Engine.CYCLES) == (Engine.CYCLES, None)

@@ -16,9 +16,11 @@ import risorius.api as api
 from risorius import cli
 from risorius.errors import FormatError, ModelError, ParameterError, RisoriusError
 from risorius.scene import mesh as meshes
-from risorius.scene.jobs import jobs
+from risorius.scene.bake.performance import PAUSE, cues_of
+from risorius.scene.jobs import words
+from risorius.scene.jobs.sheet import apex_frame
 from risorius.scene.jobs.subjects import subject
-from risorius.scene.pictures.studio import Engine, Look
+from risorius.scene.pictures.look import Engine, Look
 from risorius.scene.progress import run
 
 REPLAY = """
@@ -51,11 +53,11 @@ def played(blend: Path, frames: list[int]) -> np.ndarray:
 @pytest.mark.smoke
 def test_a_baked_file_plays_without_risorius(tmp_path: Path) -> None:
     blend = tmp_path / "faces.blend"
-    made = dict(jobs.bake_file(blend, words=["joy", "fear"], fps=25.0))
+    made = dict(words.bake_file(blend, words=["joy", "fear"], fps=25.0))
     assert made["shape_keys"] == 2
-    cues = jobs.cues_of(["joy", "fear"])
-    between = int(25.0 * (cues[1].start - 0.5 * jobs.PAUSE)) + 1
-    shown = played(blend, [*(jobs.apex_frame(cue, 25.0) for cue in cues), 1, between, 500])
+    cues = cues_of(["joy", "fear"])
+    between = int(25.0 * (cues[1].start - 0.5 * PAUSE)) + 1
+    shown = played(blend, [*(apex_frame(cue, 25.0) for cue in cues), 1, between, 500])
     face = api.default_face()
     for resting in shown[2:]:
         np.testing.assert_allclose(resting, face.vertices, atol=1e-6)
@@ -66,9 +68,9 @@ def test_a_baked_file_plays_without_risorius(tmp_path: Path) -> None:
 
 def test_a_baked_motion_plays_without_risorius(tmp_path: Path) -> None:
     blend = tmp_path / "motion.blend"
-    made = dict(jobs.bake_file(blend, words=["anger"], fps=12.0, dynamic=True))
+    made = dict(words.bake_file(blend, words=["anger"], fps=12.0, dynamic=True))
     assert made["error_mm"] <= 0.1
-    cues = jobs.cues_of(["anger"])
+    cues = cues_of(["anger"])
     frames = api.sequence(cues, fps=12.0)
     clip = api.default_face().simulate(frames, 12.0, emotions=api.emotion_weights(cues, fps=12.0))
     numbers = [1, len(frames) // 3, len(frames) // 2, len(frames) - 3]
@@ -79,9 +81,9 @@ def test_a_baked_motion_plays_without_risorius(tmp_path: Path) -> None:
 def test_the_demo_leaves_film_file_and_sheet(tmp_path: Path) -> None:
     steps: list[Any] = []
     look = Look(Engine.WORKBENCH, 64, 64)
-    made = dict(run(jobs._demo(tmp_path / "out", None, None, ["joy", "sad"], look, 4.0), steps.append))
+    made = dict(run(words._demo(tmp_path / "out", subject, ["joy", "sad"], look, 4.0), steps.append))
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"risorius.blend", "risorius.mp4", "risorius.png"}
-    assert made["frames"] == len(api.sequence(jobs.cues_of(["joy", "sad"]), fps=4.0)) + 1
+    assert made["frames"] == len(api.sequence(cues_of(["joy", "sad"]), fps=4.0)) + 1
     fractions = [step.fraction for step in steps]
     assert fractions == sorted(fractions)
 
@@ -90,13 +92,13 @@ def test_the_demo_leaves_film_file_and_sheet(tmp_path: Path) -> None:
 def test_other_heads_from_files(shared: Path, tmp_path: Path, name: str) -> None:
     mesh, points = shared / "heads" / f"{name}.npz", shared / "heads" / f"{name}.fp.json"
     blend = tmp_path / "first.blend"
-    jobs.bake_file(blend, mesh=mesh, points=points, words=["joy"])
+    words.bake_file(blend, mesh=mesh, points=points, words=["joy"])
     obj = bpy.data.objects[name]
     block = obj.data.shape_keys.key_blocks["joy"]
     moved = np.linalg.norm(meshes.key_vertices(block) - meshes.rest_vertices(obj.data), axis=1)
     assert 0.002 < moved.max() < 0.03
     again = tmp_path / "again.blend"
-    jobs.bake_file(again, mesh=blend, words=["joy"])
+    words.bake_file(again, mesh=blend, words=["joy"])
     block = bpy.data.objects[name].data.shape_keys.key_blocks["joy"]
     assert len(bpy.data.objects[name].data.shape_keys.key_blocks) == 2
 
@@ -112,12 +114,12 @@ def test_wrong_requests_are_refused_and_nothing_is_written(tmp_path: Path) -> No
         ({"words": ["joy"], "mesh": tmp_path / "none.fbx"}, FormatError, "not a .npz, .obj"),
     ):
         with pytest.raises(error, match=match):
-            jobs.bake_file(out, **options)
+            words.bake_file(out, **options)
         assert not out.exists()
     with pytest.raises(ParameterError, match="engine"):
-        jobs.demo(tmp_path, engine="POVRAY")
+        words.demo(tmp_path, engine="POVRAY")
     with pytest.raises(RisoriusError):
-        jobs.render_film(tmp_path, words=["joy"])
+        words.render_film(tmp_path, words=["joy"])
 
 
 def test_a_mesh_without_points_and_without_a_face_is_refused(tmp_path: Path) -> None:

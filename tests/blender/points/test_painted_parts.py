@@ -14,7 +14,8 @@ from risorius.scene.faces import face_of, read_face, store_points
 from risorius.scene.jobs.subjects import PLAIN_COLOURS, paint_parts
 from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.irises import IRISES
-from risorius.scene.pictures.studio import Look, studio
+from risorius.scene.pictures.look import Look
+from risorius.scene.pictures.studio import studio
 
 
 @pytest.fixture

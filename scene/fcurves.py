@@ -1,0 +1,66 @@
+"""The F-curves of an action, whatever this Blender keeps them in. The only place that knows.
+
+Blender 4.4 gave actions slots and layers, 5.0 took `Action.fcurves` away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..arrays import Floats
+from .attributes import write_floats
+from .blender_types import Action, AnimData, FCurve, FCurves, KeyframeStrip, Slot
+
+
+def key_curves(action: Action) -> FCurves:
+    """The F-curves of an action for shape keys; room for them is made where there is none."""
+    if not hasattr(action, "slots"):
+        action.id_root = "KEY"
+        return action.fcurves
+    slot = key_slot(action)
+    layer = action.layers[0] if action.layers else action.layers.new("Layer")
+    strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
+    return strip.channelbag(slot, ensure=True).fcurves
+
+
+def key_slot(action: Action) -> Slot | None:
+    """The action's slot for shape keys, made where there is none; None where Blender has no slots."""
+    if not hasattr(action, "slots"):
+        return None
+    for slot in action.slots:
+        if slot.target_id_type in {"KEY", "UNSPECIFIED"}:
+            return slot
+    return action.slots.new(id_type="KEY", name="Face")
+
+
+def played_curves(animation: AnimData) -> FCurves | None:
+    """The F-curves that something plays; None where its action has none for it."""
+    if animation.action is None:
+        return None
+    if not hasattr(animation.action, "slots"):
+        return animation.action.fcurves
+    if animation.action_slot is None:
+        return None
+    bags = (strip.channelbag(animation.action_slot) for strip in _strips(animation.action))
+    return next((bag.fcurves for bag in bags if bag is not None), None)
+
+
+def is_empty(action: Action) -> bool:
+    """Whether an action has no F-curves at all."""
+    if not hasattr(action, "slots"):
+        return len(action.fcurves) == 0
+    return not any(len(bag.fcurves) for strip in _strips(action) for bag in strip.channelbags)
+
+
+def _strips(action: Action) -> Sequence[KeyframeStrip]:
+    """The keyframe strips of an action with layers."""
+    return [strip for layer in action.layers for strip in layer.strips]
+
+
+def add_keyframes(curve: FCurve, frames: Floats, values: Floats) -> None:
+    """Put keyframes (N,) on an F-curve that has none but, perhaps, the first."""
+    points = curve.keyframe_points
+    points.add(len(frames) - len(points))
+    write_floats(points, "co", np.column_stack([frames, values]))

@@ -1,0 +1,63 @@
+"""The contact sheet of a job: each expression at its apex, with what was asked and what the baked face shows."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ...arrays import Floats
+from ..bake.performance import FIRST_FRAME
+from ..blender_types import Object
+from ..faces import face_of, read_face
+from ..mesh import key_vertices, keys_of
+from ..pictures.contact_sheet import Exhibit, exhibit_values, write_sheet
+from ..pictures.framing import framing_of
+from ..pictures.look import Look
+from ..pictures.studio import render_frame, studio
+
+if TYPE_CHECKING:
+    from ...api import Cue
+
+
+def apex_frame(cue: Cue, fps: float) -> int:
+    """The frame at the end of a cue's apex, when the face has settled."""
+    return FIRST_FRAME + int(np.floor((cue.start + cue.onset + cue.apex) * fps))
+
+
+def write_apexes(obj: Object, cues: Sequence[Cue], fps: float, look: Look, path: Path) -> None:
+    """Picture each cue's apex, with what was asked against what the baked face shows."""
+    with tempfile.TemporaryDirectory(prefix="risorius-") as name:
+        with studio([obj], framing_of(obj), look) as scene:
+            pictures = [render_frame(scene, apex_frame(cue, fps), Path(name)) for cue in cues]
+        write_sheet(_exhibits(obj, cues, fps, pictures), path)
+
+
+def _exhibits(obj: Object, cues: Sequence[Cue], fps: float, pictures: Sequence[Path]) -> list[Exhibit]:
+    """The pictured apexes with their values."""
+    from ... import api
+
+    source = read_face(obj)
+    face = face_of(source)
+    labels = [f"F{fap.number} {fap.name}" for fap in api.FAPS.values()]
+    exhibits = []
+    for cue, picture in zip(cues, pictures, strict=True):
+        moved = _played(obj, source.pieces[0].to_metres[:3, :3], apex_frame(cue, fps))
+        values = exhibit_values(labels, cue.profile.frame(), face.measure(source.vertices + moved))
+        caption = f"activation {cue.profile.activation:.1f}"
+        exhibits.append(Exhibit(str(cue.profile.word), caption, picture, values))
+    return exhibits
+
+
+def _played(obj: Object, to_metres: Floats, frame: int) -> Floats:
+    """(V, 3) displacement that the shape keys make at a frame, metres."""
+    bpy.context.scene.frame_set(frame)
+    blocks = keys_of(obj).key_blocks
+    basis = key_vertices(blocks[0])
+    moved = sum((block.value * (key_vertices(block) - basis) for block in blocks[1:]), np.zeros_like(basis))
+    displacement: Floats = moved @ to_metres.T
+    return displacement

@@ -1,0 +1,109 @@
+"""Camera, lights and world of a scene in which a face is pictured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from ...arrays import Floats
+from ..blender_types import Object, Scene, World
+from ..materials import node_tree_of
+from .framing import Framing
+from .irises import has_irises
+from .look import Look, apply_look
+
+#: How much of the background's light falls on the face.
+AMBIENT = 0.35
+#: How much of the framing's height a picture shows; 1 is head and neck with air around them.
+CLOSENESS = 0.93
+
+
+@dataclass(frozen=True)
+class Furniture:
+    """What was made for a scene."""
+
+    camera: Object
+    lights: tuple[Object, ...]
+    world: World
+
+
+def furnish(scene: Scene, framing: Framing, look: Look) -> Furniture:
+    """Give a scene a camera, lights, a world and render settings for the face; returns what is new.
+
+    Raises
+    ------
+    SceneError : the engine is not available.
+    """
+    apply_look(scene, look)
+    if any(has_irises(obj) for obj in scene.objects):
+        scene.display.shading.color_type = "TEXTURE"
+    return Furniture(_camera(scene, framing, look), tuple(_lights(scene, framing)), _world(scene, look))
+
+
+def discard(made: Furniture) -> None:
+    """Take it away again, with its data."""
+    for obj in (made.camera, *made.lights):
+        data: object = obj.data
+        bpy.data.objects.remove(obj)
+        owner = bpy.data.cameras if isinstance(data, bpy.types.Camera) else bpy.data.lights
+        owner.remove(data)
+    bpy.data.worlds.remove(made.world)
+
+
+def aim(position: Floats, target: Floats, up: Floats) -> Matrix:
+    """(4, 4) matrix of a camera or light at `position` that looks at `target`."""
+    back = Vector(position - target).normalized()
+    right = Vector(up).cross(back).normalized()
+    return Matrix.Translation(Vector(position)) @ Matrix([right, back.cross(right), back]).transposed().to_4x4()
+
+
+def _camera(scene: Scene, framing: Framing, look: Look) -> Object:
+    """The camera: an 85 mm portrait lens, a little to the side."""
+    data = bpy.data.cameras.new("Risorius Camera")
+    data.lens, data.sensor_fit, data.sensor_height = 85.0, "VERTICAL", 24.0
+    camera: Object = bpy.data.objects.new("Risorius Camera", data)
+    shown = max(CLOSENESS, 0.8 * CLOSENESS * look.height / look.width)
+    distance = shown * 85.0 / 24.0
+    position = framing.point(distance * np.sin(look.yaw), 0.02, distance * np.cos(look.yaw))
+    camera.matrix_world = aim(position, framing.centre, framing.up)
+    data.clip_start, data.clip_end = 0.01 * framing.height, 100.0 * framing.height
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    return camera
+
+
+def _lights(scene: Scene, framing: Framing) -> list[Object]:
+    """Key, fill and rim light for EEVEE and Cycles; Workbench has its own."""
+    made = []
+    for name, place, size, power in (
+        ("Key", (1.1, 0.9, 1.6), 0.9, 26.0),
+        ("Fill", (-1.5, 0.1, 1.3), 1.5, 8.0),
+        ("Rim", (-0.9, 1.1, -1.3), 0.7, 12.0),
+    ):
+        data = bpy.data.lights.new(f"Risorius {name}", "AREA")
+        data.size = size * framing.height
+        data.energy = power * framing.height**2
+        light: Object = bpy.data.objects.new(f"Risorius {name}", data)
+        light.matrix_world = aim(framing.point(*place), framing.centre, framing.up)
+        scene.collection.objects.link(light)
+        made.append(light)
+    return made
+
+
+def _world(scene: Scene, look: Look) -> World:
+    """An even background to look at, that lights the face only a little."""
+    world: World = bpy.data.worlds.new("Risorius World")
+    world.color = look.background
+    nodes, links = node_tree_of(world).nodes, node_tree_of(world).links
+    background = next(node for node in nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = (*look.background, 1.0)
+    seen = nodes.new("ShaderNodeLightPath")
+    strength = nodes.new("ShaderNodeMapRange")
+    strength.inputs["To Min"].default_value, strength.inputs["To Max"].default_value = AMBIENT, 1.0
+    links.new(seen.outputs["Is Camera Ray"], strength.inputs["Value"])
+    links.new(strength.outputs["Result"], background.inputs["Strength"])
+    scene.world = world
+    return world
