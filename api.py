@@ -13,7 +13,6 @@ from .face.default_head import HeadMesh, build_default_head
 from .face.drive.wishes import Drive
 from .face.face import Clip, Face
 from .face.fit.find import FoundPoints, find_points, find_points_steps
-from .face.fit.progress import FitProgress
 from .face.fit.topologies import (
     Topology,
     TopologyPoint,
@@ -87,6 +86,7 @@ from .mpeg4 import (
     write_fba,
 )
 from .mpeg4.streams.capture import CaptureShape, KeyShape, load_key_names, load_shapes, write_fap_csv
+from .progress import Progress
 
 __all__ = [
     "ADDITIONS",
@@ -127,6 +127,7 @@ __all__ = [
     "Part",
     "Pose",
     "Profile",
+    "Progress",
     "Ramp",
     "Rule",
     "TableError",
@@ -179,6 +180,10 @@ __all__ = [
     "write_fap_json",
     "write_fba",
 ]
+
+
+FitProgress = Progress
+"""The steps of `find_points_steps`, by their older name."""
 
 
 @lru_cache(maxsize=1)

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import FormatError, RisoriusError
-from .films import NEEDS_BLENDER, ShowProgress, silent_blender
+from .films import NEEDS_BLENDER, silent_blender
 from .options import add_face, face_of, verb
+from .progress import ShowProgress
 from .result import Result, UsageError
 
 #: Files of `export shapes` that need Blender; .npz does not.

@@ -12,6 +12,7 @@ from typing import Any
 
 from ..errors import RisoriusError
 from .options import add_creases, add_engine, add_face, add_words, verb
+from .progress import ShowProgress
 from .result import Result, UsageError
 
 NEEDS_BLENDER = (
@@ -76,19 +77,6 @@ def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:
     shared = {name: getattr(arguments, name) for name in ("mesh", "points", "fps", "creases")}
     words = {"words": tuple(arguments.words)} if arguments.words else {}
     return {**shared, **words, "progress": ShowProgress()}
-
-
-class ShowProgress:
-    """One line per whole percent, on standard error so that --json stays clean."""
-
-    def __init__(self) -> None:
-        self.shown = -1
-
-    def __call__(self, step: Any) -> None:
-        percent = int(100.0 * step.fraction)
-        if percent != self.shown:
-            self.shown = percent
-            print(f"{percent:3d} %  {step.text}", file=sys.stderr, flush=True)
 
 
 @contextlib.contextmanager

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from ..errors import FormatError, ParameterError
 from .options import add_face, face_of, verb, vertices_of
+from .progress import ShowProgress
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from ..arrays import Floats
 
 STREAMS = (".fap", ".fba", ".json", ".csv")
-#: Words that are printed where none are named, FAPs that are said to have decided, frames between lines of progress.
-CLOSEST, DECISIVE, REPORT = 10, 5, 500
+#: Words that are printed where none are named; FAPs that are said to have decided; frames from which progress is said.
+CLOSEST, DECISIVE, MANY = 10, 5, 500
 
 
 def add_recognition_verb(verbs: Any) -> None:
@@ -104,7 +104,8 @@ def _over_time(arguments: argparse.Namespace, frames: Floats, fps: float, first:
     """Beliefs of every frame."""
     from .. import api
 
-    track = api.recognise_over_time(frames, rule=arguments.rule, fps=fps, first_frame=first, progress=_progress)
+    progress = ShowProgress(percent=10) if len(frames) > MANY else None
+    track = api.recognise_over_time(frames, rule=arguments.rule, fps=fps, first_frame=first, progress=progress)
     if arguments.out is not None:
         api.write_belief_csv(arguments.out, track)
     names = [str(name) for name in api.ARCHETYPES]
@@ -131,9 +132,3 @@ def _table(track: BeliefTrack, names: list[str]) -> list[str]:
         )
     ]
     return [head, *rows]
-
-
-def _progress(done: int, count: int) -> None:
-    """Progress of long streams on standard error."""
-    if count > REPORT and (done % REPORT == 0 or done == count):
-        print(f"{100 * done // count:3d} %  {done} of {count} frames", file=sys.stderr, flush=True)

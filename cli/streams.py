@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import FormatError, RisoriusError
-from .films import NEEDS_BLENDER, ShowProgress, silent_blender
+from .films import NEEDS_BLENDER, silent_blender
 from .options import add_creases, add_engine, add_face, add_strength, expression_of, face_of, verb
+from .progress import ShowProgress, when_slow
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -20,10 +20,6 @@ if TYPE_CHECKING:
 
 READABLE, WRITABLE = (".fap", ".fba", ".json", ".csv"), (".fap", ".fba", ".json", ".csv")
 SOURCES = "info FILE | convert FILE OUT | play FILE OUT; or a FILE to inspect, or an emotion WORD to write as a stream"
-
-
-#: Seconds of work after which its progress is said.
-PATIENCE = 1.0
 
 
 def add_stream_verbs(verbs: Any) -> None:
@@ -134,7 +130,7 @@ def _read(path: Path, arguments: argparse.Namespace) -> tuple[FapStream, list[st
     suffix = path.suffix.lower()
     if suffix == ".fba":
         try:
-            decoded = api.decode_fba(path.read_bytes(), path=path, strict=arguments.strict, progress=_counted("bytes"))
+            decoded = api.decode_fba(path.read_bytes(), path=path, strict=arguments.strict, progress=when_slow())
         except OSError as error:
             raise FormatError(path, f"cannot be read ({error.strerror})") from error
         stream, damage = decoded.stream, [str(error) for error in decoded.damage]
@@ -162,7 +158,7 @@ def _write(path: Path, stream: FapStream, arguments: argparse.Namespace) -> None
     suffix = path.suffix.lower()
     if suffix == ".fba":
         api.write_fba(
-            path, stream, quantiser=arguments.quantiser, refresh=arguments.refresh, progress=_counted("frames")
+            path, stream, quantiser=arguments.quantiser, refresh=arguments.refresh, progress=when_slow()
         )
     elif suffix == ".json":
         api.write_fap_json(path, stream)
@@ -226,7 +222,7 @@ def _tables(arguments: argparse.Namespace) -> Result:
     options = {"faps": arguments.faps} if arguments.faps else {}
     face = face_of(arguments)
     tables = api.face_animation_tables(
-        face, steps=arguments.steps, others=arguments.others, progress=_counted("FAPs"), **options
+        face, steps=arguments.steps, others=arguments.others, progress=when_slow(), **options
     )
     writers[suffix](arguments.out, tables)
     rows = {
@@ -244,17 +240,3 @@ def _tables(arguments: argparse.Namespace) -> Result:
         for number, row in rows.items()
     ]
     return Result({"out": arguments.out, "tables": rows}, [*lines, f"wrote {arguments.out}"])
-
-
-def _counted(what: str) -> Callable[[int, int], None]:
-    """Progress on standard error: a line for every tenth, once the work has taken a while."""
-    began, shown = time.monotonic(), 0
-
-    def report(done: int, count: int) -> None:
-        nonlocal shown
-        tenth = 10 * done // count
-        if tenth > shown and time.monotonic() - began > PATIENCE:
-            shown = tenth
-            print(f"{10 * tenth:3d} %  {done} of {count} {what}", file=sys.stderr, flush=True)
-
-    return report

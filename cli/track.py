@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import RisoriusError
 from ..files import write_whole
 from .options import verb
+from .progress import ShowProgress
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def _track(arguments: argparse.Namespace) -> Result:
     pictures = track.open_pictures(arguments.source, fps=arguments.fps, seconds=arguments.seconds)
     if pictures.live:
         print("reading the camera; press Ctrl-C to stop", file=sys.stderr, flush=True)
-    landmarks = track.find_landmarks(pictures, progress=_counted)
+    landmarks = track.find_landmarks(pictures, progress=ShowProgress(percent=5))
     options = {} if arguments.least is None else {"least": arguments.least}
     found = track.track_landmarks(
         landmarks,
@@ -84,13 +85,6 @@ def _neutral(text: str | None) -> tuple[float, float] | str | None:
     if times is None:
         raise UsageError('--neutral must be FROM:TO in seconds, such as 0:0.5, or "generic"')
     return float(times[1]), float(times[2])
-
-
-def _counted(done: int, count: int | None) -> None:
-    """Progress on standard error, every 25 pictures."""
-    if done % 25 == 0 or done == count:
-        share = f"{100 * done // count:3d} %  " if count else ""
-        print(f"{share}{done} images", file=sys.stderr, flush=True)
 
 
 def _write_confidence(path: Path, found: Track) -> None:

@@ -14,6 +14,7 @@ from ..mpeg4 import Cue, Liveliness
 from ..mpeg4.standard import FAP_COUNT
 from ..physics import mesh
 from ..physics.tissue import Tissue
+from ..progress import Progress, Work
 from .anatomy import Anatomy
 from .drive.natural import EmotionShares
 from .drive.wishes import Drive
@@ -195,21 +196,21 @@ class Face:
         """
         return self._poser.pose(checked_frame(frame), checked_drive(drive), checked_emotion(emotion), contractions)
 
-    def prepare(self) -> Iterator[tuple[float, str]]:
-        """Work out what a first pose needs, bit by bit; yields how far it is, 0..1, and what comes next.
+    def prepare(self) -> Work[None]:
+        """Work out what a first pose needs, bit by bit; yields how far it is and what comes next.
 
         A first pose does the same by itself; this is for whoever shows progress.
         """
         anatomy, poser = self.anatomy, self._poser
-        yield 0.0, "Preparing the skin"
+        yield Progress(0.0, "Preparing the skin")
         _ = anatomy.skin, anatomy.muscles
-        yield 0.1, "Computing what each muscle does"
+        yield Progress(0.1, "Computing what each muscle does")
         _ = anatomy.actuators
-        yield 0.5, "Relating muscles to FAPs"
+        yield Progress(0.5, "Relating muscles to FAPs")
         _ = anatomy.inverse
-        yield 0.7, "Preparing contact of lips and lids"
+        yield Progress(0.7, "Preparing contact of lips and lids")
         _ = poser.anatomy.contact
-        yield 0.9, "Solving the skin"
+        yield Progress(0.9, "Solving the skin")
         poser.sketch(np.full(FAP_COUNT, np.nan), Drive.NATURAL, None, None, Memory())
 
     def sketcher(self) -> Sketcher:

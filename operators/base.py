@@ -9,7 +9,7 @@ from typing import Any, ClassVar, final
 import bpy
 
 from ..errors import RisoriusError
-from ..scene.progress import Progress, Work, run
+from ..progress import Progress, Work, run
 from .requirements import MISSING, has_scipy, need_scipy
 
 #: Seconds between two looks at the mouse and keyboard while work goes on.

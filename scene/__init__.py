@@ -10,7 +10,6 @@ fcurves               the F-curves of an action, whatever Blender keeps them in
 mesh, head, faces     meshes to arrays and back; the default head; from objects to a face
 parts_found           parts of a face's mesh, told and corrected
 refusals              what Risorius refuses to touch, and the remedy
-progress              long work as generators
 node_graph            node groups built in a few words
 materials             materials and worlds with nodes
 gltf                  a face with its clips as glTF

@@ -10,11 +10,11 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import SceneError
+from ..progress import Progress, Work, part_of
 from .bake.baking import STILL, Target
 from .blender_types import Object
 from .faces import FaceSource, face_of
 from .mesh import keys_of, write_key_vertices
-from .progress import Progress, Work
 from .refusals import own_mesh
 
 
@@ -51,12 +51,9 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
         some = ", ".join(there[:3])
         problem = f"already has shape keys with these names ({some}): remove them, or turn on Replace (--replace)"
         raise SceneError(source.head.name, problem)
-    yield Progress(0.0, "Placing the muscles")
-    face = face_of(source)
-    shapes: dict[str, Floats] = {}
-    for name, positions in arkit_shape_steps(face, wanted):
-        shapes[name] = positions - source.vertices
-        yield Progress(0.1 + 0.85 * len(shapes) / len(wanted), f"Posing {name}")
+    yield Progress(0.0, "Reading the face")
+    posed = yield from part_of(arkit_shape_steps(face_of(source), wanted), 0.0, 0.97)
+    shapes = {name: positions - source.vertices for name, positions in posed.items()}
     yield Progress(0.97, "Writing the shape keys")
     if target.make_single_user:
         for obj in source.objects:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -13,16 +13,15 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ModelError
 from ..mpeg4.streams.capture import Landmarks
+from ..progress import Progress, Report
 from .pictures import Picture, Pictures, needed
 
 #: Landmarks of the refined model: the face's 468 and five for each iris.
 LANDMARKS = 478
 
-#: Called after each picture with the pictures done so far and how many there are (None: nobody knows).
-Progress = Callable[[int, int | None], None]
 
 
-def find_landmarks(pictures: Pictures, *, progress: Progress | None = None) -> Landmarks:
+def find_landmarks(pictures: Pictures, *, progress: Report | None = None) -> Landmarks:
     """Landmarks in every picture; NaN where it shows no face. Of several faces, one is taken.
 
     A keyboard interrupt ends a camera's pictures; those so far are kept.
@@ -39,7 +38,7 @@ def find_landmarks(pictures: Pictures, *, progress: Progress | None = None) -> L
                 times.append(when)
                 positions.append(_landmarks(mesh, picture))
                 if progress is not None:
-                    progress(len(times), pictures.count)
+                    progress(Progress.counted(len(times), pictures.count, "images"))
         except KeyboardInterrupt:
             if not pictures.live:
                 raise

@@ -3,7 +3,7 @@
 find              the public way in; known topology first, then the fit
 topologies        meshes whose connectivity is known
 clicks            a face placed by a few points that somebody clicked
-progress, doubt   how far the work is; from where on a point should be looked at
+doubt             from where on a point should be looked at
 surface           the mesh as points, depths, rims and planes of symmetry
 template          the template that is laid onto it
 locating          where the face is, which way it looks, how large it is, and whether it is one

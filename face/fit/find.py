@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +11,7 @@ from numpy.typing import ArrayLike
 from ...arrays import Floats, Ints
 from ...errors import ModelError, ParameterError
 from ...physics.mesh import Polygons, corners
+from ...progress import Progress, Work, part_of, run
 from ..mesh.checks import checked_polygons, checked_vertices
 from .bending.carry import RIM_POINTS, carry
 from .bending.fitted import fit
@@ -22,12 +22,9 @@ from .locating.align import align
 from .locating.crooked import Start, better_start, starting_bend
 from .locating.head_pose import HeadPose
 from .locating.locate import HEAD, HEAD_BOX, Located, box_cloud, locate, looks_backwards, scored
-from .progress import FitProgress, part_of
 from .surface.cloud import Surface
 from .template.template import FitTemplate, fit_template
 from .topologies import Topology, load_topologies, recognise_topology
-
-_T = TypeVar("_T")
 
 #: Vertices nearer to each other than this share of the mesh's diagonal are one: exporters split them along seams.
 SAME_PLACE = 1e-6
@@ -81,7 +78,7 @@ def find_points(
     ModelError : where there is no face; states the score, the limit and the remedy. Broken meshes.
     ParameterError : clicks that name no point of the skin, or no place.
     """
-    return finished(find_points_steps(vertices, polygons, clicks, topologies=topologies))
+    return run(find_points_steps(vertices, polygons, clicks, topologies=topologies))
 
 
 def find_points_steps(
@@ -90,9 +87,9 @@ def find_points_steps(
     clicks: Mapping[str, Sequence[float] | Floats] | None = None,
     *,
     topologies: Sequence[Topology] | None = None,
-) -> Generator[FitProgress, None, FoundPoints]:
-    """`find_points` as a generator: yields `FitProgress(fraction, text)`, returns the points; close it to cancel."""
-    yield FitProgress(0.0, "Reading the mesh")
+) -> Work[FoundPoints]:
+    """`find_points` as a generator: yields `Progress(fraction, text)`, returns the points; close it to cancel."""
+    yield Progress(0.0, "Reading the mesh")
     places = checked_vertices(vertices)
     faces = _checked_faces(polygons, len(places))
     template = fit_template()
@@ -105,7 +102,7 @@ def find_points_steps(
         start = Start(_located_by_clicks(surface, clicked, template), None)
     else:
         located = yield from part_of(locate(surface), 0.02, 0.55)
-        yield FitProgress(0.55, "Checking for a crooked face")
+        yield Progress(0.55, "Checking for a crooked face")
         start = better_start(located)
     return (yield from part_of(_fitted_points(start, clicked), 0.6, 1.0))
 
@@ -132,21 +129,11 @@ def locate_points(vertices: ArrayLike, polygons: Polygons, *, refuse: bool = Tru
     """
     places = checked_vertices(vertices)
     surface = _welded(places, _checked_faces(polygons, len(places)))
-    located = better_start(finished(locate(surface, refuse=refuse))).place
+    located = better_start(run(locate(surface, refuse=refuse))).place
     template = located.template
     positions = located.pose.to_mesh(template.read(template.skin.vertices))
     named = dict(zip(template.names, positions, strict=True))
     return LocatedPoints(named, located.score.value, located.score.relief)
-
-
-def finished(steps: Generator[FitProgress, None, _T]) -> _T:
-    """Run some work to its end."""
-    while True:
-        try:
-            next(steps)
-        except StopIteration as end:
-            result: _T = end.value
-            return result
 
 
 def _checked_faces(polygons: Polygons, vertex_count: int) -> Polygons:
@@ -201,7 +188,7 @@ def _located_by_clicks(surface: Surface, clicked: Mapping[str, Floats], template
     return Located(pose, surface, scored(surface, pose, template), template)
 
 
-def _fitted_points(start: Start, clicked: Mapping[str, Floats]) -> Generator[FitProgress, None, FoundPoints]:
+def _fitted_points(start: Start, clicked: Mapping[str, Floats]) -> Work[FoundPoints]:
     """Bend the template onto the head and carry its points over."""
     located = start.place
     pose, template = located.pose, located.template

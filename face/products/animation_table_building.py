@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
@@ -12,6 +12,7 @@ import numpy as np
 from ...arrays import Floats, Ints
 from ...errors import ParameterError
 from ...mpeg4 import FAP_COUNT, FAPS, GROUPS
+from ...progress import Progress, Report
 from ...tables import read_csv
 from ..bodies.direct_faps import ANGLE_UNIT
 from ..drive.synergies import load_synergies, template_millimetres
@@ -78,7 +79,7 @@ def face_animation_tables(
     steps: int = STEPS,
     drive: str | Drive = Drive.EXACT,
     others: str | Others = Others.STILL,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Report | None = None,
 ) -> AnimationTables:
     """The Face Animation Tables of a face.
 
@@ -89,7 +90,7 @@ def face_animation_tables(
     steps : intervals on either side of 0.
     drive : how the face is posed (`Drive`).
     others : what the other FAPs' points do meanwhile (`Others`).
-    progress : called with the number of FAPs done, and of all.
+    progress : called after each FAP.
 
     Raises
     ------
@@ -110,7 +111,7 @@ def face_animation_tables(
         if table is not None:
             tables[table.fap] = table
         if progress is not None:
-            progress(done, len(numbers))
+            progress(Progress.counted(done, len(numbers), "FAPs"))
     return AnimationTables(face.vertices.copy(), dict(sorted(tables.items())))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from ...arrays import Floats
 from ...mpeg4 import FAP_COUNT
 from ...mpeg4.streams.capture import CaptureShape, KeyShape, load_key_names, load_shapes
+from ...progress import Progress, Work, run
 from ..drive.wishes import Drive
 from ..face import Face
 
@@ -32,17 +33,21 @@ def arkit_shapes(face: Face, names: str | Path = "arkit") -> dict[str, Floats]:
     FormatError : a table of names that breaks a rule.
     ParameterError : a shape of muscles that this face has not.
     """
-    return dict(arkit_shape_steps(face, load_key_names(names)))
+    return run(arkit_shape_steps(face, load_key_names(names)))
 
 
-def arkit_shape_steps(face: Face, keys: Mapping[str, KeyShape]) -> Iterator[tuple[str, Floats]]:
-    """Name and positions (V, 3) of each key in turn, for callers that show progress; see `arkit_shapes`."""
+def arkit_shape_steps(face: Face, keys: Mapping[str, KeyShape]) -> Work[dict[str, Floats]]:
+    """`arkit_shapes` as a generator, for callers that show progress."""
+    yield Progress(0.0, "Placing the muscles")
     poser = _ShapePoser(face)
+    shapes: dict[str, Floats] = {}
     for name, key in keys.items():
+        yield Progress(0.1 + 0.9 * len(shapes) / len(keys), f"Posing {name}")
         moved = sum(
             (share * poser.moved(shape, key.natural) for shape, share in key.parts), np.zeros_like(face.vertices)
         )
-        yield name, face.vertices + moved
+        shapes[name] = face.vertices + moved
+    return shapes
 
 
 class _ShapePoser:

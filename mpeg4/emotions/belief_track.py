@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from numpy.typing import ArrayLike
 from ...arrays import Floats
 from ...errors import ParameterError
 from ...files import write_whole
+from ...progress import Progress, Report
 from ..standard import FAP_COUNT, FAPS
 from .profile import ARCHETYPES, Archetype
 from .recognition import Rule, recognise, shown_strength
@@ -55,7 +55,7 @@ def recognise_over_time(
     rule: str | Rule = Rule.PAPER,
     fps: float = 25.0,
     first_frame: int = 0,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Report | None = None,
 ) -> BeliefTrack:
     """Beliefs in the six emotions for each frame of a stream.
 
@@ -64,7 +64,7 @@ def recognise_over_time(
     frames : (T, 68) FAPs in FAP units and MPEG-4 signs; NaN where not observed.
     rule : as for `recognise`.
     fps : frames per second. first_frame : number of the first frame.
-    progress : called with frames done and frames in all.
+    progress : called after each frame.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def recognise_over_time(
         profile = found.best_profile
         strengths[index] = 0.0 if profile is None else shown_strength(frame, profile)
         if progress is not None:
-            progress(index + 1, len(values))
+            progress(Progress.counted(index + 1, len(values), "frames"))
     return BeliefTrack(values, beliefs, strengths, fps, first_frame)
 
 

@@ -7,13 +7,13 @@ from typing import Annotated, Any
 import bpy
 from bpy.props import StringProperty
 
+from ...progress import Work
 from ...scene.bake import baking as bake
 from ...scene.bake import shape_keys
 from ...scene.bake.notes import BakeKind, Note
 from ...scene.bake.strips import ClipShape, bake_strips
 from ...scene.points.found import Finding
 from ...scene.points.kept import has_points, read_kept
-from ...scene.progress import Work
 from ..active import face_reason, target_of
 from ..base import RisoriusOperator, WorkOperator
 from ..emotion.performance import performance_of

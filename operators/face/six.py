@@ -6,11 +6,11 @@ from typing import Any
 
 import bpy
 
+from ...progress import Work
 from ...scene.bake import baking as bake
 from ...scene.bake import performance, shape_keys
 from ...scene.points.found import Finding
 from ...scene.points.kept import read_kept
-from ...scene.progress import Work
 from ..active import face_reason, target_of
 from ..bake.settings import creases_wanted
 from ..base import WorkOperator

@@ -8,13 +8,13 @@ from typing import Any
 import bpy
 
 from ...errors import SceneError
+from ...progress import Work, part_of
 from ...scene import gltf, refusals
 from ...scene.bake import action, shape_keys
 from ...scene.bake import baking as bake
 from ...scene.pictures import film
 from ...scene.pictures.look import Camera, Engine, Look
 from ...scene.points.found import Finding
-from ...scene.progress import Work, part_of
 from ..active import face_reason, target_of
 from ..bake.ops import motion_work
 from ..base import RisoriusOperator, WorkOperator

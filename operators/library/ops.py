@@ -13,9 +13,9 @@ from bpy_extras.io_utils import ImportHelper
 from ...errors import FormatError, SceneError
 from ...mpeg4.preset_file import PresetKind, read_preset, write_preset
 from ...mpeg4.streams.fap_file import read_fap
+from ...progress import Work
 from ...scene.bake.baking import BakeResult, bake_motion, scene_fps
 from ...scene.bake.motion import FapMotion, at_rate
-from ...scene.progress import Work
 from ..active import face_reason, target_of
 from ..bake.ops import BakeOperator
 from ..bake.settings import creases_wanted

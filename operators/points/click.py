@@ -12,12 +12,12 @@ from bpy.props import StringProperty
 from ...arrays import Floats
 from ...errors import RisoriusError, SceneError
 from ...mpeg4 import FEATURE_POINTS
+from ...progress import Work
 from ...scene.mesh import world_matrix
 from ...scene.points.bound import Surface
 from ...scene.points.found import Finding, find_points
 from ...scene.points.mirrored import MirrorPlane, plane_of_mesh
 from ...scene.points.seen import Visible
-from ...scene.progress import Work
 from ..base import WorkOperator
 from ..requirements import need_scipy
 from .canvas import Canvas, text_width

@@ -7,9 +7,9 @@ from typing import Any, TypeVar
 
 import bpy
 
+from ...progress import Work, part_of
 from ...scene.points.found import Finding, find_points
 from ...scene.points.kept import forget_points, has_points
-from ...scene.progress import Work, part_of
 
 T = TypeVar("T")
 

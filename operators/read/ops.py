@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ...errors import SceneError
+from ...progress import Work
 from ...scene.live import belief_curves
 from ...scene.live.reading import read_animation
 from ...scene.pictures import belief_plot
 from ...scene.pictures.film import refuse_unwritable_output
 from ...scene.pictures.lettering import write_picture
-from ...scene.progress import Work
 from ..active import reading_reason
 from ..base import RisoriusOperator, WorkOperator
 from ..film.ops import absolute

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ...progress import Work
 from ...scene.points.found import Finding
-from ...scene.progress import Work
 from ..active import face_reason, target_of
 from ..base import WorkOperator
 from ..points.first import with_points

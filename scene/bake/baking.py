@@ -15,11 +15,11 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import ParameterError, SceneError
 from ...face.mesh.parts import Part
+from ...progress import Progress, Work
 from ..blender_types import Action, Mesh, Object, Scene
 from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of, read_face
 from ..mesh import keys_of
-from ..progress import Progress, Work
 from ..refusals import own_mesh, refuse_unwritable
 from . import action as actions
 from . import shape_keys

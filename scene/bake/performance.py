@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ...errors import ParameterError
-from ..progress import Work, part_of
+from ...progress import Work, part_of
 from . import action as actions
 from . import baking as bake
 

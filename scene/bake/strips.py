@@ -13,10 +13,10 @@ import bpy
 import numpy as np
 
 from ...arrays import Floats
+from ...progress import Progress, Work
 from ..blender_types import Action, Key, NlaTrack
 from ..creases import marks as crease_marks
 from ..faces import face_of
-from ..progress import Progress, Work
 from . import action as actions
 from . import shape_keys
 from .baking import BakeResult, Target, clear, write_baked

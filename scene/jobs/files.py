@@ -6,7 +6,7 @@ open.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from pathlib import Path
 
@@ -14,10 +14,6 @@ import bpy
 import numpy as np
 
 from ...errors import ParameterError, SceneError
-from ..progress import Progress
-
-#: Called with each step of a job.
-Report = Callable[[Progress], None]
 
 
 @dataclass(frozen=True)

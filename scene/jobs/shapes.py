@@ -7,11 +7,11 @@ from pathlib import Path
 import bpy
 
 from ...errors import ParameterError, SceneError
+from ...progress import Report, run
 from ..bake.baking import Target
 from ..blendshape_keys import WrittenKeys, write_blendshapes
 from ..pictures.film import refuse_unwritable_output
-from ..progress import run
-from .files import Report, empty_file, save
+from .files import empty_file, save
 from .subjects import subject
 
 #: Files that are written.

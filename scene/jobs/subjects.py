@@ -11,6 +11,7 @@ import numpy as np
 from ...arrays import Bools, Ints
 from ...errors import FormatError
 from ...face.mesh.parts import Part
+from ...progress import run
 from .. import mesh as meshes
 from ..blender_types import Object
 from ..creases.marks import draw_in
@@ -21,7 +22,6 @@ from ..pictures.irises import iris_polygons, lay_irises
 from ..points.file import read_points
 from ..points.found import find_points
 from ..points.kept import has_points
-from ..progress import run
 
 if TYPE_CHECKING:
     from ...face.face import Face

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ...errors import ParameterError
+from ...progress import Progress, Report, Work, part_of, run
 from ..bake import baking as bake
 from ..bake.motion import CueMotion
 from ..bake.performance import ARCHETYPES, FIRST_FRAME, PAUSE, cues_of, line_up, pose_all
@@ -19,8 +20,7 @@ from ..pictures import film
 from ..pictures.framing import framing_of
 from ..pictures.furniture import furnish
 from ..pictures.look import Engine, Look
-from ..progress import Progress, Work, part_of, run
-from .files import Made, Report, empty_file, save
+from .files import Made, empty_file, save
 from .sheet import write_apexes
 from .subjects import subject
 

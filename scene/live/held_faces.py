@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import OrderedDict
 from dataclasses import dataclass, field
 
+from ...progress import Progress, Work
 from ..bake.baking import Target
-from ..progress import Progress, Work
 from .live_face import LiveFace, uid_of
 
 #: Faces that are held ready.

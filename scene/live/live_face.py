@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...arrays import Floats, Ints
+from ...progress import Work
 from ..bake.baking import Target
 from ..blender_types import Object
 from ..faces import face_of
 from ..mesh import rest_vertices, world_matrix
 from ..points.kept import POINTS
-from ..progress import Progress, Work
 from . import preview
 
 if TYPE_CHECKING:
@@ -76,8 +76,7 @@ class LiveFace:
 
     def prepare(self) -> Work[None]:
         """Work out what the first sketch needs."""
-        for fraction, text in self._face.prepare():
-            yield Progress(fraction, text)
+        yield from self._face.prepare()
 
     def pose(
         self,

@@ -17,12 +17,12 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ModelError, ParameterError, SceneError
+from ...progress import Progress, Work
 from ..blender_types import Depsgraph, Object, Scene
 from ..faces import face_of, read_face
 from ..mesh import mesh_vertices, metres_matrix, rest_vertices
 from ..points.kept import POINTS
 from ..points.seen import Visible
-from ..progress import Progress, Work
 from .live_face import uid_of
 from .shown_rest import shown_rest
 

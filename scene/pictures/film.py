@@ -11,8 +11,8 @@ from pathlib import Path
 import bpy
 
 from ...errors import SceneError
+from ...progress import Progress, Work
 from ..blender_types import Object, Scene
-from ..progress import Progress, Work
 from .framing import framing_of
 from .look import Look, usable_engine
 from .studio import render_frame, studio

@@ -9,9 +9,9 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ModelError, SceneError
+from ...progress import Progress, Work
 from .. import mesh as meshes
 from ..blender_types import Object, Scene
-from ..progress import Progress, Work
 from ..refusals import refuse_broken_vertices, refuse_unreadable
 from .bound import bind
 from .kept import KeptPoints, Origin, triple, write_kept
@@ -69,19 +69,10 @@ def find_points(
     polygons = meshes.polygon_sequence(*meshes.polygon_arrays(obj.data))
     known = {name: stretch @ np.asarray(place, dtype=np.float64) for name, place in (clicks or {}).items()}
     topologies, unreadable = known_topologies()
-    steps = api.find_points_steps(vertices, polygons, known or None, topologies=topologies)
     try:
-        while True:
-            try:
-                step = next(steps)
-            except StopIteration as end:
-                found: api.FoundPoints = end.value
-                break
-            yield Progress(min(1.0, step.fraction), step.text.capitalize())
+        found = yield from api.find_points_steps(vertices, polygons, known or None, topologies=topologies)
     except ModelError as refusal:
         raise _explained(obj, refusal) from refusal
-    finally:
-        steps.close()
     back = np.linalg.inv(stretch)
     table = {name: triple(back @ place) for name, place in found.positions.items()}
     origin = Origin.FOUND if found.topology is None else Origin.TOPOLOGY

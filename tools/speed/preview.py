@@ -17,11 +17,11 @@ import bpy
 import numpy as np
 import risorius.api as api
 from places import shared_folder
+from risorius.progress import run
 from risorius.scene import mesh as meshes
 from risorius.scene.bake.baking import Target
 from risorius.scene.jobs.subjects import subject
 from risorius.scene.live.live_face import LiveFace
-from risorius.scene.progress import run
 
 from .solvers import blender_frame
 

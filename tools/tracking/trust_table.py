@@ -23,7 +23,8 @@ def write_trust(films: Sequence[FilmFigures]) -> list[CameraFap]:
     """Write the trust that the films found; heading and reasons stay as they are."""
     heading = [line for line in TABLE.read_text(encoding="utf-8").splitlines() if line.startswith(("#", "fap,"))]
     rows = [CameraFap(number, _trust(row, films), row.reason) for number, row in camera_faps().items()]
-    lines = [f"{row.number},{row.trust:.2f},{row.reason}" for row in rows]
+    reasons = [f'"{row.reason}"' if "," in row.reason else row.reason for row in rows]
+    lines = [f"{row.number},{row.trust:.2f},{reason}" for row, reason in zip(rows, reasons, strict=True)]
     TABLE.write_text("\n".join([*heading, *lines]) + "\n", encoding="utf-8")
     camera_faps.cache_clear()
     return rows

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ....arrays import Floats, Ints
-from ..progress import FitProgress
+from ....progress import Progress, Work
 from ..surface.margins import Expected, Margin, find_eyes, find_mouth
 from ..template.template import FitTemplate, Ring
 from .bend import Stage, Wishes, bend
@@ -41,7 +41,7 @@ class Fit:
 
 def fit(
     template: FitTemplate, target: Target, wishes: Sequence[Wishes] = (), *, start: Floats | None = None
-) -> Generator[FitProgress, None, Fit]:
+) -> Work[Fit]:
     """Bend the template onto a head.
 
     Parameters
@@ -50,17 +50,17 @@ def fit(
     start : (C, 3) displacements of the cage to begin with; None: none.
     """
     moved = np.zeros((template.skin.cage_matrix.shape[1], 3)) if start is None else start
-    yield FitProgress(0.0, "Fitting the face")
+    yield Progress(0.0, "Fitting the face")
     moved = bend(template, target, moved, FRONT, wishes)
-    yield FitProgress(0.3, "Fitting the whole head")
+    yield Progress(0.3, "Fitting the whole head")
     ears = ear_wishes(template, target, template.skin.vertices + template.skin.cage_matrix @ moved)
     moved = bend(template, target, _stretched(template, moved, ears), WHOLE, [*wishes, *ears])
     margins: dict[str, Margin] = {}
     for number, stage in enumerate((CLOSER, CLOSEST)):
-        yield FitProgress(0.5 + 0.2 * number, "Fitting lids and lips")
+        yield Progress(0.5 + 0.2 * number, "Fitting lids and lips")
         margins = _margins(template, target, moved)
         rims = [_rim_wishes(template, template.rings[name], margin) for name, margin in margins.items()]
-        yield FitProgress(0.6 + 0.2 * number, "Fitting the details")
+        yield Progress(0.6 + 0.2 * number, "Fitting the details")
         moved = bend(template, target, moved, stage, [*wishes, *rims])
     return Fit(template.skin.vertices + template.skin.cage_matrix @ moved, margins)
 

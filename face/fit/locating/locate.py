@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from ....arrays import Bools, Floats
 from ....errors import ModelError
-from ..progress import FitProgress, part_of
+from ....progress import Progress, Work, part_of
 from ..surface.cloud import Cloud, Surface, sample
 from ..surface.symmetry import symmetry_planes
 from ..template.open_mouth import open_template
@@ -54,14 +54,14 @@ class Located:
     template: FitTemplate
 
 
-def locate(surface: Surface, *, refuse: bool = True) -> Generator[FitProgress, None, Located]:
+def locate(surface: Surface, *, refuse: bool = True) -> Work[Located]:
     """Find the face of a mesh; unless `refuse`, the best place however little it looks like a face.
 
     Raises
     ------
     ModelError : when nothing in the mesh looks like a face; states the score, the limit and the remedy.
     """
-    yield FitProgress(0.0, "Finding planes of symmetry")
+    yield Progress(0.0, "Finding planes of symmetry")
     cloud = sample(surface, WHOLE)
     if len(cloud) == 0:
         raise ModelError("no face found: the mesh has no area; feature points need a surface")
@@ -72,33 +72,33 @@ def locate(surface: Surface, *, refuse: bool = True) -> Generator[FitProgress, N
         turned = yield from part_of(_best_place(surface, cloud, guesses), 0.9, 0.95)
         place = min((other for other in (place, turned) if other), key=lambda other: other.score.value, default=None)
     if place is not None and place.score.value > GOOD_SCORE:
-        yield FitProgress(0.95, "Checking for an open mouth")
+        yield Progress(0.95, "Checking for an open mouth")
         place = _opened(place)
     return accepted(place, refuse=refuse)
 
 
-def _guesses_of_whole(surface: Surface, cloud: Cloud) -> Generator[FitProgress, None, list[Guess]]:
+def _guesses_of_whole(surface: Surface, cloud: Cloud) -> Work[list[Guess]]:
     """The best guesses about the planes of symmetry of the whole mesh."""
     area = float(np.linalg.norm(surface.cross(), axis=1).sum() / 2.0)
     diagonal = float(np.linalg.norm(np.ptp(cloud.positions, axis=0)))
     planes = symmetry_planes(cloud.positions[:: WHOLE // SYMMETRY])
     guesses: list[Guess] = []
     for number, plane in enumerate(planes):
-        yield FitProgress(0.25 + 0.75 * number / len(planes), "Finding the direction of the face")
+        yield Progress(0.25 + 0.75 * number / len(planes), "Finding the direction of the face")
         guesses += search_plane(cloud, area, diagonal, plane)
     return best_guesses(guesses)
 
 
 def _best_place(
     surface: Surface, cloud: Cloud, guesses: Sequence[Guess]
-) -> Generator[FitProgress, None, Located | None]:
+) -> Work[Located | None]:
     """The place among some guesses that looks most like a face."""
     found: list[Located] = []
     for number, guess in enumerate(guesses[:ALIGNED]):
-        yield FitProgress(0.8 * number / len(guesses[:ALIGNED]), "Finding the size of the face")
+        yield Progress(0.8 * number / len(guesses[:ALIGNED]), "Finding the size of the face")
         found.append(_aligned(surface, cloud, guess.pose))
     found.sort(key=lambda place: place.score.value)
-    yield FitProgress(0.8, "Comparing the best places")
+    yield Progress(0.8, "Comparing the best places")
     best = [aligned_again(place.surface, place.pose) for place in _distinct(found)[:FINALISTS]]
     return min(best, key=lambda place: place.score.value, default=None)
 

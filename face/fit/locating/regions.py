@@ -6,13 +6,11 @@ are: a place farther from the middle than all round it.
 
 from __future__ import annotations
 
-from collections.abc import Generator
-
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ....arrays import Floats
-from ..progress import FitProgress
+from ....progress import Progress, Work
 from ..surface.cloud import Cloud, Surface, sample
 from ..surface.symmetry import symmetry_planes
 from .search import Guess, best_guesses, search_plane
@@ -33,7 +31,7 @@ PLANES = 2
 CERTAIN, HOPELESS = 3.5e-3, 6e-3
 
 
-def guesses_at_ends(surface: Surface, cloud: Cloud) -> Generator[FitProgress, None, list[Guess]]:
+def guesses_at_ends(surface: Surface, cloud: Cloud) -> Work[list[Guess]]:
     """The best guesses at the ends of a mesh; none where it has no ends.
 
     Parameters
@@ -47,7 +45,7 @@ def guesses_at_ends(surface: Surface, cloud: Cloud) -> Generator[FitProgress, No
     places = [(end, reach * radius) for reach in REACHES for end in found]
     guesses: list[Guess] = []
     for number, (end, reach) in enumerate(places):
-        yield FitProgress(number / len(places), "Searching for a turned head")
+        yield Progress(number / len(places), "Searching for a turned head")
         if (np.linalg.norm(cloud.positions - end, axis=1) < reach).mean() > LARGEST_SHARE:
             continue
         guesses += _guesses_in(surface.part((np.linalg.norm(corners - end, axis=2) < reach).any(axis=1)))

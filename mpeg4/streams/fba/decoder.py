@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -10,6 +10,8 @@ import numpy as np
 
 from ....arrays import Floats
 from ....errors import FormatError, ParameterError
+from ....files import read_bytes
+from ....progress import Progress, Report
 from ...high_level import FULL, ExpressionField, VisemeField
 from ...standard import FAP_COUNT
 from ..fap_file import LONGEST, LONGEST_GAP
@@ -58,11 +60,7 @@ class _Reading:
 def read_fba(path: str | Path, *, strict: bool = False) -> FapStream:
     """The stream of an FBA file, named after the file; keyword and errors as `decode_fba`."""
     file = Path(path)
-    try:
-        data = file.read_bytes()
-    except OSError as error:
-        raise FormatError(file, f"cannot be read ({error.strerror})") from error
-    return decode_fba(data, path=file, strict=strict).stream
+    return decode_fba(read_bytes(file), path=file, strict=strict).stream
 
 
 def decode_fba(
@@ -70,7 +68,7 @@ def decode_fba(
     *,
     path: str | Path = "FBA stream",
     strict: bool = False,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Report | None = None,
 ) -> Decoded:
     """Decode an FBA bitstream, predictive coding.
 
@@ -82,7 +80,7 @@ def decode_fba(
     data : the bytes.
     path : what errors name; its stem is the stream's name.
     strict : refuse any damage.
-    progress : called with the number of bytes done, and of all, at each start code.
+    progress : called at each start code.
 
     Raises
     ------
@@ -101,7 +99,7 @@ def decode_fba(
     return Decoded(_stream(reading, Path(path).stem), tuple(damage))
 
 
-def _decoded(reading: _Reading, progress: Callable[[int, int], None] | None) -> Iterator[str]:
+def _decoded(reading: _Reading, progress: Report | None) -> Iterator[str]:
     """Decode all frames; yields what is wrong, and goes on at the next start code."""
     bits = reading.bits
     if int.from_bytes(bits.data[:4]) in (SEQUENCE_START, OLD_SEQUENCE_START):
@@ -118,7 +116,7 @@ def _decoded(reading: _Reading, progress: Callable[[int, int], None] | None) -> 
             if code is not None:
                 reading.start = bits.position
                 if progress is not None:
-                    progress(bits.byte, len(bits.data))
+                    progress(Progress.counted(bits.byte, len(bits.data), "bytes"))
             _read_plane(reading)
         except EndOfBits:
             yield "ends before its end code: the stream is cut off or damaged"

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from ....errors import ParameterError
 from ....files import write_whole
+from ....progress import Progress, Report
 from ...standard import GROUPS
 from ..fap_stream import FapStream
 from .arithmetic import Model, SegmentWriter
@@ -28,9 +29,6 @@ from .syntax import (
 FACE_ONLY, INTRA_FACE = 0b001, 0b101  # is_intra and the two bits of the object mask
 
 
-Report = Callable[[int, int], None]
-
-
 def encode_fba(
     stream: FapStream, *, quantiser: int = 1, refresh: float = 10.0, progress: Report | None = None
 ) -> bytes:
@@ -44,7 +42,7 @@ def encode_fba(
     stream : what to code; values are rounded to whole FAP units. Name, version and first frame number are not coded.
     quantiser : 0 (lossless, values up to 1860) or 1..31 times each FAP's own step (`Fap.quant_step`).
     refresh : seconds from one start code to the next: so much is lost at most where bytes are damaged.
-    progress : called with the number of frames done, and of all.
+    progress : called after each start code's frames.
 
     Raises
     ------
@@ -64,7 +62,7 @@ def encode_fba(
         _write_run(bits, run, rate, quantiser, last)
         last = run.pictures[-1].index
         if progress is not None:
-            progress(last + 1, len(stream.frames))
+            progress(Progress.counted(last + 1, len(stream.frames), "frames"))
     bits.start_code(SEQUENCE_END)
     return bits.data()
 

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.errors import ParameterError, SceneError
+from risorius.progress import run
 from risorius.scene.bake import baking as bake
 from risorius.scene.blendshape_keys import write_blendshapes
 from risorius.scene.jobs.shapes import blendshape_file
 from risorius.scene.mesh import key_vertices
-from risorius.scene.progress import run
 
 FEW = """
 [keys.jawOpen]

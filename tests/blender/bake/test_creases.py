@@ -193,8 +193,8 @@ def test_a_failed_bake_writes_no_creases(plain: Any, monkeypatch: pytest.MonkeyP
 
 @pytest.mark.smoke
 def test_a_moving_face_creases_as_its_motion_does(head: Any) -> None:
+    from risorius.progress import run
     from risorius.scene.bake.motion import CueMotion
-    from risorius.scene.progress import run
 
     cue = api.Cue(api.expression("anger"), start=0.0, onset=0.3, apex=0.4, offset=0.2)
     run(bake.bake_motion(bake.Target(head), CueMotion([cue]), clip="anger", fps=12.0))

@@ -13,11 +13,11 @@ import risorius.api as api
 from risorius.errors import SceneError
 from risorius.operators.read import live, ops, panel
 from risorius.operators.session import begin_session
+from risorius.progress import run
 from risorius.scene.faces import face_of, read_face
 from risorius.scene.live import belief_curves
 from risorius.scene.live.reading import FaceReader, read_animation
 from risorius.scene.mesh import rest_vertices
-from risorius.scene.progress import run
 
 HEAD_FAPS = slice(47, 50)
 

@@ -20,7 +20,7 @@ pytestmark = pytest.mark.smoke
 
 
 def bake_key(obj: Any, **options: Any) -> None:
-    from risorius.scene.progress import run
+    from risorius.progress import run
 
     run(
         bake.bake_expression(

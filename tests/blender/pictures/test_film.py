@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from risorius.errors import ParameterError, SceneError
+from risorius.progress import run
 from risorius.scene import mesh as meshes
 from risorius.scene.bake import shape_keys
 from risorius.scene.pictures import film, gpu_probe
@@ -17,7 +18,6 @@ from risorius.scene.pictures.contact_sheet import Exhibit, write_sheet
 from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.lettering import Text, read_picture, write_picture, write_text
 from risorius.scene.pictures.look import Camera, Engine, Look, usable_engine
-from risorius.scene.progress import run
 
 SMALL = Look(width=96, height=96)
 

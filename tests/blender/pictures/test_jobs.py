@@ -15,13 +15,13 @@ import pytest
 import risorius.api as api
 from risorius import cli
 from risorius.errors import FormatError, ModelError, ParameterError, RisoriusError
+from risorius.progress import run
 from risorius.scene import mesh as meshes
 from risorius.scene.bake.performance import PAUSE, cues_of
 from risorius.scene.jobs import words
 from risorius.scene.jobs.sheet import apex_frame
 from risorius.scene.jobs.subjects import subject
 from risorius.scene.pictures.look import Engine, Look
-from risorius.scene.progress import run
 
 REPLAY = """
     import sys

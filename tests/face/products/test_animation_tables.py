@@ -146,9 +146,9 @@ def test_every_low_level_fap_has_a_range_with_zero_inside() -> None:
 
 
 def test_progress_counts_faps(face: Face) -> None:
-    seen: list[tuple[int, int]] = []
-    api.face_animation_tables(face, faps=[23, 65], steps=1, progress=lambda done, count: seen.append((done, count)))
-    assert seen == [(1, 2), (2, 2)]
+    seen: list[api.Progress] = []
+    api.face_animation_tables(face, faps=[23, 65], steps=1, progress=seen.append)
+    assert seen == [(0.5, "1 of 2 FAPs"), (1.0, "2 of 2 FAPs")]
 
 
 def test_wrong_requests_are_refused(face: Face) -> None:

@@ -30,13 +30,11 @@ def test_strength_is_the_share_of_the_profile(rising: np.ndarray) -> None:
 
 @pytest.mark.parametrize("rule", ["paper", "robust"])
 def test_each_frame_is_recognised_as_it_is_alone(rising: np.ndarray, rule: str) -> None:
-    told: list[tuple[int, int]] = []
-    track = api.recognise_over_time(
-        rising, rule=rule, fps=30.0, first_frame=7, progress=lambda done, count: told.append((done, count))
-    )
+    told: list[api.Progress] = []
+    track = api.recognise_over_time(rising, rule=rule, fps=30.0, first_frame=7, progress=told.append)
     for frame, beliefs in zip(rising, track.beliefs, strict=True):
         np.testing.assert_array_equal(beliefs, [api.recognise(frame, rule=rule)[name] for name in api.ARCHETYPES])
-    assert told[-1] == (5, 5)
+    assert told[-1] == (1.0, "5 of 5 frames")
     assert track.best[-1] == "surprise"
     np.testing.assert_array_equal(track.numbers, [7, 8, 9, 10, 11])
     assert track.strengths[-1] > track.strengths[2] > 0.3

@@ -12,6 +12,7 @@ from risorius.errors import FormatError, ParameterError
 from risorius.mpeg4 import FAPS, ExpressionField, FapStream, VisemeField, read_fap
 from risorius.mpeg4.streams.fba import decode_fba, encode_fba, read_fba, write_fba
 from risorius.mpeg4.streams.fba.syntax import NTSC
+from risorius.progress import Progress
 
 PLANE_START = b"\0\0\1\xbb"
 SAMPLES = (
@@ -197,10 +198,10 @@ def test_files(tmp_path: Path) -> None:
 
 def test_progress_runs_to_the_end() -> None:
     stream = FapStream(np.zeros((45, 68)), fps=10.0)
-    seen: list[tuple[int, int]] = []
-    data = encode_fba(stream, refresh=2.0, progress=lambda done, count: seen.append((done, count)))
-    assert seen == [(20, 45), (40, 45), (45, 45)]
+    seen: list[Progress] = []
+    data = encode_fba(stream, refresh=2.0, progress=seen.append)
+    assert seen == [(20 / 45, "20 of 45 frames"), (40 / 45, "40 of 45 frames"), (1.0, "45 of 45 frames")]
     seen.clear()
-    decode_fba(data, progress=lambda done, count: seen.append((done, count)))
-    assert [count for _, count in seen] == [len(data)] * 3
-    assert [done for done, _ in seen] == sorted({done for done, _ in seen})
+    decode_fba(data, progress=seen.append)
+    assert [step.text.endswith(f" of {len(data)} bytes") for step in seen] == [True] * 3
+    assert [step.fraction for step in seen] == sorted({step.fraction for step in seen})
