@@ -14,7 +14,6 @@ from .skin import HeadSkin
 
 SECTIONS = 41
 PROFILE = np.array([-1.0, -0.98, -0.7, -0.35, 0.0, 0.35, 0.7, 0.98, 1.0])  # places across, shares of the half width
-SINK = 0.4e-3  # depth of the border under the skin, metres
 RIM = 0.3  # height of the border's upper edge, as a share of the lift
 ROUNDING = 0.12  # share of the length over which each end is rounded
 
@@ -38,8 +37,8 @@ def build_brow(figures: BrowFigures, skin: HeadSkin) -> Piece:
     foot, normal = front_surface(skin, plan.reshape(-1, 2))
     thick = figures.lift * np.clip(1.3 * width / np.max(width), 0.4, 1.0)
     lift = thick[:, None] * (RIM + (1.0 - RIM) * (1.0 - PROFILE**2))
-    lift[:, [0, -1]] = -SINK
-    lift[[0, -1]] = -SINK
+    lift[:, [0, -1]] = -figures.sink
+    lift[[0, -1]] = -figures.sink
     vertices = foot + normal * lift.reshape(-1, 1)
     k = np.arange(SECTIONS * len(PROFILE)).reshape(SECTIONS, len(PROFILE))
     quads = np.stack([k[:-1, :-1], k[1:, :-1], k[1:, 1:], k[:-1, 1:]], axis=-1).reshape(-1, 4)

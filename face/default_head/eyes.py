@@ -10,7 +10,6 @@ from .figures import EyeballFigures
 from .piece import Piece, fan_quads, tube_quads
 
 SEGMENTS = 32
-LIMBUS_WIDTH = 0.12  # share of the iris radius that is the dark ring
 PUPIL_VERTEX = 0  # the front pole comes first: feature points 3.5 and 3.6
 
 
@@ -35,7 +34,7 @@ def build_eyeball(figures: EyeballFigures) -> Piece:
 def _rings(figures: EyeballFigures) -> tuple[Floats, list[str]]:
     """Polar angles of the rings from the pupil backwards, and the material between consecutive rings."""
     pupil, iris = figures.pupil_radius, figures.iris_radius
-    limbus = iris * (1.0 - LIMBUS_WIDTH)
+    limbus = iris * (1.0 - figures.limbus)
     radii = np.array([0.5 * pupil, pupil, *np.linspace(pupil, limbus, 4)[1:], iris])
     front = np.arcsin(radii / figures.radius)
     behind = np.linspace(front[-1], np.pi, 15)[1:-1]

@@ -23,12 +23,34 @@ MM = 1e-3
 
 @dataclass(frozen=True)
 class EyeballFigures:
-    """Left eyeball: centre (3,) and radii of ball, iris and pupil, metres."""
+    """Left eyeball: centre (3,) and radii of ball, iris and pupil, metres; `limbus` is the ring's share of the iris."""
 
     centre: Floats
     radius: float
     iris_radius: float
     pupil_radius: float
+    limbus: float
+
+
+@dataclass(frozen=True)
+class LidMarginFigures:
+    """The rim of the left lids, metres.
+
+    Attributes
+    ----------
+    thickness : least and greatest, of the rim.
+    clearance, gap, fold_clearance : from the eyeball to the rim's inner edge, to the lids' other vertices, and to the
+        skin that ends behind the lid.
+    shift, canthus_shift : of the rim towards `opening` (3,), the middle of the lids' opening; at the inner corner.
+    """
+
+    thickness: Floats
+    clearance: float
+    gap: float
+    fold_clearance: float
+    shift: float
+    canthus_shift: float
+    opening: Floats
 
 
 @dataclass(frozen=True)
@@ -40,6 +62,7 @@ class TeethFigures:
     half_width, depth, back : the ellipse.
     edge, gum : heights of the biting edge and of the gum line.
     widths : (7,) crown widths of one side, from the central incisor to the second molar.
+    groove : depth of the groove between two crowns.
     """
 
     half_width: float
@@ -48,24 +71,40 @@ class TeethFigures:
     edge: float
     gum: float
     widths: Floats
-
-
-@dataclass(frozen=True)
-class TongueFigures:
-    """Tongue: an ellipsoid, metres; `groove` is the depth of its middle furrow."""
-
-    centre: Floats
-    semi_axes: Floats
     groove: float
 
 
 @dataclass(frozen=True)
+class TongueFigures:
+    """Tongue: an ellipsoid, metres.
+
+    Attributes
+    ----------
+    groove, furrow : depth of its middle furrow, and its width as a share of the half width.
+    back_drop : how far the back end sinks.
+    """
+
+    centre: Floats
+    semi_axes: Floats
+    groove: float
+    furrow: float
+    back_drop: float
+
+
+@dataclass(frozen=True)
 class BrowFigures:
-    """Left brow, metres: centre line (N, 2) in x and z from the front, half widths (N,), lift of its middle."""
+    """Left brow, metres.
+
+    Attributes
+    ----------
+    line : (N, 2) its centre in x and z from the front. half_widths : (N,).
+    lift, sink : height of its middle over the skin, depth of its border under it.
+    """
 
     line: Floats
     half_widths: Floats
     lift: float
+    sink: float
 
 
 @dataclass(frozen=True)
@@ -106,6 +145,7 @@ class HeadFigures:
 
     nodes: Mapping[str, Floats]
     eyeball: EyeballFigures
+    lid_margin: LidMarginFigures
     teeth_upper: TeethFigures
     teeth_lower: TeethFigures
     tongue: TongueFigures
@@ -130,7 +170,7 @@ def read_figures(path: str | Path = DEFAULT_FIGURES) -> HeadFigures:
     """
     table = read_toml(path)
     table.choice("unit", ("mm",))
-    eyeball, tongue, brow = table.table("eyeball"), table.table("tongue"), table.table("brow")
+    eyeball, brow = table.table("eyeball"), table.table("brow")
     line = brow.numbers("line", None, 3) * MM
     points, pairs = _feature_points(table.table("feature_points"))
     return HeadFigures(
@@ -140,11 +180,13 @@ def read_figures(path: str | Path = DEFAULT_FIGURES) -> HeadFigures:
             _length(eyeball, "radius"),
             _length(eyeball, "iris_radius"),
             _length(eyeball, "pupil_radius"),
+            eyeball.number("limbus", above=0.0, most=1.0),
         ),
+        lid_margin=_lid_margin(table.table("lid_margin")),
         teeth_upper=_teeth(table.table("teeth_upper")),
         teeth_lower=_teeth(table.table("teeth_lower")),
-        tongue=TongueFigures(_vector(tongue, "centre"), _vector(tongue, "semi_axes"), _length(tongue, "groove")),
-        brow=BrowFigures(line[:, :2], line[:, 2], _length(brow, "lift")),
+        tongue=_tongue(table.table("tongue")),
+        brow=BrowFigures(line[:, :2], line[:, 2], _length(brow, "lift"), _length(brow, "sink")),
         condyle=_vector(table.table("jaw"), "condyle"),
         neck_pivot=_vector(table.table("neck"), "pivot"),
         materials=tuple(_material(name, row) for name, row in table.tables("materials").items()),
@@ -218,6 +260,31 @@ def _teeth(row: TomlTable) -> TeethFigures:
         row.number("edge_z") * MM,
         row.number("gum_z") * MM,
         row.numbers("crown_widths", 7) * MM,
+        _length(row, "groove"),
+    )
+
+
+def _lid_margin(row: TomlTable) -> LidMarginFigures:
+    """The rim of the lids."""
+    return LidMarginFigures(
+        row.numbers("thickness", 2) * MM,
+        _length(row, "clearance"),
+        _length(row, "gap"),
+        _length(row, "fold_clearance"),
+        _length(row, "shift"),
+        _length(row, "canthus_shift"),
+        _vector(row, "opening"),
+    )
+
+
+def _tongue(row: TomlTable) -> TongueFigures:
+    """The tongue."""
+    return TongueFigures(
+        _vector(row, "centre"),
+        _vector(row, "semi_axes"),
+        _length(row, "groove"),
+        row.number("furrow", above=0.0, most=1.0),
+        _length(row, "back_drop"),
     )
 
 

@@ -11,15 +11,10 @@ import numpy as np
 
 from ...arrays import Floats
 from .cage import EYE_RIM, MOUTH_RIM, NOSTRIL_RIM, grid_name, ring_name
-from .figures import EyeballFigures, HeadFigures
+from .figures import HeadFigures
 
-# Lid margin: thickness of the rim, clearance from the eyeball, shift of the rim towards the opening.
-LID_THICKNESS = (0.3e-3, 2.6e-3)
-LID_CLEARANCE = 0.15e-3
-RIM_SHIFT, CANTHUS_SHIFT = 0.7e-3, 0.3e-3
 CARUNCLE = (0, 1, 15)  # ring indices that keep their own distance from the ball where it is larger
-FOLD_CLEARANCE, FOLD_ANGLE, FOLD_RISE = 0.6e-3, 0.33, 0.12
-OPENING = np.array([31.5e-3, -97e-3, 35e-3])  # middle of the lid opening
+FOLD_ANGLE, FOLD_RISE = 0.33, 0.12  # which way the skin turns behind the lid
 
 MOUTH_BACK, MOUTH_FLOOR_ARC = -58e-3, -112e-3
 NOSTRIL_AXIS = np.array([0.05, 0.25, 1.0]) / np.linalg.norm([0.05, 0.25, 1.0])
@@ -27,7 +22,7 @@ NOSTRIL_AXIS = np.array([0.05, 0.25, 1.0]) / np.linalg.norm([0.05, 0.25, 1.0])
 
 def computed_nodes(figures: HeadFigures) -> dict[str, Floats]:
     """Positions (metres, left half) of the rings E1, E0, M0, B1, B2, BC, N1 and N2."""
-    return _lid_rings(figures.nodes, figures.eyeball) | _mouth_rings(figures.nodes) | _nostril_rings(figures.nodes)
+    return _lid_rings(figures) | _mouth_rings(figures.nodes) | _nostril_rings(figures.nodes)
 
 
 def _unit(v: Floats) -> Floats:
@@ -35,24 +30,25 @@ def _unit(v: Floats) -> Floats:
     return np.asarray(v / np.linalg.norm(v, axis=-1, keepdims=True), dtype=np.float64)
 
 
-def _lid_rings(nodes: Mapping[str, Floats], ball: EyeballFigures) -> dict[str, Floats]:
+def _lid_rings(figures: HeadFigures) -> dict[str, Floats]:
     """E1, the inner edge of the lid margin, and E0, where the skin folds back behind the lid."""
-    lash = np.array([nodes[ring_name("eyeE2", k)] for k in range(len(EYE_RIM))])
+    ball, margin = figures.eyeball, figures.lid_margin
+    lash = np.array([figures.nodes[ring_name("eyeE2", k)] for k in range(len(EYE_RIM))])
     radial = lash - ball.centre
     distance = np.linalg.norm(radial, axis=1)
     out = radial / distance[:, None]
-    toward = _unit(OPENING - lash)
+    toward = _unit(margin.opening - lash)
     toward = _unit(toward - np.sum(toward * out, axis=1)[:, None] * out)
-    shift = np.full(len(lash), RIM_SHIFT)
-    shift[0] = CANTHUS_SHIFT
-    thickness = np.clip(distance - ball.radius - LID_CLEARANCE, *LID_THICKNESS)
+    shift = np.full(len(lash), margin.shift)
+    shift[0] = margin.canthus_shift
+    thickness = np.clip(distance - ball.radius - margin.clearance, *margin.thickness)
     inner = lash - out * thickness[:, None] + toward * shift[:, None] - ball.centre
-    reach = np.full(len(lash), ball.radius + LID_CLEARANCE)
+    reach = np.full(len(lash), ball.radius + margin.clearance)
     keep = list(CARUNCLE)
     reach[keep] = np.maximum(reach[keep], np.linalg.norm(inner[keep], axis=1))
     inner = _unit(inner) * reach[:, None]
     fold = _unit(_unit(inner) - FOLD_ANGLE * toward + np.array([0.0, FOLD_RISE, 0.0]))
-    fold = fold * (ball.radius + FOLD_CLEARANCE)
+    fold = fold * (ball.radius + margin.fold_clearance)
     rings = {ring_name("eyeE1", k): ball.centre + p for k, p in enumerate(inner)}
     return rings | {ring_name("eyeE0", k): ball.centre + p for k, p in enumerate(fold)}
 

@@ -15,8 +15,6 @@ from .figures import EyeballFigures, HeadFigures
 from .limit import QuadEdges, cage_through, limit_matrix, subdivide
 from .rings import computed_nodes
 
-# Lid vertices stay this far outside the eyeball, metres.
-EYEBALL_GAP = 0.25e-3
 _MIRROR = np.array([-1.0, 1.0, 1.0])
 
 
@@ -100,7 +98,7 @@ def build_skin(figures: HeadFigures) -> HeadSkin:
         cage=cage,
     )
     skin.vertices[: len(targets)] = targets  # to the last bit, not only to the solver's tolerance
-    _clear_eyeball(skin, figures.eyeball)
+    _clear_eyeball(skin, figures.eyeball, figures.lid_margin.gap)
     _mirror_left(skin)
     return skin
 
@@ -117,13 +115,13 @@ def _vertex_mirror(cage: Cage, edges: QuadEdges) -> Ints:
     return mirror
 
 
-def _clear_eyeball(skin: HeadSkin, ball: EyeballFigures) -> None:
+def _clear_eyeball(skin: HeadSkin, ball: EyeballFigures, gap: float) -> None:
     """Push the left lid's hidden vertices out of the eyeball, in place; measured nodes stay where they are."""
     rings = [skin.node_index[ring_name(f"eye{ring}", k)] for ring in ("E2", "E1", "E0") for k in range(len(EYE_RIM))]
     lid = np.unique(skin.quads[np.isin(skin.quads, rings).any(axis=1)])
     radial = skin.vertices[lid] - ball.centre
     distance = np.linalg.norm(radial, axis=1)
-    reach = np.maximum(distance, ball.radius + EYEBALL_GAP)
+    reach = np.maximum(distance, ball.radius + gap)
     skin.vertices[lid] = ball.centre + radial * (reach / distance)[:, None]
 
 

@@ -14,7 +14,6 @@ from .piece import Piece, ladder_quads, tube_quads
 
 ARCH_ANGLE = 1.42  # half of the arch, in the parameter of its ellipse
 CROWN_SAMPLES = (0.0, 0.08, 0.25, 0.5, 0.75, 0.92)  # sections per crown, as shares of its width
-GROOVE = 0.9e-3  # depth of the groove between two crowns
 SECTION = 12  # points per section; 0-2 and 9-11 are gum, 2-9 the crown
 FRONT_GUM, FRONT_EDGE = 2, 5  # section points on the gum line and on the biting edge, both in front
 
@@ -37,7 +36,7 @@ def build_teeth(figures: TeethFigures, part: Part) -> DentalArch:
     foot = np.stack([figures.half_width * across, figures.back - figures.depth * along], axis=-1)
     inward = -np.stack([figures.depth * across, -figures.half_width * along], axis=-1)
     inward /= np.linalg.norm(inward, axis=1)[:, None]
-    depth, height = _sections(np.abs(t) / ARCH_ANGLE, gap)
+    depth, height = _sections(np.abs(t) / ARCH_ANGLE, gap, figures.groove)
     xy = foot[:, None, :] + inward[:, None, :] * depth[..., None]
     z = figures.gum + (figures.edge - figures.gum) * height
     vertices = np.concatenate([xy, z[..., None]], axis=-1).reshape(-1, 3)
@@ -81,14 +80,14 @@ def _arch_parameter(figures: TeethFigures, places: Floats) -> Floats:
     return np.asarray(np.sign(places) * np.interp(np.abs(places), length / length[-1], t), dtype=np.float64)
 
 
-def _sections(back: Floats, gap: Floats) -> tuple[Floats, Floats]:
+def _sections(back: Floats, gap: Floats, groove: float) -> tuple[Floats, Floats]:
     """Depth behind the front face (metres) and height (0 gum line, 1 edge) of the section points, (N, 12) each.
 
-    `back` runs from 0 at the incisors to 1 at the last molar, `gap` is 1 between crowns.
+    `back` runs from 0 at the incisors to 1 at the last molar, `gap` is 1 between crowns, `groove` the depth there.
     """
     thick = (6.0 + 3.5 * np.clip((back - 0.35) / 0.3, 0.0, 1.0)) * 1e-3
     edge = (1.2e-3) + 0.62 * (thick - 6e-3) / 3.5e-3 * 9e-3
-    one, inset = np.ones_like(back), GROOVE * gap
+    one, inset = np.ones_like(back), groove * gap
     corner = 0.10 * gap
     depth = [
         0.6e-3 * one, -0.35e-3 * one, 0.15e-3 + 0.4 * inset, inset, 0.15e-3 + inset, 0.5e-3 + inset,

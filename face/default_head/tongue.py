@@ -10,8 +10,6 @@ from .piece import Piece, fan_quads, tube_quads
 
 SEGMENTS, RINGS = 24, 15
 TIP_VERTEX = 0
-BACK_DROP = 9e-3  # how far the back end sinks, metres
-FURROW_WIDTH = 0.22  # of the half width
 
 
 def build_tongue(figures: TongueFigures) -> Piece:
@@ -22,9 +20,9 @@ def build_tongue(figures: TongueFigures) -> Piece:
     z = np.sin(polar)[:, None] * np.sin(around)
     y = np.broadcast_to(-np.cos(polar)[:, None], x.shape)
     ball = np.concatenate([[[0.0, -1.0, 0.0]], np.stack([x, y, z], axis=-1).reshape(-1, 3), [[0.0, 1.0, 0.0]]])
-    furrow = np.exp(-((ball[:, 0] / FURROW_WIDTH) ** 2)) * np.clip(ball[:, 2], 0.0, None)
+    furrow = np.exp(-((ball[:, 0] / figures.furrow) ** 2)) * np.clip(ball[:, 2], 0.0, None)
     vertices = figures.centre + ball * figures.semi_axes
-    vertices[:, 2] -= figures.groove * furrow + BACK_DROP * np.clip(ball[:, 1], 0.0, None) ** 2
+    vertices[:, 2] -= figures.groove * furrow + figures.back_drop * np.clip(ball[:, 1], 0.0, None) ** 2
     first, last = np.arange(SEGMENTS) + 1, np.arange(SEGMENTS) + 1 + SEGMENTS * (RINGS - 1)
     quads = np.concatenate(
         [fan_quads(0, first), tube_quads(RINGS, SEGMENTS) + 1, fan_quads(len(ball) - 1, last)[:, ::-1]]

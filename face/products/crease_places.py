@@ -10,19 +10,10 @@ from scipy.spatial import cKDTree
 from ...arrays import Floats, Ints
 from ..mesh.template import TemplateWarp
 from ..skin.outer import OuterSkin, smoothstep
-from .crease_table import CreaseRow
+from .crease_table import CREASES, CreaseRow
 
 #: Points along a line, for its course.
 COURSE = 49
-
-#: Share of a line at each end over which its crease fades.
-ENDS = 0.35
-
-#: Beyond the outermost lines a crease lasts as many spacings in full, and is gone after so many.
-LASTS, GONE = 0.6, 1.2
-
-#: Vertices farther from every line belong to other folds of the surface (lips, nostrils), spacings.
-FAR = 3.0
 
 _MIRROR = np.array([-1.0, 1.0, 1.0])
 
@@ -72,7 +63,7 @@ def _places(lines: list[Line], spacing: float) -> Floats:
     """(n, 2) place across and presence, from all lines of one side."""
     across = np.stack([line.across for line in lines])
     shares = np.stack([line.share for line in lines])
-    ends = smoothstep(shares / ENDS) * smoothstep((1.0 - shares) / ENDS)
+    ends = smoothstep(shares / CREASES.ends) * smoothstep((1.0 - shares) / CREASES.ends)
     last, every = len(lines) - 1, np.arange(across.shape[1])
     before = np.clip((across > 0.0).sum(axis=0) - 1, 0, last)
     after = np.minimum(before + 1, last)
@@ -84,8 +75,9 @@ def _places(lines: list[Line], spacing: float) -> Floats:
     nearest = np.argmin(np.abs(across), axis=0)
     ending = np.where(between, mixed, ends[nearest, every])
     beyond = np.maximum(np.maximum(-place, place - last), 0.0)
-    near = np.min([line.off for line in lines], axis=0) < FAR * spacing
-    presence = ending * smoothstep((GONE - beyond) / (GONE - LASTS)) * near
+    near = np.min([line.off for line in lines], axis=0) < CREASES.far * spacing
+    lasts, gone = CREASES.fades
+    presence = ending * smoothstep((gone - beyond) / (gone - lasts)) * near
     return np.column_stack([place, presence])
 
 

@@ -11,12 +11,25 @@ import numpy as np
 
 from ...arrays import Floats
 from ...tables import TomlTable, read_toml
-from ..figures import ANATOMY
+from ..figures import ANATOMY, Length, Pair, Share, read_figures
 from ..mesh.template import MM
 
 KEYS = (
     "sides", "look", "lines_mm", "of", "reason", "spacing_mm", "width_mm", "depth_mm", "onset", "full", "wander",
 )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class CreaseFigures:
+    """Of all creases (presets/anatomy/creases.toml)."""
+
+    averaged: Length
+    ends: Share
+    fades: Pair
+    far: float
+
+
+CREASES = read_figures("creases.every", CreaseFigures)
 
 
 class Look(StrEnum):

@@ -19,13 +19,12 @@ from ...arrays import Floats
 from ...errors import ParameterError
 from ...physics.mesh import unique_edges
 from ..face import Face
-from ..mesh.template import MM
 from ..skin.outer import smoothstep
 from .crease_places import place_crease
-from .crease_table import CreaseRow, Look, read_creases
+from .crease_table import CREASES, CreaseRow, Look, read_creases
 
-#: Compression is averaged over this radius, metres, in at most so many rounds over neighbouring vertices.
-AVERAGED, MOST_ROUNDS = 8.0 * MM, 12
+#: Compression is averaged in at most so many rounds over neighbouring vertices.
+MOST_ROUNDS = 12
 
 
 @dataclass(frozen=True)
@@ -58,7 +57,7 @@ class Creases:
         self.areas[self.index] = skin.areas
         edge = float(np.median(np.sqrt(skin.areas)))
         #: Rounds over which compression is averaged.
-        self.rounds = int(np.clip(round(2.5 * (AVERAGED / edge) ** 2), 1, MOST_ROUNDS))
+        self.rounds = int(np.clip(round(2.5 * (CREASES.averaged / edge) ** 2), 1, MOST_ROUNDS))
         #: Crease by name.
         self.creases: Mapping[str, Crease] = {
             row.name: Crease(row, self._spread(place_crease(skin, anatomy.warp, row)))
