@@ -6,9 +6,8 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ModelError, ParameterError
-from ..mpeg4 import FAP_COUNT, FEATURES
+from ..mpeg4 import ANGLE_UNIT, FAP_COUNT, FEATURES
 from .anatomy import Anatomy
-from .bodies.direct_faps import ANGLE_UNIT
 from .mesh.fap_units import unit_length
 
 

@@ -41,6 +41,7 @@ from .high_level import (
     viseme_frame,
 )
 from .standard import (
+    ANGLE_UNIT,
     FAP_COUNT,
     FAPS,
     FAPU,
@@ -68,6 +69,7 @@ __all__ = [
     "ACTION_UNITS",
     "ACTIVATION_MAX",
     "ACTIVATION_MIN",
+    "ANGLE_UNIT",
     "ARCHETYPES",
     "BASE_WORDS",
     "EXPRESSIONS",

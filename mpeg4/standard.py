@@ -276,3 +276,6 @@ FAPU: Mapping[Unit, FapuDefinition] = MappingProxyType(
     }
 )
 """How each FAP unit is measured."""
+
+ANGLE_UNIT: float = FAPU[Unit.AU].radians or 0.0
+"""Radians in one unit of the FAPs that are angles."""

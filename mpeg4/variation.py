@@ -19,7 +19,7 @@ from ..errors import ParameterError
 from ..resources import PRESETS
 from ..tables import TomlTable, read_toml
 from .emotions.profile import Profile
-from .standard import FAP_COUNT, FAPU, Unit
+from .standard import ANGLE_UNIT, FAP_COUNT
 from .timing import Ramp
 
 HABITS = PRESETS / "variation.toml"
@@ -285,6 +285,4 @@ def _settled(times: Floats, rise: float, fall: float) -> Floats:
 
 def _units(degrees: float) -> float:
     """FAP units of an angle."""
-    radians = FAPU[Unit.AU].radians
-    assert radians is not None
-    return math.radians(degrees) / radians
+    return math.radians(degrees) / ANGLE_UNIT

@@ -5,10 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats
-from ...mpeg4 import FAPU, Unit
-
-#: Radians in one unit of the FAPs that are angles.
-ANGLE_UNIT: float = FAPU[Unit.AU].radians or 0.0
 
 
 def value_of(frame: Floats, number: int) -> float:

@@ -8,10 +8,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...arrays import Floats, Ints
+from ...mpeg4 import ANGLE_UNIT
 from ..figures import Length, Share, read_figures
 from ..mechanisms.lids import Eye
 from ..skin.outer import smoothstep
-from .direct_faps import ANGLE_UNIT, value_of
+from .direct_faps import value_of
 from .surroundings import Look
 
 

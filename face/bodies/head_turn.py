@@ -8,9 +8,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...arrays import Floats, Ints
+from ...mpeg4 import ANGLE_UNIT
 from ..figures import Length, Pair, read_figures
 from ..skin.outer import smoothstep
-from .direct_faps import ANGLE_UNIT, value_of
+from .direct_faps import value_of
 
 #: The skull's pose is refitted this often with weight on the vertices that agree to about this distance, metres.
 SKULL_ROUNDS, SKULL_TOLERANCE = 12, 1e-6

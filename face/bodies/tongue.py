@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Floats, Ints
+from ...mpeg4 import ANGLE_UNIT
 from ..figures import Length, Share, read_figures
 from ..skin.outer import smoothstep
-from .direct_faps import ANGLE_UNIT, value_of
+from .direct_faps import value_of
 
 #: FAPs of the tongue, as places in a frame.
 TONGUE = slice(42, 47)

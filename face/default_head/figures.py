@@ -12,13 +12,13 @@ from pathlib import Path
 from ...arrays import Floats
 from ...resources import PRESETS
 from ...tables import TomlTable, read_toml
+from ..mesh.template import MM
 from .cage import EAR_RIM, EAR_RINGS, EYE_RIM, MOUTH_RIM, ROWS, grid_name, grid_nodes, on_midline, ring_name
 
 DEFAULT_FIGURES = PRESETS / "heads" / "default.toml"
 
 MEASURED_EYE_RINGS = ("E4", "E3", "E2")
 MEASURED_MOUTH_RINGS = ("M4", "M3", "M2", "M1")
-MM = 1e-3
 
 
 @dataclass(frozen=True)

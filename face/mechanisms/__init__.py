@@ -8,5 +8,6 @@ buccinator, chin, orbicularis_oris,       what their pulls have that the paper's
 platysma
 
 A mechanism says what it contributes; skin, muscles and actuators add the contributions up.
-Its figures of muscles stand in presets/anatomy/muscles/<name>.toml.
+Its muscles stand in presets/anatomy/muscles/<name>.toml; its other figures in jaw.toml, lids.toml, skin.toml and
+regions.toml beside that folder.
 """

@@ -11,10 +11,9 @@ import numpy as np
 
 from ...arrays import Floats, Ints
 from ...errors import ParameterError
-from ...mpeg4 import FAP_COUNT, FAPS, GROUPS
+from ...mpeg4 import ANGLE_UNIT, FAP_COUNT, FAPS, GROUPS
 from ...progress import Progress, Report
 from ...tables import read_csv
-from ..bodies.direct_faps import ANGLE_UNIT
 from ..drive.synergies import load_synergies, template_millimetres
 from ..drive.wishes import Drive
 from ..face import Face

@@ -13,8 +13,8 @@ import numpy as np
 
 from ...arrays import Bools, Floats, Ints
 from ...errors import ModelError, ParameterError
-from ...mpeg4 import FAP_COUNT, FAPS
-from ...mpeg4.streams.capture.rotation import ANGLE_UNIT, head_faps
+from ...mpeg4 import ANGLE_UNIT, FAP_COUNT, FAPS
+from ...mpeg4.streams.capture.rotation import head_faps
 from ..mesh.fap_units import Fapu, fapu, unit_length
 from ..mesh.template import TEMPLATE_POINTS
 

@@ -89,9 +89,7 @@ def _guesses_of_whole(surface: Surface, cloud: Cloud) -> Work[list[Guess]]:
     return best_guesses(guesses)
 
 
-def _best_place(
-    surface: Surface, cloud: Cloud, guesses: Sequence[Guess]
-) -> Work[Located | None]:
+def _best_place(surface: Surface, cloud: Cloud, guesses: Sequence[Guess]) -> Work[Located | None]:
     """The place among some guesses that looks most like a face."""
     found: list[Located] = []
     for number, guess in enumerate(guesses[:ALIGNED]):

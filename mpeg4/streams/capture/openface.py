@@ -11,9 +11,9 @@ import numpy as np
 
 from ....arrays import Floats
 from ....errors import FormatError
-from ...standard import FAP_COUNT
+from ...standard import ANGLE_UNIT, FAP_COUNT
 from .columns import load_columns
-from .rotation import ANGLE_UNIT, euler_matrix, head_faps, in_head_axes
+from .rotation import euler_matrix, head_faps, in_head_axes
 from .samples import Samples
 from .table_file import TableFile
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ....arrays import Floats
-from ...standard import FAPU, Unit
-
-ANGLE_UNIT = FAPU[Unit.AU].radians or 0.0
+from ...standard import ANGLE_UNIT
 
 
 def euler_matrix(x: Floats, y: Floats, z: Floats) -> Floats:
