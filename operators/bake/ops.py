@@ -38,7 +38,7 @@ def silent_reason(obj: Any) -> str | None:
     """Why there is no motion to bake, or None."""
     timeline = obj.risorius.timeline
     if timeline.clips and all(clip.mute and not clip.solo for clip in timeline.clips):
-        return "All clips of the timeline are muted"
+        return "All clips are muted: unmute one"
     return None
 
 
@@ -150,7 +150,8 @@ class RISORIUS_OT_bake_expression(BakeOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_bake_motion(BakeOperator, bpy.types.Operator):
-    """Simulate how muscles, skin and jaw move through all clips, or the one emotion, and bake that frame by frame"""
+    """Simulate the motion of muscles, skin and jaw through all clips, or the current emotion, and bake it frame by \
+frame"""
 
     bl_idname = "risorius.bake_motion"
     bl_label = "Bake Motion"
@@ -168,7 +169,7 @@ class RISORIUS_OT_bake_motion(BakeOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_bake_strips(BakeOperator, bpy.types.Operator):
-    """Bake each clip as one shape key with a strip of its own in the NLA editor, to be moved and edited by hand"""
+    """Bake each clip as a shape key with its own strip in the NLA editor, to move and edit by hand"""
 
     bl_idname = "risorius.bake_strips"
     bl_label = "Bake Strips"
@@ -180,7 +181,7 @@ class RISORIUS_OT_bake_strips(BakeOperator, bpy.types.Operator):
         """Only on a face that can be written to, and with clips."""
         reason = face_reason(context.object)
         if reason is None and not context.object.risorius.timeline.clips:
-            return "There is no clip on the timeline yet"
+            return "The timeline has no clips yet: add one with +"
         return reason or silent_reason(context.object)
 
     def baking(self, context: Any) -> Work[bake.BakeResult]:
@@ -189,7 +190,7 @@ class RISORIUS_OT_bake_strips(BakeOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_bake_again(BakeOperator, bpy.types.Operator):
-    """Bake anew what is out of date: its settings have changed since it was baked"""
+    """Bake again everything whose settings have changed since its last bake"""
 
     bl_idname = "risorius.bake_again"
     bl_label = "Bake Again"
@@ -221,16 +222,16 @@ class RISORIUS_OT_bake_again(BakeOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_clear(RisoriusOperator, bpy.types.Operator):
-    """Remove what Risorius has baked on this face: its own shape keys and actions. Yours stay"""
+    """Remove the shape keys and actions that Risorius has baked on this face. Your own keys stay"""
 
     bl_idname = "risorius.clear"
-    bl_label = "Clear"
+    bl_label = "Clear Bake"
     bl_options = {"REGISTER", "UNDO"}
     needs_scipy = False
 
     clip: Annotated[
         str,
-        StringProperty(name="Name", description="Which bake to remove. Empty: all of this face", options={"SKIP_SAVE"}),
+        StringProperty(name="Name", description="Bake to remove. Empty: all bakes of this face", options={"SKIP_SAVE"}),
     ]
 
     @classmethod

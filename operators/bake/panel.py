@@ -47,11 +47,11 @@ class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
         if reason is not None:
             layout.label(text=reason.partition(": ")[2].partition(":")[0].capitalize(), icon="INFO")
         elif not has_points(obj):
-            layout.label(text="Finds the face first", icon="INFO")
+            layout.label(text="The face is found first", icon="INFO")
         column = layout.column(align=True)
         column.scale_y = 1.3
         if clips:
-            column.operator(RISORIUS_OT_bake_motion.bl_idname, text="Bake One Motion", icon="PHYSICS")
+            column.operator(RISORIUS_OT_bake_motion.bl_idname, text="Bake Motion", icon="PHYSICS")
             column.operator(RISORIUS_OT_bake_strips.bl_idname, icon="NLA")
         else:
             column.operator(RISORIUS_OT_bake_expression.bl_idname, icon="SHAPEKEY_DATA")
@@ -72,4 +72,4 @@ class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
             row.operator(RISORIUS_OT_clear.bl_idname, text="", icon="X").clip = clip
         if stale:
             layout.operator(RISORIUS_OT_bake_again.bl_idname, icon="FILE_REFRESH")
-        layout.operator(RISORIUS_OT_clear.bl_idname, text="Clear All", icon="TRASH").clip = ""
+        layout.operator(RISORIUS_OT_clear.bl_idname, text="Clear All Bakes", icon="TRASH").clip = ""

@@ -26,24 +26,27 @@ class RISORIUS_PG_bake(bpy.types.PropertyGroup):
         str,
         StringProperty(
             name="Name",
-            description="Name of the shape keys and the action. Empty: named after the emotion. "
-            "What was baked under the same name is replaced",
+            description="Name of the shape keys and the action. Empty: the name of the emotion. A bake with the"
+            " same name is replaced",
         ),
     ]
     start: Annotated[
         int,
-        IntProperty(name="Start Frame", description="Frame at which the expression begins to show", default=1),
+        IntProperty(name="Start Frame", description="Frame at which the expression starts", default=1),
     ]
-    onset: Annotated[float, seconds("Onset (s)", "Seconds until the expression is full", _TIMING.onset)]
-    apex: Annotated[float, seconds("Apex (s)", "Seconds that the expression is held", _TIMING.apex)]
-    offset: Annotated[float, seconds("Offset (s)", "Seconds until the face is at rest again", _TIMING.offset)]
+    onset: Annotated[float, seconds("Onset (s)", "Seconds from the start to the full expression", _TIMING.onset)]
+    apex: Annotated[float, seconds("Apex (s)", "Seconds for which the expression is held", _TIMING.apex)]
+    offset: Annotated[
+        float, seconds("Offset (s)", "Seconds from the end of the apex to the neutral face", _TIMING.offset)
+    ]
     creases: Annotated[
         bool,
         BoolProperty(
             name="Creases",
-            description="With the next bake, mark on the mesh where squeezed skin wrinkles, and add a modifier that "
-            "measures how much. Your materials stay as they are: add the shader node group Risorius Creases to one to "
-            "see it. The default head's material has it. Off: the next bake takes all of that away",
+            description="Prepare wrinkles with the next bake: mark on the mesh where compressed skin creases, "
+            "and add a modifier that measures how much. To see them, add the shader node group "
+            "Risorius Creases to the material; the default head's material has it. If off, the next"
+            " bake removes marks and modifier",
             default=False,
         ),
     ]

@@ -9,10 +9,10 @@ from .props import own_activation
 
 
 class RISORIUS_OT_reset_activation(RisoriusOperator, bpy.types.Operator):
-    """Set the activation to the word's own value"""
+    """Reset the activation to the word's own value"""
 
     bl_idname = "risorius.reset_activation"
-    bl_label = "Word's Own Activation"
+    bl_label = "Reset Activation"
     bl_options = {"REGISTER", "UNDO"}
     needs_scipy = False
 
@@ -23,7 +23,7 @@ class RISORIUS_OT_reset_activation(RisoriusOperator, bpy.types.Operator):
             return "There is no active object"
         emotion = context.object.risorius.emotion
         same = abs(emotion.activation - own_activation(emotion.word)) < 1e-4
-        return "The activation is the word's own already" if same else None
+        return "The activation already has the word's own value" if same else None
 
     def run(self, context: Any) -> str:
         """Set it."""

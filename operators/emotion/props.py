@@ -52,7 +52,7 @@ def _described(word: str) -> str:
     """The word's tooltip."""
     entry = WORDS[word]
     if entry.neutral:
-        return "No expression: the resting face"
+        return "No expression: the neutral face"
     if entry.category == word:
         where = "one of the six archetypes"
     elif entry.category is not None:
@@ -78,7 +78,7 @@ def variant_items(owner: Any, context: Any) -> list[tuple[str, str, str, int]]:
     category = entry.category if entry is not None else None
     key = str(category or "")
     if key not in _variant_items:
-        items = [(DEFAULT_VARIANT, "Default", "The variant that suits this word best", 0)]
+        items = [(DEFAULT_VARIANT, "Default", "The variant that fits this word best", 0)]
         for number in VARIANTS[category] if category is not None else ():
             items.append((str(number), f"{key.capitalize()} {number}", f"Variant {number} of {key}", int(number) + 1))
         _variant_items[key] = items
@@ -108,10 +108,10 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Choose By",
-            description="Whether the emotion is a word, or a point of the emotion wheel",
+            description="Choose the emotion by a word or by a point of the emotion wheel",
             items=(
                 ("WORD", "Word", "One of the emotion words"),
-                ("WHEEL", "Wheel", "Any point of the emotion wheel: a direction, and how far out"),
+                ("WHEEL", "Wheel", "Any point of the emotion wheel: direction and distance from the centre"),
             ),
             update=changed,
         ),
@@ -120,8 +120,8 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
         float,
         FloatProperty(
             name="Angle",
-            description="Direction on the emotion wheel, counter-clockwise from the right: fear is at 70°, joy at "
-            "323°. Between two archetypes their expressions mix",
+            description="Direction on the emotion wheel, counter-clockwise from the right: fear is at 70°, joy "
+            "at 323°. Between two archetypes, their expressions mix",
             default=own_angle(FIRST_WORD),
             subtype="ANGLE",
             soft_min=-WHOLE,
@@ -133,13 +133,15 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
     ]
     word: Annotated[
         str,
-        EnumProperty(name="Emotion", description="What the face expresses", items=word_items, update=_word_chosen),
+        EnumProperty(
+            name="Emotion", description="Emotion that the face expresses", items=word_items, update=_word_chosen
+        ),
     ]
     variant: Annotated[
         str,
         EnumProperty(
             name="Variant",
-            description="People show an emotion in several ways: which one",
+            description="Variant of the expression: people show the same emotion in several ways",
             items=variant_items,
             update=changed,
         ),
@@ -148,8 +150,8 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
         float,
         FloatProperty(
             name="Activation",
-            description="How strongly it is felt, from 1 (hardly) to 7 (utterly). Below the slider is the "
-            "word's own value",
+            description="How strongly the emotion is felt, from 1 (calm) to 7 (extreme). The word's own value "
+            "is shown below the slider",
             default=own_activation(FIRST_WORD),
             min=1.0,
             max=7.0,
@@ -162,7 +164,8 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
         int,
         IntProperty(
             name="Seed",
-            description="0 is the typical face; every other number draws another one within the emotion's ranges",
+            description="Random seed of the expression. 0 is the typical face; any other number draws a "
+            "different face within the emotion's ranges",
             default=0,
             min=0,
             update=changed,
@@ -172,12 +175,17 @@ class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Drive",
-            description="What the face does with what is asked of it",
+            description="How the face carries out the requested animation parameters",
             items=(
-                ("natural", "Natural", "What a face can do: anatomy and habit fill what the emotion leaves open"),
-                ("exact", "Exact", "Meet the requested animation parameters exactly"),
-                ("muscles", "Muscles Only", "Muscle contractions alone"),
-                ("points", "Points Only", "Feature points are moved and the skin follows; no muscles"),
+                (
+                    "natural",
+                    "Natural",
+                    "What a face can do: anatomy limits the request and fills in the parts "
+                    "that the emotion leaves open",
+                ),
+                ("exact", "Exact", "Reach the requested animation parameters exactly"),
+                ("muscles", "Muscles Only", "Muscle contractions only, without correction"),
+                ("points", "Points Only", "Move the feature points and let the skin follow, without muscles"),
             ),
             default="natural",
             update=changed,

@@ -43,7 +43,8 @@ class RISORIUS_OT_add_head(RisoriusOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_import_points(RisoriusOperator, bpy.types.Operator, ImportHelper):
-    """Read the feature points of this mesh from a JSON file such as {"8.4": 6207, ...}: MPEG-4 name and vertex index"""
+    """Import the feature points of this mesh from a JSON file such as {"8.4": 6207, ...}: MPEG-4 name and vertex \
+index"""
 
     bl_idname = "risorius.import_points"
     bl_label = "Import Feature Points"
@@ -66,10 +67,10 @@ class RISORIUS_OT_import_points(RisoriusOperator, bpy.types.Operator, ImportHelp
 
 
 class RISORIUS_OT_forget_points(RisoriusOperator, bpy.types.Operator):
-    """Forget the feature points of this mesh. What has been baked stays"""
+    """Remove the feature points of this mesh. Baked animation stays"""
 
     bl_idname = "risorius.forget_points"
-    bl_label = "Forget Feature Points"
+    bl_label = "Clear Feature Points"
     bl_options = {"REGISTER", "UNDO"}
     needs_scipy = False
 
@@ -77,9 +78,9 @@ class RISORIUS_OT_forget_points(RisoriusOperator, bpy.types.Operator):
     def refusal(cls, context: Any) -> str | None:
         """Only where there are points."""
         obj = context.object
-        return None if obj is not None and has_points(obj) else "There are no feature points to forget"
+        return None if obj is not None and has_points(obj) else "This mesh has no feature points"
 
     def run(self, context: Any) -> str:
         """Forget them."""
         forget_points(context.object)
-        return f"{context.object.name} has no feature points any more"
+        return f"{context.object.name} has no feature points now"

@@ -62,13 +62,13 @@ class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
         column.label(text=obj.name, icon="MESH_DATA")
         if may_be_joined(obj):
             box = layout.box().column(align=True)
-            box.label(text="A face was joined into it?", icon="INFO")
+            box.label(text="Was a face joined into it?", icon="INFO")
             box.operator(RISORIUS_OT_take_over_points.bl_idname, icon="LINKED")
         column = _large(layout)
         column.operator(RISORIUS_OT_find_points.bl_idname, icon="VIEWZOOM")
         column.operator(RISORIUS_OT_bake_six.bl_idname, icon="PLAY")
         column = layout.column(align=True)
-        column.label(text="Where that finds no face:")
+        column.label(text="If no face is found:")
         column.operator(RISORIUS_OT_click_points.bl_idname, icon="RESTRICT_SELECT_OFF")
         column.operator(RISORIUS_OT_import_points.bl_idname, icon="IMPORT")
 
@@ -98,7 +98,7 @@ class RISORIUS_PT_face(Sidebar, bpy.types.Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         obj, face = context.object, context.object.risorius.face
         column = layout.column(align=True)
-        column.label(text="Parts in other objects")
+        column.label(text="Parts in separate objects")
         for name in ("eyeball_l", "eyeball_r", "teeth_upper", "teeth_lower", "tongue"):
             column.prop(face, name)
         if obj.data.users > 1 or refusals.reason(obj) is not None:

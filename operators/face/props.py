@@ -20,7 +20,7 @@ def _part(name: str, what: str) -> Any:
     return PointerProperty(
         type=bpy.types.Object,
         name=name,
-        description=f"The object of {what}, where it is not part of the head's mesh. It follows the face",
+        description=f"Object of {what}, if it is not part of the head's mesh. It follows the face",
         poll=_is_mesh,
     )
 
@@ -37,7 +37,7 @@ class RISORIUS_PG_face(bpy.types.PropertyGroup):
         bool,
         BoolProperty(
             name="Make Single User",
-            description="Where other objects share this mesh, give this one a copy of its own to bake onto",
+            description="If other objects share this mesh, give this object its own copy before baking",
             default=False,
         ),
     ]

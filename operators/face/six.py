@@ -20,11 +20,11 @@ from ..points.show import show_finding
 
 
 class RISORIUS_OT_bake_six(WorkOperator, bpy.types.Operator):
-    """Bake joy, surprise, fear, anger, sadness and disgust: a shape key each, one after another on the timeline. \
-The face is found first where its points are not known"""
+    """Bake joy, surprise, fear, anger, sadness and disgust as one shape key each, one after another on the \
+timeline. If the mesh has no feature points yet, find the face first"""
 
     bl_idname = "risorius.bake_six"
-    bl_label = "Six Emotions"
+    bl_label = "Bake Six Emotions"
     bl_options = {"REGISTER", "UNDO"}
     title = "Baking six emotions"
 
@@ -62,4 +62,4 @@ The face is found first where its points are not known"""
         if not bpy.app.background:
             scene.frame_set(round(sum(apex) / 2.0))
             turn_to_face(context, read_kept(context.object))
-        return f"{context.object.name}: six emotions, frames 1 to {last}; press the space bar over the face to play"
+        return f"{context.object.name}: six emotions, frames 1 to {last}; press the space bar over the viewport to play"

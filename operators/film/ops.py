@@ -26,13 +26,13 @@ BAKING = 0.3
 
 
 class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
-    """Render the face as a film; where nothing moves it yet, its timeline is baked first. Your scene stays as it is"""
+    """Render the face as a video. If nothing is baked yet, bake the timeline first. Your scene does not change"""
 
     bl_idname = "risorius.render_film"
-    bl_label = "Render Film"
+    bl_label = "Render Video"
     bl_options = {"REGISTER"}
     needs_scipy = False
-    title = "Rendering the film"
+    title = "Rendering the video"
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
@@ -143,7 +143,7 @@ def absolute(name: str, suffix: str, *, keep: tuple[str, ...]) -> Path:
     SceneError : no name.
     """
     if not name.strip():
-        raise SceneError("Output", "has no file to be written to: choose one")
+        raise SceneError("Output", "has no file: choose one")
     homeless = name.startswith("//") and not bpy.data.filepath
     path = Path.home() / name[2:] if homeless else Path(bpy.path.abspath(name))
     return path if path.suffix.lower() in keep else path.with_name(path.name + suffix)

@@ -14,7 +14,7 @@ from .ops import RISORIUS_OT_export_gltf, RISORIUS_OT_render_film
 class RISORIUS_PT_film(Sidebar, bpy.types.Panel):
     """Where to, who draws, how large."""
 
-    bl_label = "Film and Export"
+    bl_label = "Render and Export"
     bl_parent_id = "RISORIUS_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
 

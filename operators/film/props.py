@@ -18,8 +18,8 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
         str,
         StringProperty(
             name="File",
-            description="The film to write. A name that begins with // lies beside the .blend file, or in your home "
-            "folder where that was never saved",
+            description="Video file to write. A path that begins with // is relative to the .blend file, or to "
+            "your home folder if the .blend file was never saved",
             default="//risorius.mp4",
             subtype="FILE_PATH",
             options=_RELATIVE,
@@ -29,11 +29,11 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Engine",
-            description="Who draws the film",
+            description="Render engine for the video",
             items=(
-                ("WORKBENCH", "Workbench", "Fast and plain: the face in its viewport colours"),
-                ("EEVEE", "EEVEE", "With your materials and soft light; wants a graphics card"),
-                ("CYCLES", "Cycles", "With your materials and real light; slow"),
+                ("WORKBENCH", "Workbench", "Fast: the face in its viewport colours"),
+                ("EEVEE", "EEVEE", "Your materials and soft light; needs a graphics card"),
+                ("CYCLES", "Cycles", "Your materials and realistic light; slow"),
             ),
             default="WORKBENCH",
         ),
@@ -54,10 +54,10 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Camera",
-            description="Who looks at the face",
+            description="Camera to render from",
             items=(
-                ("FACE", "On the Face", "A portrait camera with lights of its own; nothing but the face is seen"),
-                ("SCENE", "Scene's Own", "The camera, lights, world and objects of your scene"),
+                ("FACE", "Portrait", "Use a portrait camera with its own lights; only the face is rendered"),
+                ("SCENE", "Scene", "Use the camera, lights, world and objects of your scene"),
             ),
             default="FACE",
         ),
@@ -66,10 +66,10 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Frames",
-            description="Which frames to render",
+            description="Frames to render",
             items=(
-                ("CLIP", "Clip", "The frames of the clip that the face plays"),
-                ("SCENE", "Scene", "The frame range of the scene"),
+                ("CLIP", "Clip", "Render the frames of the animation that the face plays"),
+                ("SCENE", "Scene", "Render the frame range of the scene"),
             ),
             default="CLIP",
         ),
@@ -78,11 +78,11 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Output",
-            description="What to write",
+            description="Files to write",
             items=(
-                ("MP4", "MP4", "A film"),
-                ("PNG", "Pictures", "A picture per frame, as PNG files in a folder named after the film"),
-                ("BOTH", "Both", "A film, and a picture per frame"),
+                ("MP4", "Video", "Write a video"),
+                ("PNG", "Images", "Write an image per frame, as PNG files in a folder named after the video"),
+                ("BOTH", "Both", "Write a video, and an image per frame"),
             ),
             default="MP4",
         ),
@@ -91,8 +91,9 @@ class RISORIUS_PG_film(bpy.types.PropertyGroup):
         str,
         StringProperty(
             name="glTF",
-            description="The glTF file to export the face with its clips to: .glb, or .gltf for separate files. A name "
-            "that begins with // lies beside the .blend file, or in your home folder where that was never saved",
+            description="glTF file for the face with its clips: .glb, or .gltf for separate files. A path that "
+            "begins with // is relative to the .blend file, or to your home folder if the .blend "
+            "file was never saved",
             default="//risorius.glb",
             subtype="FILE_PATH",
             options=_RELATIVE,

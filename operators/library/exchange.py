@@ -132,4 +132,4 @@ def _check_muscles(preset: Preset) -> None:
 
         for name in preset.contractions:
             if name not in contractibles():
-                raise ParameterError("muscle in the preset", "must be one that Risorius knows", name)
+                raise ParameterError("muscle in the preset", "must be a known muscle", name)

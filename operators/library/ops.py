@@ -24,7 +24,7 @@ from .exchange import expression_of, load, own_folder, timeline_of
 
 
 class RISORIUS_OT_save_preset(RisoriusOperator, bpy.types.Operator):
-    """Save the expression of the Emotion panel, or the whole timeline, as a preset to be loaded on any face"""
+    """Save the expression in the Emotion panel, or the whole timeline, as a preset for any face"""
 
     bl_idname = "risorius.save_preset"
     bl_label = "Save Preset"
@@ -33,19 +33,25 @@ class RISORIUS_OT_save_preset(RisoriusOperator, bpy.types.Operator):
 
     preset: Annotated[
         str,
-        StringProperty(name="Name", description="Name of the preset; one of this name is replaced", default="Mine"),
+        StringProperty(
+            name="Name", description="Name of the preset. A preset with the same name is replaced", default="Mine"
+        ),
     ]
     kind: Annotated[
         str,
         EnumProperty(
             name="What",
-            description="What is saved",
+            description="Content of the preset",
             items=(
-                (PresetKind.EXPRESSION.value, "Expression", "What the Emotion panel shows, and muscles set by hand"),
+                (
+                    PresetKind.EXPRESSION.value,
+                    "Expression",
+                    "Save the emotion in the Emotion panel, and muscles set by hand",
+                ),
                 (
                     PresetKind.TIMELINE.value,
                     "Timeline",
-                    "All clips with their times, the variation, muscles set by hand",
+                    "Save all clips with their times, the variation, and muscles set by hand",
                 ),
             ),
         ),
@@ -64,10 +70,10 @@ class RISORIUS_OT_save_preset(RisoriusOperator, bpy.types.Operator):
         """Save it in the user's folder."""
         obj = context.object
         if self.kind == PresetKind.TIMELINE and not obj.risorius.timeline.clips:
-            raise SceneError(obj.name, "there is no clip on the timeline yet: add one, or save the expression")
+            raise SceneError(obj.name, "has no clips yet: add one, or save the expression")
         folder = own_folder(create=True)
         if folder is None:
-            raise SceneError("Blender", "has no folder for presets of yours: check its file paths")
+            raise SceneError("Blender", "has no folder for your presets: check the file paths in the preferences")
         stem = re.sub(r"[^\w\- ]", "_", str(self.preset)).strip() or "Mine"
         held = expression_of(obj) if self.kind == PresetKind.EXPRESSION else timeline_of(obj, context.scene)
         path = folder / f"{stem}.toml"
@@ -76,7 +82,7 @@ class RISORIUS_OT_save_preset(RisoriusOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, bpy.types.Operator):
-    """Load an expression, or a timeline from the current frame on in place of the clips that are there"""
+    """Load an expression, or a timeline that replaces the current clips and starts at the current frame"""
 
     bl_idname = "risorius.load_preset"
     bl_label = "Load Preset"
@@ -87,7 +93,7 @@ class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, bpy.types.Operator
     filter_glob: Annotated[str, StringProperty(default="*.toml", options={"HIDDEN"})]
     filepath: Annotated[
         str,
-        StringProperty(name="File", description="The preset file", subtype="FILE_PATH", options={"SKIP_SAVE"}),
+        StringProperty(name="File", description="Preset file to load", subtype="FILE_PATH", options={"SKIP_SAVE"}),
     ]
 
     @classmethod
@@ -106,7 +112,7 @@ class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, bpy.types.Operator
 
 
 class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
-    """Bake a stream of MPEG-4 facial animation parameters (.fap) on the face, from the current frame on"""
+    """Bake a stream of MPEG-4 facial animation parameters (.fap) on the face, starting at the current frame"""
 
     bl_idname = "risorius.import_fap"
     bl_label = "Import FAP"
@@ -116,7 +122,7 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
     filename_ext = ".fap"
     filter_glob: Annotated[str, StringProperty(default="*.fap", options={"HIDDEN"})]
     filepath: Annotated[
-        str, StringProperty(name="File", description="The .fap file", subtype="FILE_PATH", options={"SKIP_SAVE"})
+        str, StringProperty(name="File", description="FAP file to bake", subtype="FILE_PATH", options={"SKIP_SAVE"})
     ]
 
     _was_asked_for = False
@@ -145,7 +151,7 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
         fps = scene_fps(context.scene)
         frames = at_rate(stream.expanded(), stream.fps, fps)
         if len(frames) == 0:
-            raise FormatError(path, "holds no frames")
+            raise FormatError(path, "contains no frames")
         return bake_motion(
             target_of(obj),
             FapMotion(frames),

@@ -13,7 +13,7 @@ from .ops import RISORIUS_OT_import_fap, RISORIUS_OT_load_preset, RISORIUS_OT_sa
 
 
 class RISORIUS_MT_library(bpy.types.Menu):
-    """Expressions and timelines to load on this face, and to save from it"""
+    """Load or save expressions and timelines"""
 
     bl_idname = "RISORIUS_MT_library"
     bl_label = "Presets"

@@ -13,14 +13,14 @@ from .props import by_hand_of, set_by_hand
 
 
 class RISORIUS_OT_reset_muscles(RisoriusOperator, bpy.types.Operator):
-    """Leave a muscle, or all muscles, to the emotion again: what was set by hand goes"""
+    """Let the emotion control a muscle, or all muscles, again. Contractions set by hand are removed"""
 
     bl_idname = "risorius.reset_muscles"
     bl_label = "Reset Muscles"
     bl_options = {"REGISTER", "UNDO"}
 
     muscle: Annotated[
-        str, StringProperty(name="Muscle", description="Which muscle; empty: all of them", options={"SKIP_SAVE"})
+        str, StringProperty(name="Muscle", description="Muscle to reset. Empty: all muscles", options={"SKIP_SAVE"})
     ]
 
     @classmethod
@@ -40,4 +40,4 @@ class RISORIUS_OT_reset_muscles(RisoriusOperator, bpy.types.Operator):
             obj.risorius.muscles.by_hand.clear()
         changed(obj.risorius.muscles, context)
         count = before - len(by_hand_of(obj))
-        return f"{obj.name}: {count} muscle{'s' * (count != 1)} left to the emotion again"
+        return f"{obj.name}: {count} muscle{'s' * (count != 1)} controlled by the emotion again"

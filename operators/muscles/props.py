@@ -18,9 +18,7 @@ class RISORIUS_PG_by_hand(bpy.types.PropertyGroup):
 
     contraction: Annotated[
         float,
-        FloatProperty(
-            name="Contraction", description="From 0 (slack) to 1 (as far as the muscle goes)", min=0.0, max=1.0
-        ),
+        FloatProperty(name="Contraction", description="Contraction from 0 (relaxed) to 1 (full)", min=0.0, max=1.0),
     ]
 
 
@@ -31,12 +29,12 @@ class RISORIUS_PG_muscles(bpy.types.PropertyGroup):
         Entries[RISORIUS_PG_by_hand],
         CollectionProperty(
             type=RISORIUS_PG_by_hand,
-            name="By Hand",
-            description="Contractions set by hand; they stay when the emotion changes",
+            name="Set by Hand",
+            description="Contractions set by hand. They stay when the emotion changes",
         ),
     ]
     linked: Annotated[
-        bool, BoolProperty(name="Link Sides", description="Both sides of the face contract alike", default=True)
+        bool, BoolProperty(name="Link Sides", description="Contract both sides of the face alike", default=True)
     ]
 
 
@@ -95,7 +93,7 @@ class RISORIUS_PG_muscle_name(bpy.types.PropertyGroup):
         float,
         FloatProperty(
             name="Contraction",
-            description="How far this muscle is contracted, 0 to 1. Moving the slider sets it by hand: it then stays "
+            description="Contraction of this muscle, 0 to 1. Move the slider to set it by hand: it then stays "
             "when the emotion changes, until you reset it",
             min=0.0,
             max=1.0,
@@ -112,10 +110,10 @@ class RISORIUS_PG_muscle_list(bpy.types.PropertyGroup):
         Entries[RISORIUS_PG_muscle_name],
         CollectionProperty(type=RISORIUS_PG_muscle_name, name="Muscles", description="All muscles, lids and the jaw"),
     ]
-    active: Annotated[int, IntProperty(name="Muscle", description="The marked muscle", default=0, min=0)]
+    active: Annotated[int, IntProperty(name="Muscle", description="Selected muscle", default=0, min=0)]
     busy_only: Annotated[
         bool,
-        BoolProperty(name="Contracted Only", description="List only muscles that do something now, or are set by hand"),
+        BoolProperty(name="Contracted Only", description="List only muscles that are contracted or set by hand"),
     ]
 
 

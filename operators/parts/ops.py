@@ -16,7 +16,7 @@ from .props import PARTS
 
 
 class RISORIUS_OT_find_parts(RisoriusOperator, bpy.types.Operator):
-    """Tell skin, eyeballs, teeth and tongue of this mesh apart, show them as colours, and keep that with the mesh"""
+    """Find skin, eyeballs, teeth and tongue in this mesh, show them as colours, and save them with the mesh"""
 
     bl_idname = "risorius.find_parts"
     bl_label = "Find Parts"
@@ -41,10 +41,10 @@ def counted(parts: Any, part: Part) -> str:
 
 
 class RISORIUS_OT_set_part(RisoriusOperator, bpy.types.Operator):
-    """Set the vertices of the chosen vertex group to the chosen part"""
+    """Assign the vertices of the vertex group to the part"""
 
     bl_idname = "risorius.set_part"
-    bl_label = "Set Part"
+    bl_label = "Assign Part"
     bl_options = {"REGISTER", "UNDO"}
     needs_scipy = False
 
@@ -66,10 +66,10 @@ class RISORIUS_OT_set_part(RisoriusOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_forget_parts(RisoriusOperator, bpy.types.Operator):
-    """Forget what was told or set of the parts: every bake tells them anew from the mesh's shape"""
+    """Remove the saved parts. Each bake then finds them again from the shape of the mesh"""
 
     bl_idname = "risorius.forget_parts"
-    bl_label = "Forget Parts"
+    bl_label = "Clear Parts"
     bl_options = {"REGISTER", "UNDO"}
     needs_scipy = False
 
@@ -78,10 +78,10 @@ class RISORIUS_OT_forget_parts(RisoriusOperator, bpy.types.Operator):
         """Only where there are some."""
         reason = points_reason(context.object)
         if reason is None and read_parts(context.object.data) is None:
-            return "No parts are kept with this mesh"
+            return "This mesh has no saved parts"
         return reason
 
     def run(self, context: Any) -> str:
         """Forget them."""
         forget_parts(context.object)
-        return f"{context.object.name}: parts are told from its shape again"
+        return f"{context.object.name}: its parts are found from its shape again"

@@ -14,7 +14,7 @@ from .ops import RISORIUS_OT_find_parts, RISORIUS_OT_forget_parts, RISORIUS_OT_s
 class RISORIUS_PT_parts(Sidebar, bpy.types.Panel):
     """Which vertices are skin, eyes, teeth, tongue."""
 
-    bl_label = "Parts of the Mesh"
+    bl_label = "Mesh Parts"
     bl_parent_id = "RISORIUS_PT_face"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -33,7 +33,7 @@ class RISORIUS_PT_parts(Sidebar, bpy.types.Panel):
         if read_parts(obj.data) is not None:
             layout.prop(chosen, "show", icon="HIDE_OFF" if chosen.show else "HIDE_ON", toggle=True)
         column = layout.column(align=True)
-        column.label(text="Correct by a vertex group")
+        column.label(text="Correct with a vertex group")
         column.prop_search(chosen, "group", obj, "vertex_groups", text="")
         column.prop(chosen, "part", text="")
         column.operator(RISORIUS_OT_set_part.bl_idname, icon="CHECKMARK")

@@ -12,13 +12,13 @@ from ..points.props import redraw
 
 #: Part -> identifier, name and tooltip of the menu.
 PARTS = {
-    Part.SKIN: ("SKIN", "Skin", "Moves by muscles; mouth bag and eye sockets belong to it"),
+    Part.SKIN: ("SKIN", "Skin", "Moved by muscles; includes mouth cavity and eye sockets"),
     Part.EYEBALL_L: ("EYEBALL_L", "Left Eye", "The subject's left eyeball"),
     Part.EYEBALL_R: ("EYEBALL_R", "Right Eye", "The subject's right eyeball"),
     Part.TEETH_UPPER: ("TEETH_UPPER", "Upper Teeth", "Upper teeth and gums"),
     Part.TEETH_LOWER: ("TEETH_LOWER", "Lower Teeth", "Lower teeth and gums, which move with the jaw"),
     Part.TONGUE: ("TONGUE", "Tongue", "The tongue, which moves with the jaw"),
-    Part.OTHER: ("OTHER", "Other", "Brows, lashes, hair, clothes: what follows the skin that it lies on"),
+    Part.OTHER: ("OTHER", "Other", "Brows, lashes, hair, clothes: follows the skin below it"),
 }
 
 
@@ -28,13 +28,15 @@ class RISORIUS_PG_parts(bpy.types.PropertyGroup):
     show: Annotated[
         bool,
         BoolProperty(
-            name="Show Parts", description="Draw the parts of the face's mesh as colours", default=False, update=redraw
+            name="Show Parts", description="Draw the parts of the mesh as colours", default=False, update=redraw
         ),
     ]
     part: Annotated[
         str,
         EnumProperty(
-            name="Part", description="What the vertices of the group are", items=tuple(PARTS.values()), default="OTHER"
+            name="Part", description="Part to assign the vertices to", items=tuple(PARTS.values()), default="OTHER"
         ),
     ]
-    group: Annotated[str, StringProperty(name="Vertex Group", description="Whose vertices are set to that part")]
+    group: Annotated[
+        str, StringProperty(name="Vertex Group", description="Vertex group whose vertices are assigned to the part")
+    ]

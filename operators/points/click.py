@@ -89,7 +89,7 @@ class Clicks:
 
 
 class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
-    """Click the corners of eyes and mouth, the tip of the nose and the chin; all other points are found from these"""
+    """Click the corners of eyes and mouth, the tip of the nose and the chin. All other points are found from these"""
 
     bl_idname = "risorius.click_points"
     bl_label = "Click Points"
@@ -100,7 +100,7 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
         str,
         StringProperty(
             name="Clicks",
-            description='For scripts: the points as JSON, {"3.7": [x, y, z], ...} in the mesh\'s own coordinates',
+            description='For scripts: the points as JSON, {"3.7": [x, y, z], ...} in the coordinates of the mesh',
             options={"SKIP_SAVE"},
         ),
     ]
@@ -131,7 +131,7 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
         try:
             need_scipy()
             if Viewport.of(context) is None:
-                raise SceneError("Clicking", "needs a 3D viewport: start it from the sidebar of one")
+                raise SceneError("Click Points", "needs a 3D viewport: start it from the sidebar")
             surface = Surface.of(context.object.data)
         except RisoriusError as refusal:
             self.report({"ERROR"}, str(refusal))
@@ -183,7 +183,7 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
         visible = Visible.of(context.object, context.evaluated_depsgraph_get())
         place = hit_near(visible, viewport, pixel, self._surface, MISS * context.preferences.system.ui_scale)
         if place is None:
-            self.report({"WARNING"}, "That is beside the face: click on its surface")
+            self.report({"WARNING"}, "That is not on the face: click on its surface")
             return {"RUNNING_MODAL"}
         self._clicks.add(place, mirror=bool(context.window_manager.risorius.points.mirror))
         if self._clicks.wanted is not None:
@@ -204,7 +204,7 @@ class RISORIUS_OT_click_points(WorkOperator, bpy.types.Operator):
         if self._clicks.has_mirror:
             mirror = f"   M: Mirror {'on' if context.window_manager.risorius.points.mirror else 'off'}"
         self._area.header_text_set(asked)
-        keys = f"   Backspace: Back{mirror}   Middle mouse, wheel, numpad: Look around   Esc: Cancel"
+        keys = f"   Backspace: Undo Click{mirror}   Middle Mouse, Wheel, Numpad: Move View   Esc: Cancel"
         context.workspace.status_text_set(asked + keys)
         redraw()
 
@@ -270,7 +270,7 @@ def _given(text: str) -> dict[str, Floats]:
     ------
     SceneError : none, or no such table.
     """
-    remedy = 'give them as JSON, {"3.7": [x, y, z], ...}; with a window they are clicked'
+    remedy = 'give them as JSON, {"3.7": [x, y, z], ...}, or use a window to click them'
     try:
         table = json.loads(text)
         return {str(name): np.array(place, dtype=np.float64) for name, place in table.items()}

@@ -55,7 +55,7 @@ class RISORIUS_OT_drag_point(bpy.types.Operator):
         self._plane = plane_of_points(places(self._now, meshes.rest_vertices(obj.data)))
         mark(context.window_manager.risorius.points, name)
         context.window_manager.modal_handler_add(self)
-        _say(context, f"{label_of(name)}   Release: Put   Esc, right mouse: Back")
+        _say(context, f"{label_of(name)}   Release: Confirm   Esc, Right Mouse: Cancel")
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Any, event: Any) -> set[str]:
@@ -123,7 +123,7 @@ def _say(context: Any, text: str | None) -> None:
 
 
 class RISORIUS_OT_use_drag_tool(RisoriusOperator, bpy.types.Operator):
-    """Switch to the tool that drags feature points along the surface with the left mouse button"""
+    """Activate the tool that drags feature points along the surface with the left mouse button"""
 
     bl_idname = "risorius.use_drag_tool"
     bl_label = "Drag Points"
@@ -140,7 +140,7 @@ class RISORIUS_OT_use_drag_tool(RisoriusOperator, bpy.types.Operator):
         show_points(context)
         if not bpy.app.background:
             bpy.ops.wm.tool_set_by_id(name=TOOL)
-        return "Drag points with the left mouse button; any other tool ends it"
+        return "Drag points with the left mouse button; choose another tool to stop"
 
 
 class DragTool(bpy.types.WorkSpaceTool):

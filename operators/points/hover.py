@@ -41,7 +41,7 @@ class RISORIUS_GGT_point_names(bpy.types.GizmoGroup):
     """There while points are shown."""
 
     bl_idname = "RISORIUS_GGT_point_names"
-    bl_label = "Names of Feature Points"
+    bl_label = "Feature Point Names"
     bl_space_type = "VIEW_3D"
     bl_region_type = "WINDOW"
     bl_options = {"PERSISTENT"}

@@ -13,11 +13,11 @@ from .show import show_points
 
 
 class RISORIUS_OT_take_over_points(RisoriusOperator, bpy.types.Operator):
-    """Keep the feature points of a face that was joined into this object (Ctrl J). Until the file is closed, Blender \
-still has its mesh"""
+    """Restore the feature points of a face that was joined into this object (Ctrl J). This is possible until the \
+file is closed"""
 
     bl_idname = "risorius.take_over_points"
-    bl_label = "Keep Its Points"
+    bl_label = "Restore Points"
     bl_options = {"REGISTER", "UNDO"}
     needs_scipy = False
 

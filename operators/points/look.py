@@ -73,10 +73,10 @@ def turn_to_face(context: Any, kept: KeptPoints, *, always: bool = False) -> Non
 
 
 class RISORIUS_OT_look_at_face(RisoriusOperator, bpy.types.Operator):
-    """Look at this face from its front"""
+    """View this face from the front"""
 
     bl_idname = "risorius.look_at_face"
-    bl_label = "Look at Face"
+    bl_label = "View Face"
     bl_options = {"INTERNAL"}
     needs_scipy = False
 
@@ -89,4 +89,4 @@ class RISORIUS_OT_look_at_face(RisoriusOperator, bpy.types.Operator):
         """Turn the viewport."""
         obj = context.object
         turn_to_face(context, followed(read_kept(obj), obj.data).kept, always=True)
-        return f"The face of {obj.name} from its front"
+        return f"View of {obj.name} from the front"

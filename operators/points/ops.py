@@ -33,7 +33,7 @@ CLOSE_UP = 1.2
 
 
 class RISORIUS_OT_find_points(WorkOperator, bpy.types.Operator):
-    """Find the face of this mesh, whichever way it looks and however large it is, and its feature points"""
+    """Find the face of this mesh and its feature points, in any direction and at any size"""
 
     bl_idname = "risorius.find_points"
     bl_label = "Find Face"
@@ -75,15 +75,17 @@ def why_needed(name: str) -> str:
     """What a feature point is for, in a few lines."""
     point = FEATURE_POINTS[name]
     moved = [f"{number} {FAPS[number].name}" for number in point.faps]
-    moves = f"Moved by FAP {', '.join(moved)}" if moved else "No FAP moves it: it tells where the face is and how large"
+    moves = (
+        f"Moved by FAP {', '.join(moved)}" if moved else "No FAP moves it; it defines the position and size of the face"
+    )
     return f"{name}: {point.location}.\n{moves}"
 
 
 class RISORIUS_OT_jump_to_point(OnePoint, bpy.types.Operator):
-    """Look at this point"""
+    """Zoom to this point"""
 
     bl_idname = "risorius.jump_to_point"
-    bl_label = "Look at Point"
+    bl_label = "View Point"
     bl_options = {"INTERNAL"}
 
     point: Annotated[str, StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})]
@@ -121,7 +123,7 @@ def label_of(name: str) -> str:
 
 
 class RISORIUS_OT_reset_points(OnePoint, bpy.types.Operator):
-    """Put points back to where they were found, clicked or imported"""
+    """Reset points to where they were found, clicked or imported"""
 
     bl_idname = "risorius.reset_points"
     bl_label = "Reset Points"
@@ -131,12 +133,12 @@ class RISORIUS_OT_reset_points(OnePoint, bpy.types.Operator):
         str,
         EnumProperty(
             name="Which",
-            description="Which points to put back",
+            description="Points to reset",
             items=(
-                ("ONE", "One", "The named point"),
-                ("LEFT", "Left Side", "All points on the subject's left"),
-                ("RIGHT", "Right Side", "All points on the subject's right"),
-                ("ALL", "All", "All points"),
+                ("ONE", "One", "Reset the named point"),
+                ("LEFT", "Left Side", "Reset all points on the subject's left"),
+                ("RIGHT", "Right Side", "Reset all points on the subject's right"),
+                ("ALL", "All", "Reset all points"),
             ),
             default="ALL",
         ),
@@ -154,10 +156,10 @@ class RISORIUS_OT_reset_points(OnePoint, bpy.types.Operator):
             names = [n for n in given.points if self.which == "ALL" or FEATURE_POINTS[n].side.name == self.which]
         back = {name: given.points[name] for name in names if name in given.points}
         if not back:
-            raise SceneError(obj.name, f"has no point {self.point} to put back")
+            raise SceneError(obj.name, f"has no point {self.point} to reset")
         changed = sum(now.points.get(name) != point for name, point in back.items())
         write_kept(obj, replace(now, points=in_order({**now.points, **back})))
-        return f"{obj.name}: {changed} point{'s' * (changed != 1)} put back"
+        return f"{obj.name}: {changed} point{'s' * (changed != 1)} reset"
 
 
 def in_order(points: dict[str, KeptPoint]) -> dict[str, KeptPoint]:
@@ -166,10 +168,10 @@ def in_order(points: dict[str, KeptPoint]) -> dict[str, KeptPoint]:
 
 
 class RISORIUS_OT_follow_mesh(OnePoint, bpy.types.Operator):
-    """Put the feature points onto the mesh as it was edited, and name those that it has no place for any more"""
+    """Transfer the feature points to the edited mesh, and report the points that are lost"""
 
     bl_idname = "risorius.follow_mesh"
-    bl_label = "Follow Edited Mesh"
+    bl_label = "Update Points"
     bl_options = {"REGISTER", "UNDO"}
     point: Annotated[str, StringProperty(options={"HIDDEN", "SKIP_SAVE"})]
 
@@ -178,7 +180,7 @@ class RISORIUS_OT_follow_mesh(OnePoint, bpy.types.Operator):
         """Only where the mesh has been edited."""
         reason = no_points_reason(context.object)
         if reason is None and not edited(context.object):
-            return "The mesh was not edited since its points were found"
+            return "The mesh has not been edited since its points were found"
         return reason
 
     def run(self, context: Any) -> str:
@@ -187,8 +189,8 @@ class RISORIUS_OT_follow_mesh(OnePoint, bpy.types.Operator):
         now = followed(read_kept(obj), obj.data)
         write_kept(obj, now.kept)
         if now.lost:
-            self.report({"WARNING"}, f"{obj.name}: lost with the mesh that was edited: {', '.join(now.lost)}")
-        return f"{obj.name}: {len(now.kept.points)} feature points kept, {len(now.lost)} lost"
+            self.report({"WARNING"}, f"{obj.name}: points lost in the edit: {', '.join(now.lost)}")
+        return f"{obj.name}: {len(now.kept.points)} feature points updated, {len(now.lost)} lost"
 
 
 def edited(obj: Any) -> bool:
@@ -200,7 +202,7 @@ def edited(obj: Any) -> bool:
 
 
 class RISORIUS_OT_export_points(RisoriusOperator, bpy.types.Operator, ExportHelper):
-    """Write the feature points of this mesh to a JSON file that Import Feature Points reads"""
+    """Export the feature points of this mesh to a JSON file for Import Feature Points"""
 
     bl_idname = "risorius.export_points"
     bl_label = "Export Feature Points"

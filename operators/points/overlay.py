@@ -144,7 +144,7 @@ def hover(name: str | None) -> None:
 
 def words_of(name: str, confidence: float) -> tuple[str, str]:
     """What is told of the point under the mouse: number and place, and how sure it is."""
-    return f"{name}  {FEATURE_POINTS[name].location}", f"{confidence:.0%} sure"
+    return f"{name}  {FEATURE_POINTS[name].location}", f"{confidence:.0%} confidence"
 
 
 def _draw_name(name: str, confidence: float, at: tuple[float, float], viewport: Viewport, scale: float) -> None:

@@ -110,7 +110,7 @@ class RISORIUS_PT_points(Sidebar, bpy.types.Panel):
             return
         if edited(obj):
             box = layout.box().column(align=True)
-            box.label(text="The mesh was edited since", icon="ERROR")
+            box.label(text="The mesh was edited", icon="ERROR")
             box.operator(RISORIUS_OT_follow_mesh.bl_idname, icon="FILE_REFRESH")
             return
         self._draw_points(layout, context, kept)
@@ -126,7 +126,7 @@ class RISORIUS_PT_points(Sidebar, bpy.types.Panel):
         row.prop(state, "labels", text="")
         row.operator(RISORIUS_OT_look_at_face.bl_idname, text="", icon="ZOOM_SELECTED")
         count = f"{len(kept.points)} points"
-        layout.label(text=f"{count}, {doubtful} to look at" if doubtful else count, icon="INFO")
+        layout.label(text=f"{count}, {doubtful} doubtful" if doubtful else count, icon="INFO")
         layout.template_list("RISORIUS_UL_points", "", state, "names", state, "active", rows=ROWS)
         row = layout.row(align=True)
         row.operator(RISORIUS_OT_use_drag_tool.bl_idname, icon="VIEW_PAN")

@@ -36,7 +36,11 @@ class RISORIUS_PG_points(bpy.types.PropertyGroup):
     active: Annotated[
         int,
         IntProperty(
-            name="Feature Point", description="The point that is marked on the face", default=0, min=0, update=redraw
+            name="Feature Point",
+            description="Selected point; it is marked on the face",
+            default=0,
+            min=0,
+            update=redraw,
         ),
     ]
     show: Annotated[
@@ -49,11 +53,11 @@ class RISORIUS_PG_points(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Labels",
-            description="What is written beside the points; the marked one always has its name",
+            description="Text beside the points; the selected point always shows its name",
             items=(
-                ("NONE", "None", "Nothing"),
-                ("NUMBERS", "Numbers", "The standard's numbers, as 8.4"),
-                ("PLACES", "Places", "Numbers and places in words"),
+                ("NONE", "None", "Show no labels"),
+                ("NUMBERS", "Numbers", "Show the numbers of the standard, such as 8.4"),
+                ("PLACES", "Places", "Show numbers and places in words"),
             ),
             default="NUMBERS",
             update=redraw,
@@ -62,14 +66,14 @@ class RISORIUS_PG_points(bpy.types.PropertyGroup):
     mirror: Annotated[
         bool,
         BoolProperty(
-            name="Mirror", description="A point that is clicked or dragged takes its counterpart along", default=True
+            name="Mirror",
+            description="Move the matching point on the other side along with a clicked or dragged point",
+            default=True,
         ),
     ]
     doubtful_only: Annotated[
         bool,
-        BoolProperty(
-            name="Doubtful Only", description="List and draw only the points that want to be looked at", update=redraw
-        ),
+        BoolProperty(name="Doubtful Only", description="List and draw only points with low confidence", update=redraw),
     ]
 
 

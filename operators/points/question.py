@@ -15,10 +15,10 @@ from .reasons import no_points_reason
 
 
 class RISORIUS_OT_accept_points(RisoriusOperator, bpy.types.Operator):
-    """Yes: the points are on the face, as far as can be seen. Single ones can still be dragged"""
+    """Keep these points. Single points can still be dragged"""
 
     bl_idname = "risorius.accept_points"
-    bl_label = "Yes, Keep These Points"
+    bl_label = "Yes, Keep Points"
     bl_options = {"REGISTER", "UNDO"}
     needs_scipy = False
 
@@ -27,14 +27,14 @@ class RISORIUS_OT_accept_points(RisoriusOperator, bpy.types.Operator):
         """Only where it is asked."""
         reason = no_points_reason(context.object)
         if reason is None and not read_kept(context.object).is_questioned:
-            return "Nobody doubts these points"
+            return "These points are not doubtful"
         return reason
 
     def run(self, context: Any) -> str:
         """Ask no more."""
         obj = context.object
         write_kept(obj, replace(read_kept(obj), score=0.0))
-        return f"{obj.name}: its points are kept; now bake an expression"
+        return f"{obj.name}: points kept; now bake an expression"
 
 
 class RISORIUS_MT_is_this_the_face(bpy.types.Menu):
@@ -51,13 +51,13 @@ class RISORIUS_MT_is_this_the_face(bpy.types.Menu):
 
 def draw_question(layout: Any, kept: KeptPoints) -> None:
     """Why it is asked, and the answers: in the menu and in the panel."""
-    layout.label(text="Do eyes, nose, lips fit?", icon="QUESTION")
+    layout.label(text="Check eyes, nose and lips", icon="QUESTION")
     layout.label(text="It is unlike most faces:", icon="BLANK1")
-    layout.label(text=f"score {kept.score:.2f}, most to {DOUBTFUL_SCORE:g}", icon="BLANK1")
+    layout.label(text=f"score {kept.score:.2f} (most: up to {DOUBTFUL_SCORE:g})", icon="BLANK1")
     layout.operator_context = "INVOKE_DEFAULT"
     layout.operator(RISORIUS_OT_accept_points.bl_idname, icon="CHECKMARK")
-    layout.operator("risorius.click_points", text="Click Six Points Instead", icon="RESTRICT_SELECT_OFF")
-    layout.operator(RISORIUS_OT_forget_points.bl_idname, text="No, Forget Them", icon="X")
+    layout.operator("risorius.click_points", text="Click Six Points", icon="RESTRICT_SELECT_OFF")
+    layout.operator(RISORIUS_OT_forget_points.bl_idname, text="No, Clear Points", icon="X")
 
 
 def ask_whether_right(context: Any, kept: KeptPoints) -> None:

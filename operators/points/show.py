@@ -25,13 +25,13 @@ def show_finding(operator: Any, context: Any, finding: Finding) -> str:
     """Show the points, ask where they are doubtful, and say what was found."""
     show_points(context)
     for problem in finding.unreadable:
-        operator.report({"WARNING"}, f"A saved topology was passed over: {problem}")
+        operator.report({"WARNING"}, f"A saved topology was skipped: {problem}")
     turn_to_face(context, finding.kept)
     if finding.kept.is_questioned:
         operator.report(
             {"WARNING"},
             f"{context.object.name} is unlike most faces (score {finding.score:.2f}, most have 0 to"
-            f" {DOUBTFUL_SCORE:g}): look whether its points are right, or click six of them",
+            f" {DOUBTFUL_SCORE:g}): check its points, or click six points",
         )
     ask_whether_right(context, finding.kept)
     return finding.summary(context.object.name)

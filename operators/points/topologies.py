@@ -13,8 +13,8 @@ from .reasons import no_points_reason
 
 
 class RISORIUS_OT_save_topology(RisoriusOperator, bpy.types.Operator):
-    """Remember these points for every mesh with the same polygons: Find Face knows it at once, in any file, whatever \
-its shape. Correct the points first"""
+    """Save these points for all meshes with the same polygons. Find Face then recognises such a mesh at once, in \
+any file and shape. Correct the points first"""
 
     bl_idname = "risorius.save_topology"
     bl_label = "Save as Known Topology"
@@ -24,7 +24,7 @@ its shape. Correct the points first"""
     called: Annotated[
         str,
         StringProperty(
-            name="Name", description="What this kind of mesh is called. A topology of the same name is replaced"
+            name="Name", description="Name for this kind of mesh. A topology with the same name is replaced"
         ),
     ]
 
@@ -41,25 +41,23 @@ its shape. Correct the points first"""
     def run(self, context: Any) -> str:
         """Save them."""
         path = save_preset(context.object, self.called)
-        return f"Find Face knows meshes like {context.object.name} from now on ({path})"
+        return f"Find Face now recognises meshes like {context.object.name} ({path})"
 
 
 class RISORIUS_OT_remove_topology(RisoriusOperator, bpy.types.Operator):
-    """Forget this saved topology. Meshes whose points were found with it keep them"""
+    """Remove this saved topology. Meshes whose points were found with it keep their points"""
 
     bl_idname = "risorius.remove_topology"
     bl_label = "Remove Known Topology"
     bl_options = {"REGISTER"}
     needs_scipy = False
 
-    file: Annotated[
-        str, StringProperty(name="File", description="Name of its file without ending", options={"SKIP_SAVE"})
-    ]
+    file: Annotated[str, StringProperty(name="File", description="File name without extension", options={"SKIP_SAVE"})]
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
         """Only where some were saved."""
-        return None if preset_paths() else "No topology has been saved"
+        return None if preset_paths() else "No topology has been saved yet"
 
     def invoke(self, context: Any, event: Any) -> Any:
         """Ask first: this cannot be undone."""
@@ -68,4 +66,4 @@ class RISORIUS_OT_remove_topology(RisoriusOperator, bpy.types.Operator):
     def run(self, context: Any) -> str:
         """Remove it."""
         remove_preset(self.file)
-        return f"Find Face does not know {self.file} any more"
+        return f"Removed the known topology {self.file}"

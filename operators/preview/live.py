@@ -107,7 +107,7 @@ def _prepare(previews: Previews) -> float:
     if step is None:
         _progress(None)
         return 0.0
-    _progress(f"Getting the face ready: {step.text} ({step.fraction:.0%})")
+    _progress(f"Preparing the face: {step.text} ({step.fraction:.0%})")
     return PAUSE
 
 

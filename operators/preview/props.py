@@ -25,8 +25,8 @@ class RISORIUS_PG_preview(bpy.types.PropertyGroup):
         bool,
         BoolProperty(
             name="Live Preview",
-            description="Show on the face what is chosen here, while it is being chosen, and let unbaked expressions "
-            "play. Shape keys, renders and the saved file stay as they are",
+            description="Show the chosen emotion on the face at once, and play expressions that are not baked. "
+            "Shape keys, renders and the saved file do not change",
             default=True,
             update=_switched,
         ),

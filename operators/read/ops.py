@@ -29,11 +29,11 @@ def plot_name(obj: Any) -> str:
 
 
 class RISORIUS_OT_read_animation(WorkOperator, bpy.types.Operator):
-    """Read every frame of the scene's range, however the face is animated: beliefs in the six emotions become
-    F-curves of the object's custom properties, and a plot"""
+    """Read the expression in every frame of the scene, however the face is animated. The beliefs in the six emotions \
+are written as F-curves of custom properties, and as a plot"""
 
     bl_idname = "risorius.read_animation"
-    bl_label = "Read the Animation"
+    bl_label = "Read Animation"
     bl_options = {"REGISTER", "UNDO"}
     title = "Reading the animation"
 
@@ -93,10 +93,10 @@ def _write_files(files: dict[str, Path], track: BeliefTrack, name: str) -> None:
 
 
 class RISORIUS_OT_show_beliefs(RisoriusOperator, bpy.types.Operator):
-    """Open the plot of the animation's beliefs in a window of its own"""
+    """Open the plot of the beliefs in a new window"""
 
     bl_idname = "risorius.show_beliefs"
-    bl_label = "Show the Plot"
+    bl_label = "Show Plot"
     bl_options = {"REGISTER"}
     needs_scipy = False
 
@@ -118,10 +118,10 @@ class RISORIUS_OT_show_beliefs(RisoriusOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_clear_reading(RisoriusOperator, bpy.types.Operator):
-    """Remove the beliefs that were read: custom properties, their F-curves and the plot"""
+    """Remove the beliefs: custom properties, their F-curves and the plot"""
 
     bl_idname = "risorius.clear_reading"
-    bl_label = "Clear the Reading"
+    bl_label = "Clear Reading"
     bl_options = {"REGISTER", "UNDO"}
     needs_scipy = False
 
@@ -139,4 +139,4 @@ class RISORIUS_OT_clear_reading(RisoriusOperator, bpy.types.Operator):
         image = bpy.data.images.get(plot_name(obj))
         if image is not None:
             bpy.data.images.remove(image)
-        return f"Cleared the beliefs read on {obj.name}"
+        return f"Cleared the beliefs of {obj.name}"

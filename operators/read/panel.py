@@ -23,7 +23,7 @@ DECISIVE, LEAST = 5, 0.1
 class RISORIUS_PT_read(Sidebar, bpy.types.Panel):
     """Beliefs that follow the frame, and the button that reads them all."""
 
-    bl_label = "Read"
+    bl_label = "Read Expression"
     bl_parent_id = "RISORIUS_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -51,7 +51,7 @@ class RISORIUS_PT_read(Sidebar, bpy.types.Panel):
         best = reading.beliefs.best
         row = layout.row()
         if reading.is_resting or best is None:
-            row.label(text="At rest: hardly any expression", icon="INFO")
+            row.label(text="At rest: almost no expression", icon="INFO")
         else:
             row.label(text=best.capitalize(), icon="CHECKMARK")
             row.label(text=f"strength {reading.strength:.0%}")
@@ -82,7 +82,7 @@ class RISORIUS_PT_read(Sidebar, bpy.types.Panel):
         row.operator(RISORIUS_OT_read_animation.bl_idname, icon="FCURVE")
         column = layout.column(align=True)
         column.use_property_split, column.use_property_decorate = True, False
-        column.label(text="Files that it writes, where named:")
+        column.label(text="Files to write:")
         for name in ("stream", "table", "plot"):
             column.prop(chosen, name)
         if has_curves(context.object):
@@ -124,7 +124,7 @@ class RISORIUS_PT_read_faps(Sidebar, bpy.types.Panel):
             asked = _range(*ranges[number]) if number in ranges else ""
             _row(column, f"{marked.get(number, '')}{number} {api.fap(number).name}", value, asked)
         if profile is not None:
-            layout.label(text=f"+ speaks for {reading.beliefs.best}, - against it")
+            layout.label(text=f"+ supports {reading.beliefs.best}, - opposes it")
 
 
 class RISORIUS_PT_read_features(Sidebar, bpy.types.Panel):
@@ -146,7 +146,7 @@ class RISORIUS_PT_read_features(Sidebar, bpy.types.Panel):
         reading, _ = live.shown(context.object)
         column = self.layout.column(align=True)
         if reading is None or reading.features is None:
-            column.label(text="" if reading is None else "The face lacks points for them", icon="INFO")
+            column.label(text="" if reading is None else "The face lacks points for features", icon="INFO")
             return
         for feature, value in zip(api.FEATURES, reading.features, strict=True):
             points = f"{feature.point_a} to {feature.point_b}"

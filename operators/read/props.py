@@ -19,7 +19,7 @@ def _changed(owner: Any, context: Any) -> None:
 
 def _file(name: str, what: str) -> Any:
     """A file that may be written."""
-    about = f"{what}. Empty: none. A name that begins with // lies beside the .blend file"
+    about = f"{what}. Empty: none. A path that begins with // is relative to the .blend file"
     return StringProperty(name=name, description=about, subtype="FILE_PATH", options=_RELATIVE)
 
 
@@ -30,10 +30,14 @@ class RISORIUS_PG_read(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Rule",
-            description="How FAPs become beliefs in emotions",
+            description="Rule that turns FAPs into beliefs in emotions",
             items=(
-                ("paper", "Paper", "The product of all FAPs, as the paper has it: strict, one FAP that fails decides"),
-                ("robust", "Robust", "Their geometric mean, FAPs that were not seen left out: forgiving"),
+                ("paper", "Paper", "Product over all FAPs, as in the paper. Strict: one FAP that does not fit decides"),
+                (
+                    "robust",
+                    "Robust",
+                    "Geometric mean over the measured FAPs. Tolerant: FAPs that cannot be measured are left out",
+                ),
             ),
             default="paper",
             update=_changed,
@@ -43,10 +47,10 @@ class RISORIUS_PG_read(bpy.types.PropertyGroup):
         bool,
         BoolProperty(
             name="All FAPs",
-            description="List every FAP that the face shows, not only those that the most believed profile asks for",
+            description="List every measured FAP, not only those in the most believed profile",
             default=False,
         ),
     ]
-    stream: Annotated[str, _file("FAP File", "A .fap file of the measured FAPs to write")]
-    table: Annotated[str, _file("Table", "A .csv table of beliefs and FAPs to write, a row per frame")]
-    plot: Annotated[str, _file("Plot", "A .png picture of the plot to write")]
+    stream: Annotated[str, _file("FAP File", "FAP file for the measured FAPs")]
+    table: Annotated[str, _file("Table", "CSV table for beliefs and FAPs, one row per frame")]
+    plot: Annotated[str, _file("Plot", "PNG image for the plot")]

@@ -18,12 +18,13 @@ if TYPE_CHECKING:
 
 
 class RISORIUS_OT_make_shapes(WorkOperator, bpy.types.Operator):
-    """Pose the muscles into each shape that engines and trackers know, as a shape key. No later bake touches these"""
+    """Add shape keys with the names that engines and trackers use, each posed by the muscles. Later bakes do not \
+change them"""
 
     bl_idname = "risorius.make_shapes"
-    bl_label = "Make Engine Shapes"
+    bl_label = "Add Engine Shape Keys"
     bl_options = {"REGISTER", "UNDO"}
-    title = "Making shape keys"
+    title = "Adding shape keys"
 
     @classmethod
     def refusal(cls, context: Any) -> str | None:
@@ -45,5 +46,5 @@ class RISORIUS_OT_make_shapes(WorkOperator, bpy.types.Operator):
         """Say how many, and which were replaced."""
         if isinstance(result, Finding):
             return show_finding(self, context, result)
-        replaced = f", {len(result.replaced)} of them in place of older ones" if result.replaced else ""
-        return f"{context.object.name}: {len(result.keys)} shape keys made{replaced}"
+        replaced = f", {len(result.replaced)} replaced" if result.replaced else ""
+        return f"{context.object.name}: {len(result.keys)} shape keys added{replaced}"

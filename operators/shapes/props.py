@@ -15,7 +15,7 @@ class RISORIUS_PG_shapes(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Names",
-            description="The names that the shape keys get, and the shapes that go by them",
+            description="Names of the shape keys, and the shapes that belong to them",
             items=(
                 ("arkit", "ARKit", "The 52 shapes of ARKit: jawOpen, mouthSmileLeft, ..."),
                 ("oculus_visemes", "Oculus Visemes", "The 15 mouth shapes of speech: viseme_aa, viseme_PP, ..."),
@@ -25,5 +25,7 @@ class RISORIUS_PG_shapes(bpy.types.PropertyGroup):
     ]
     replace: Annotated[
         bool,
-        BoolProperty(name="Replace", description="Write over shape keys of the same names; otherwise they are refused"),
+        BoolProperty(
+            name="Replace", description="Replace shape keys with the same names. If off, existing names are an error"
+        ),
     ]

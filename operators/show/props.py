@@ -25,8 +25,8 @@ class RISORIUS_PG_show(bpy.types.PropertyGroup):
         bool,
         BoolProperty(
             name="Muscles",
-            description="Draw the muscles from the bone to the skin, blue where slack, red where contracted. "
-            "Needs Live Preview",
+            description="Draw the muscles from the bone to the skin: blue is relaxed, red is contracted. Needs "
+            "Live Preview",
             update=_switched,
         ),
     ]
@@ -34,7 +34,7 @@ class RISORIUS_PG_show(bpy.types.PropertyGroup):
         bool,
         BoolProperty(
             name="Strain",
-            description="Colour the skin: red where it is stretched by 30 % or more, blue where it is squeezed so far",
+            description="Colour the skin by strain: red is stretched by 30 % or more, blue is compressed as much",
             update=redraw,
         ),
     ]
@@ -42,7 +42,7 @@ class RISORIUS_PG_show(bpy.types.PropertyGroup):
         bool,
         BoolProperty(
             name="Paths",
-            description="Draw the way that the skin takes into the expression, blue at rest to red at its apex. "
+            description="Draw the path of the skin into the expression, from blue at rest to red at the apex. "
             "Needs Live Preview",
             update=_switched,
         ),

@@ -25,7 +25,7 @@ def grabbed(context: Any, event: Any) -> tuple[Bar, Grip] | None:
 
 
 class RISORIUS_OT_drag_clip(bpy.types.Operator):
-    """Select a clip, and drag it in time; drag a corner to change its onset, apex or offset. Esc puts it back"""
+    """Select a clip and drag it in time. Drag a corner to change its onset, apex or offset. Esc cancels"""
 
     bl_idname = "risorius.drag_clip"
     bl_label = "Drag Clip"
@@ -63,7 +63,7 @@ class RISORIUS_OT_drag_clip(bpy.types.Operator):
             value = dragged(self._grip, self._before, self._frame(context, event) - self._from, fps)
             self._set(context, value)
             unit = f"frame {value:g}" if self._grip is Grip.START else f"{value:.2f} s"
-            context.area.header_text_set(f"{self._grip.value.capitalize()}: {unit}   Esc: put back")
+            context.area.header_text_set(f"{self._grip.value.capitalize()}: {unit}   Esc: Cancel")
         if event.type == "LEFTMOUSE" and event.value == "RELEASE":
             context.area.header_text_set(None)
             return {"FINISHED"}

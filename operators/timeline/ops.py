@@ -42,12 +42,12 @@ class _ClipOperator(RisoriusOperator):
         if context.object is None:
             return "There is no active object"
         if active_clip(context.object.risorius.timeline) is None:
-            return "There is no clip yet: add one with +"
+            return "The timeline has no clips yet: add one with +"
         return None
 
 
 class RISORIUS_OT_add_clip(RisoriusOperator, bpy.types.Operator):
-    """Add what the Emotion panel shows as a clip that begins at the current frame"""
+    """Add the emotion in the Emotion panel as a clip at the current frame"""
 
     bl_idname = "risorius.add_clip"
     bl_label = "Add Clip"
@@ -75,7 +75,7 @@ class RISORIUS_OT_add_clip(RisoriusOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_duplicate_clip(_ClipOperator, bpy.types.Operator):
-    """Add a copy of the selected clip that begins where it ends"""
+    """Add a copy of the selected clip after its end"""
 
     bl_idname = "risorius.duplicate_clip"
     bl_label = "Duplicate Clip"
@@ -97,7 +97,7 @@ class RISORIUS_OT_duplicate_clip(_ClipOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_remove_clip(_ClipOperator, bpy.types.Operator):
-    """Remove the selected clip from the timeline. What has been baked stays until the next bake"""
+    """Remove the selected clip from the timeline. Baked animation stays until the next bake"""
 
     bl_idname = "risorius.remove_clip"
     bl_label = "Remove Clip"
@@ -115,7 +115,7 @@ class RISORIUS_OT_remove_clip(_ClipOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_move_clip(_ClipOperator, bpy.types.Operator):
-    """Move the selected clip up or down in the list. Its time stays"""
+    """Move the selected clip up or down in the list. Its time does not change"""
 
     bl_idname = "risorius.move_clip"
     bl_label = "Move Clip"
@@ -125,8 +125,8 @@ class RISORIUS_OT_move_clip(_ClipOperator, bpy.types.Operator):
         str,
         EnumProperty(
             name="Direction",
-            description="Where to in the list",
-            items=(("UP", "Up", "One place up"), ("DOWN", "Down", "One place down")),
+            description="Direction in the list",
+            items=(("UP", "Up", "Move up one place"), ("DOWN", "Down", "Move down one place")),
             options={"SKIP_SAVE"},
         ),
     ]
@@ -142,10 +142,10 @@ class RISORIUS_OT_move_clip(_ClipOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_sort_clips(_ClipOperator, bpy.types.Operator):
-    """Put the clips in the order in which they begin"""
+    """Sort the clips by start frame"""
 
     bl_idname = "risorius.sort_clips"
-    bl_label = "Sort by Start"
+    bl_label = "Sort by Start Frame"
     bl_options = {"REGISTER", "UNDO"}
 
     def run(self, context: Any) -> str:
@@ -164,7 +164,7 @@ class RISORIUS_OT_sort_clips(_ClipOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_clear_clips(_ClipOperator, bpy.types.Operator):
-    """Remove all clips from the timeline. What has been baked stays"""
+    """Remove all clips from the timeline. Baked animation stays"""
 
     bl_idname = "risorius.clear_clips"
     bl_label = "Remove All Clips"
@@ -181,7 +181,7 @@ class RISORIUS_OT_clear_clips(_ClipOperator, bpy.types.Operator):
 
 
 class RISORIUS_OT_time_clip(_ClipOperator, bpy.types.Operator):
-    """Give the selected clip the times of a kind of expression"""
+    """Set onset, apex and offset of the selected clip from a preset"""
 
     bl_idname = "risorius.time_clip"
     bl_label = "Timing"
@@ -191,7 +191,7 @@ class RISORIUS_OT_time_clip(_ClipOperator, bpy.types.Operator):
         str,
         EnumProperty(
             name="Timing",
-            description="The kind of expression whose times are taken",
+            description="Timing preset to use",
             items=[(name, name.capitalize(), timing.reason) for name, timing in load_timings().items()],
             options={"SKIP_SAVE"},
         ),
@@ -214,7 +214,7 @@ class RISORIUS_OT_time_clip(_ClipOperator, bpy.types.Operator):
 
 
 class RISORIUS_MT_clip_timing(bpy.types.Menu):
-    """Kinds of expressions, by how they go through time"""
+    """Set the times of the selected clip from a preset"""
 
     bl_idname = "RISORIUS_MT_clip_timing"
     bl_label = "Timing"
@@ -226,7 +226,7 @@ class RISORIUS_MT_clip_timing(bpy.types.Menu):
 
 
 class RISORIUS_MT_clips(bpy.types.Menu):
-    """More to do with the clips"""
+    """More operations on clips"""
 
     bl_idname = "RISORIUS_MT_clips"
     bl_label = "Clips"

@@ -45,25 +45,29 @@ class RISORIUS_PG_clip(bpy.types.PropertyGroup):
         str,
         StringProperty(
             name="Name",
-            description="What the clip, its marker and its strip are called. Empty: named after the emotion",
+            description="Name of the clip, its marker and its strip. Empty: the name of the emotion",
             update=_renamed,
         ),
     ]
     emotion: Annotated[RISORIUS_PG_emotion, PointerProperty(type=RISORIUS_PG_emotion)]
     start: Annotated[
         int,
-        IntProperty(
-            name="Start Frame", description="Frame at which the expression begins to show", default=1, update=retimed
-        ),
+        IntProperty(name="Start Frame", description="Frame at which the expression starts", default=1, update=retimed),
     ]
-    onset: Annotated[float, seconds("Onset (s)", "Seconds until it is full", _TIMING.onset, update=retimed)]
-    apex: Annotated[float, seconds("Apex (s)", "Seconds that it is held", _TIMING.apex, update=retimed)]
-    offset: Annotated[float, seconds("Offset (s)", "Seconds until it is gone", _TIMING.offset, update=retimed)]
+    onset: Annotated[
+        float, seconds("Onset (s)", "Seconds from the start to the full expression", _TIMING.onset, update=retimed)
+    ]
+    apex: Annotated[
+        float, seconds("Apex (s)", "Seconds for which the expression is held", _TIMING.apex, update=retimed)
+    ]
+    offset: Annotated[
+        float, seconds("Offset (s)", "Seconds until the expression has faded", _TIMING.offset, update=retimed)
+    ]
     peak: Annotated[
         float,
         FloatProperty(
             name="Peak",
-            description="How much of the expression shows at its apex, from 0 (nothing) to 1 (all of it)",
+            description="Share of the expression that shows at the apex, from 0 (none) to 1 (full)",
             default=_TIMING.peak,
             min=0.0,
             max=1.0,
@@ -74,23 +78,21 @@ class RISORIUS_PG_clip(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Ramp",
-            description="How the expression comes and goes",
+            description="Curve along which the expression appears and fades",
             items=(
-                (Ramp.MINIMUM_JERK.value, "Brisk", "As aimed movements go: still at both ends, quick in between"),
-                (Ramp.COSINE.value, "Gentle", "More evenly, as felt expressions come and go"),
+                (Ramp.MINIMUM_JERK.value, "Brisk", "Like an aimed movement: slow at both ends, fast in between"),
+                (Ramp.COSINE.value, "Gentle", "More even, like a felt expression"),
             ),
             default=_TIMING.ramp.value,
             update=retimed,
         ),
     ]
     mute: Annotated[
-        bool, BoolProperty(name="Mute", description="Leave this clip out of playback and of bakes", update=retimed)
+        bool, BoolProperty(name="Mute", description="Leave this clip out of playback and bakes", update=retimed)
     ]
     solo: Annotated[
         bool,
-        BoolProperty(
-            name="Solo", description="Play and bake only this clip, and others that are solo too", update=retimed
-        ),
+        BoolProperty(name="Solo", description="Play and bake only this clip and other solo clips", update=retimed),
     ]
 
 
@@ -101,7 +103,7 @@ def _amount(name: str, description: str, most: float, **options: Any) -> Any:
 
 def _seed(what: str, **options: Any) -> Any:
     """From which number it is drawn."""
-    return IntProperty(name="Seed", description=f"Another number draws other {what}", default=1, min=0, **options)
+    return IntProperty(name="Seed", description=f"Random seed: another number draws different {what}", default=1, min=0, **options)
 
 
 class RISORIUS_PG_variation(bpy.types.PropertyGroup):
@@ -110,9 +112,9 @@ class RISORIUS_PG_variation(bpy.types.PropertyGroup):
     draws: Annotated[
         float,
         _amount(
-            "Draws",
-            "How far each expression departs from the typical one: 0 not at all, 1 anywhere within the emotion's "
-            "ranges. Clips with a seed of their own keep it",
+            "Expressions",
+            "How far each expression differs from the typical one: 0 not at all, 1 anywhere within the "
+            "emotion's ranges. Clips with their own seed keep it",
             1.0,
             update=retimed,
         ),
@@ -122,8 +124,8 @@ class RISORIUS_PG_variation(bpy.types.PropertyGroup):
         float,
         _amount(
             "Blinks (/min)",
-            "Blinks per minute: people at rest blink 17 times, in conversation 26 times, when reading 4.5 times. "
-            "Seen in a baked motion",
+            "Blinks per minute: people blink 17 times at rest, 26 times in conversation, 4.5 times while "
+            "reading. Only in a baked motion",
             60.0,
             step=100,
         ),
@@ -133,7 +135,7 @@ class RISORIUS_PG_variation(bpy.types.PropertyGroup):
         float,
         _amount(
             "Head",
-            "Small turns of the head: 1 is about one degree, as of someone who holds still. Seen in a baked motion",
+            "Small turns of the head: 1 is about one degree, like a person who holds still. Only in a baked motion",
             5.0,
         ),
     ]
@@ -142,7 +144,7 @@ class RISORIUS_PG_variation(bpy.types.PropertyGroup):
         float,
         _amount(
             "Eyes",
-            "Small movements of the eyes: 1 looks about two degrees aside and back. Seen in a baked motion",
+            "Small movements of the eyes: 1 looks about two degrees to the side and back. Only in a baked motion",
             5.0,
         ),
     ]
@@ -160,14 +162,14 @@ class RISORIUS_PG_timeline(bpy.types.PropertyGroup):
     ]
     active: Annotated[
         int,
-        IntProperty(name="Active Clip", description="The clip that is being edited", default=0, min=0, update=_chosen),
+        IntProperty(name="Active Clip", description="Clip that is being edited", default=0, min=0, update=_chosen),
     ]
     linked: Annotated[
         bool,
         BoolProperty(
             name="Edit in Emotion Panel",
-            description="The Emotion panel shows the emotion of the selected clip, and what is changed there changes "
-            "the clip. Off: the panel is free to try something out, and clips stay as they are",
+            description="Edit the emotion of the selected clip in the Emotion panel. If off, the panel is free "
+            "for trying things out and does not change the clips",
             default=True,
             update=_chosen,
         ),

@@ -11,7 +11,7 @@ FOLDER = "risorius/tissue"
 
 
 class RISORIUS_OT_add_tissue_preset(AddPresetBase, bpy.types.Operator):
-    """Save these figures as a preset, or remove the chosen preset"""
+    """Save these values as a preset, or remove the selected preset"""
 
     bl_idname = "risorius.add_tissue_preset"
     bl_label = "Add Tissue Preset"

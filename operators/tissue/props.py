@@ -66,8 +66,8 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Tissue",
-            description="What the skin is made of: how it swings and comes to rest in a baked motion",
-            items=[*_ITEMS, (OWN, "Own", "Figures of your own, below; save them as a preset above", len(_ITEMS))],
+            description="Properties of the skin: how it swings and settles in a baked motion",
+            items=[*_ITEMS, (OWN, "Custom", "Use your own values, below; save them as a preset above", len(_ITEMS))],
             default=FIRST,
             update=_chosen,
         ),
@@ -77,7 +77,7 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
         _figure(
             "youngs_modulus",
             "Stiffness (Pa)",
-            "Young's modulus of the skin at low strain, pascals",
+            "Young's modulus of the skin at low strain, in pascals",
             least=1.0,
             most=1e5,
         ),
@@ -87,7 +87,7 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
         _figure(
             "thickness",
             "Thickness (m)",
-            "Thickness of the sheet that carries tension, metres",
+            "Thickness of the layer that carries tension, in metres",
             least=1e-5,
             most=0.01,
             precision=5,
@@ -98,7 +98,7 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
         _figure(
             "depth",
             "Depth (m)",
-            "Depth of soft tissue that moves with the skin, metres",
+            "Depth of the soft tissue that moves with the skin, in metres",
             least=1e-4,
             most=0.05,
             precision=4,
@@ -110,7 +110,7 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
         _figure(
             "stiffening",
             "Stiffening",
-            "How many times stiffer the skin gets beyond the threshold",
+            "Factor by which the skin gets stiffer beyond the threshold",
             least=1.0,
             most=20.0,
         ),
@@ -124,7 +124,7 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
         _figure(
             "bending_length",
             "Bending Length (m)",
-            "Length below which the skin smooths what moves it, metres",
+            "Length below which the skin smooths a pull, in metres",
             least=0.0,
             most=0.05,
             precision=4,
@@ -135,7 +135,7 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
         _figure(
             "anchor_length",
             "Anchor Length (m)",
-            "Length over which a pull dies away along the skin, metres",
+            "Length over which a pull fades along the skin, in metres",
             least=1e-3,
             most=0.05,
             precision=4,
@@ -146,7 +146,7 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
         _figure(
             "damping_ratio",
             "Damping",
-            "Damping where skin is firmly held; 1 is critical: no swinging",
+            "Damping where the skin is firmly held. 1 is critical: no swinging",
             least=0.0,
             most=3.0,
         ),
@@ -155,8 +155,8 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
         float,
         _figure(
             "loose_depth",
-            "Loose Depth (m)",
-            "Depth of the soft tissue that moves with cheek and jowl, metres",
+            "Cheek Depth (m)",
+            "Depth of the soft tissue that moves with cheek and jowl, in metres",
             least=1e-4,
             most=0.06,
             precision=4,
@@ -165,15 +165,18 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
     loose_damping_ratio: Annotated[
         float,
         _figure(
-            "loose_damping_ratio", "Loose Damping", "Damping in cheek and jowl; below 1 they swing", least=0.0, most=3.0
+            "loose_damping_ratio", "Cheek Damping", "Damping in cheek and jowl. Below 1 they swing", least=0.0, most=3.0
         ),
     ]
     jaw_frequency: Annotated[
-        float, _figure("jaw_frequency", "Jaw (Hz)", "Frequency of the mandible in its muscles", least=0.5, most=20.0)
+        float,
+        _figure(
+            "jaw_frequency", "Jaw Frequency (Hz)", "Frequency of the mandible in its muscles", least=0.5, most=20.0
+        ),
     ]
     jaw_damping_ratio: Annotated[
         float,
-        _figure("jaw_damping_ratio", "Jaw Damping", "Damping of the mandible; 1 is critical", least=0.0, most=3.0),
+        _figure("jaw_damping_ratio", "Jaw Damping", "Damping of the mandible. 1 is critical", least=0.0, most=3.0),
     ]
 
 

@@ -41,7 +41,7 @@ def title_of(emotion: Any) -> str:
 
 def _rest() -> tuple[str, str]:
     """At the centre."""
-    return "Neutral", "The resting face"
+    return "Neutral", "The neutral face"
 
 
 def _figures(angle: float, activation: float) -> str:

@@ -66,7 +66,7 @@ class Dragging:
 
     def _help(self) -> str:
         """Keys."""
-        return f"Ctrl: No Snapping to Words   Shift: Fine   {self.chooses_by}: Choose   Esc, Right Mouse: Back"
+        return f"Ctrl: No Snapping to Words   Shift: Fine   {self.chooses_by}: Choose   Esc, Right Mouse: Cancel"
 
     def _let_go(self, context: Any) -> None:
         """Give the status bar back."""

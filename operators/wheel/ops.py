@@ -18,7 +18,7 @@ class RISORIUS_OT_drag_emotion(Dragging, bpy.types.Operator):
     """Choose an emotion by clicking or dragging on the emotion wheel"""
 
     bl_idname = "risorius.drag_emotion"
-    bl_label = "Choose Emotion on the Wheel"
+    bl_label = "Choose Emotion on Wheel"
     bl_options = {"UNDO", "INTERNAL", "BLOCKING"}
 
     @classmethod
@@ -50,9 +50,9 @@ class RISORIUS_OT_nudge_emotion(RisoriusOperator, bpy.types.Operator):
     """Move the point of the emotion wheel a little"""
 
     bl_idname = "risorius.nudge_emotion"
-    bl_label = "Move on the Emotion Wheel"
+    bl_label = "Move on Emotion Wheel"
     bl_options = {"UNDO_GROUPED", "INTERNAL"}
-    bl_undo_group = "Move on the Emotion Wheel"
+    bl_undo_group = "Move on Emotion Wheel"
     needs_scipy = False
 
     turn: Annotated[

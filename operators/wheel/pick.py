@@ -28,10 +28,10 @@ _shown: _Shown | None = None
 
 
 class RISORIUS_OT_pick_emotion(Dragging, bpy.types.Operator):
-    """Show the emotion wheel at the pointer: move to see the face change, click to choose"""
+    """Show the emotion wheel at the pointer. Move to change the face, click to choose"""
 
     bl_idname = "risorius.pick_emotion"
-    bl_label = "Pick Emotion on the Wheel"
+    bl_label = "Pick Emotion on Wheel"
     bl_options = {"UNDO", "BLOCKING"}
 
     chooses_on: ClassVar[str] = "PRESS"

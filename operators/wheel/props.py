@@ -23,8 +23,8 @@ class RISORIUS_PG_wheel(bpy.types.PropertyGroup):
         bool,
         BoolProperty(
             name="Emotion Wheel",
-            description="Show the wheel of emotions in the viewport: click and drag in it to choose. The direction is "
-            "the kind of emotion, the distance from the centre its activation",
+            description="Show the emotion wheel in the viewport. Click or drag in it to choose an emotion. The "
+            "direction is the kind of emotion, the distance from the centre its activation",
             default=True,
             update=_shown_otherwise,
         ),
@@ -33,7 +33,7 @@ class RISORIUS_PG_wheel(bpy.types.PropertyGroup):
         str,
         EnumProperty(
             name="Corner",
-            description="Where in the viewport the wheel is",
+            description="Corner of the viewport for the wheel",
             items=tuple((corner.value, corner.value.replace("_", " ").title(), "") for corner in Corner),
             default=Corner.BOTTOM_LEFT.value,
             update=_shown_otherwise,
@@ -43,7 +43,7 @@ class RISORIUS_PG_wheel(bpy.types.PropertyGroup):
         int,
         IntProperty(
             name="Size",
-            description="Pixels across at an interface scale of 1. In a small viewport the wheel is smaller",
+            description="Diameter in pixels at an interface scale of 1. In a small viewport the wheel gets smaller",
             default=280,
             min=120,
             max=800,

@@ -37,7 +37,7 @@ def reason_faceless(context: Any) -> str | None:
     if space is None or space.type != "VIEW_3D":
         return "The emotion wheel is in the 3D viewport"
     if obj is None or obj.type != "MESH" or not has_points(obj):
-        return "The active object is no face with feature points"
+        return "The active object is not a face with feature points"
     if obj.mode != "OBJECT" or not obj.is_editable:
         return f"{obj.name}: is not in Object mode, or linked from another file"
     return None
@@ -49,7 +49,7 @@ def reason_hidden(context: Any) -> str | None:
         return "The emotion wheel is hidden: show it in the Emotion panel"
     reason = reason_faceless(context)
     if reason is None and not context.space_data.show_gizmo:
-        return "The viewport shows no gizmos"
+        return "The viewport's gizmos are hidden: turn them on"
     return reason
 
 

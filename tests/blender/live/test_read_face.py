@@ -197,7 +197,7 @@ def test_the_panel_shows_beliefs_faps_and_features(smiling: Any) -> None:
     assert [text[:3] for text in labels(panel.RISORIUS_PT_read_features)][::3][:2] == ["f1 ", "f2 "]
     bpy.context.scene.frame_set(1)
     live.refresh(smiling)
-    assert "At rest: hardly any expression" in labels(panel.RISORIUS_PT_read)
+    assert "At rest: almost no expression" in labels(panel.RISORIUS_PT_read)
 
 
 def test_nothing_is_read_for_a_panel_that_nobody_sees(smiling: Any, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -91,7 +91,7 @@ def test_without_an_object_the_way_in_is_shown() -> None:
 def test_a_mesh_without_points_is_told_what_it_needs(cube: Any) -> None:
     shown = drawn()
     assert ("operator", "risorius.import_points") in shown["RISORIUS_PT_main"]
-    assert ("label", "Finds the face first") in shown["RISORIUS_PT_bake"]
+    assert ("label", "The face is found first") in shown["RISORIUS_PT_bake"]
 
 
 def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:

@@ -2,29 +2,64 @@
 
 from __future__ import annotations
 
+import ast
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import bpy
 import pytest
+from bl_ui.utils import PresetPanel
 from risorius.errors import FormatError
 from risorius.operators import translations
 from risorius.operators.classes import CLASSES
 
+OPERATORS = Path(translations.__file__).parent
+#: What a layout writes text with.
+LAYOUT = ("label", "menu", "operator", "prop")
 
-def names() -> set[tuple[str, str]]:
-    """Context and text of every panel, button and setting."""
+
+def names(properties_of: Callable[[type], Any]) -> set[tuple[str, str]]:
+    """Context and text of every panel, button, setting and choice, and of what the panels write themselves."""
     found = set()
     for cls in CLASSES:
-        if getattr(cls, "bl_label", None):
-            found.add(("Operator" if issubclass(cls, bpy.types.Operator) else "*", cls.bl_label))
-        own = getattr(cls, "__annotations__", {})
-        found |= {("*", prop.name) for prop in cls.bl_rna.properties if prop.identifier in own}
+        context = "Operator" if issubclass(cls, bpy.types.Operator) else "*"
+        if getattr(cls, "bl_label", None) and not issubclass(cls, PresetPanel):  # its label becomes the preset's name
+            found.add((context, cls.bl_label))
+        if issubclass(cls, (bpy.types.Operator, bpy.types.PropertyGroup)):
+            own = getattr(cls, "__annotations__", {})
+            shown = [prop for prop in properties_of(cls) if prop.identifier in own and prop.name != prop.identifier]
+            found |= {("*", prop.name) for prop in shown}
+            found |= {("*", item.name) for prop in shown if prop.type == "ENUM" for item in prop.enum_items}
+    for path in sorted(OPERATORS.rglob("*.py")):
+        found |= set(written(ast.parse(path.read_text(encoding="utf-8"))))
     return found
 
 
-def test_every_translated_text_is_a_name_of_ours() -> None:
+def written(source: ast.AST) -> Iterator[tuple[str, str]]:
+    """Texts of buttons and labels that a panel writes, where they hold no value."""
+    for call in ast.walk(source):
+        if not (isinstance(call, ast.Call) and isinstance(call.func, ast.Attribute) and call.func.attr in LAYOUT):
+            continue
+        context = "Operator" if call.func.attr == "operator" else "*"
+        for node in (part for word in call.keywords if word.arg == "text" for part in choices(word.value)):
+            if isinstance(node, ast.Constant) and node.value:
+                yield context, node.value
+
+
+def choices(text: ast.expr) -> list[ast.expr]:
+    """A text, or both of an either-or."""
+    return [text.body, text.orelse] if isinstance(text, ast.IfExp) else [text]
+
+
+def test_every_translated_text_is_a_name_of_ours(properties_of: Callable[[type], Any]) -> None:
     for language, table in translations.load().items():
-        assert sorted(set(table) - names()) == [], language
+        assert sorted(set(table) - names(properties_of)) == [], language
+
+
+def test_every_name_is_translated(properties_of: Callable[[type], Any]) -> None:
+    for language, table in translations.load().items():
+        assert sorted(names(properties_of) - set(table)) == [], language
 
 
 @pytest.mark.skipif(not bpy.app.build_options.international, reason="this Blender was built without languages")

@@ -146,4 +146,4 @@ def test_the_front_of_a_face_is_where_it_looks(head: Any) -> None:
 
 
 def test_the_name_under_the_mouse_says_number_place_and_how_sure() -> None:
-    assert overlay.words_of("8.4", 0.5) == ("8.4  outer lip, right corner", "50% sure")
+    assert overlay.words_of("8.4", 0.5) == ("8.4  outer lip, right corner", "50% confidence")
