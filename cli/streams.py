@@ -157,9 +157,7 @@ def _write(path: Path, stream: FapStream, arguments: argparse.Namespace) -> None
 
     suffix = path.suffix.lower()
     if suffix == ".fba":
-        api.write_fba(
-            path, stream, quantiser=arguments.quantiser, refresh=arguments.refresh, progress=when_slow()
-        )
+        api.write_fba(path, stream, quantiser=arguments.quantiser, refresh=arguments.refresh, progress=when_slow())
     elif suffix == ".json":
         api.write_fap_json(path, stream)
     elif suffix == ".csv":

@@ -20,7 +20,6 @@ from .pictures import Picture, Pictures, needed
 LANDMARKS = 478
 
 
-
 def find_landmarks(pictures: Pictures, *, progress: Report | None = None) -> Landmarks:
     """Landmarks in every picture; NaN where it shows no face. Of several faces, one is taken.
 

@@ -103,7 +103,9 @@ def _amount(name: str, description: str, most: float, **options: Any) -> Any:
 
 def _seed(what: str, **options: Any) -> Any:
     """From which number it is drawn."""
-    return IntProperty(name="Seed", description=f"Random seed: another number draws different {what}", default=1, min=0, **options)
+    return IntProperty(
+        name="Seed", description=f"Random seed: another number draws different {what}", default=1, min=0, **options
+    )
 
 
 class RISORIUS_PG_variation(bpy.types.PropertyGroup):

@@ -21,9 +21,7 @@ def test_the_page_has_every_low_level_fap_once() -> None:
     [(3, 1, "jaw opening"), (15, -1, "jaw shift"), (12, 1, "zygomaticus_major"), (19, 1, "orbicularis_oculi_upper"),
      (31, 1, "frontalis_med"), (46, 1, "tongue"), (49, -1, "head turn"), (65, 1, "skin")],
 )  # fmt: skip
-def test_a_fap_is_moved_by_what_anatomy_moves_it_with(
-    number: int, sign: float, mechanism: str
-) -> None:
+def test_a_fap_is_moved_by_what_anatomy_moves_it_with(number: int, sign: float, mechanism: str) -> None:
     found = fap_table.measure(api.default_face(), number, float(sign))
     assert max(found.shares, key=lambda name: found.shares[name]) == mechanism
     assert sum(found.shares.values()) == pytest.approx(found.natural)

@@ -84,9 +84,7 @@ def test_errors_of_requests_are_shares_of_what_was_asked() -> None:
     assert found.errors == pytest.approx(0.1 * asked / np.maximum(asked, 100.0))
 
 
-def test_absent_heads_and_unknown_ones_are_named(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_absent_heads_and_unknown_ones_are_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("RISORIUS_SHARED", str(tmp_path))
     with pytest.raises(FormatError, match="RISORIUS_SHARED"):
         heads.heads_folder()

@@ -44,9 +44,7 @@ def test_every_profile_is_posed_at_every_activation() -> None:
     measured = posed("natural", draws=2)
     assert len(measured.faps) == 25 * 4 * 2
     for index in range(0, 200, 2):
-        profile = poses.scaled(
-            api.Archetype(measured.asked[index]), measured.variants[index], measured.shares[index]
-        )
+        profile = poses.scaled(api.Archetype(measured.asked[index]), measured.variants[index], measured.shares[index])
         for number, (low, high) in profile.ranges.items():
             assert low - 1e-9 <= measured.faps[index, number - 1] <= high + 1e-9
     assert not np.array_equal(measured.faps[0], measured.faps[1])
