@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence clean
+.PHONY: help demo quick test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -10,6 +10,9 @@ help: ## this list
 demo: ## six emotions on the default head: film, .blend and picture in out/
 	@sh tools/demo.sh $(ARGS)
 
+quick: ## style, types, layers and the short tests: the inner loop
+	@$(SETUP) dev && .venv/bin/python tools/test.py --quick
+
 test: ## every test, on every Blender; STEPS="lint types layers pure bpy-4.5 ..." picks some
 	@$(SETUP) dev && .venv/bin/python tools/test.py $(STEPS)
 
@@ -17,7 +20,7 @@ lint: ## style, types and layers
 	@$(SETUP) dev && .venv/bin/python tools/test.py lint types layers
 
 build: ## what users install, in dist/; ARGS="--platform linux-x64 --blender 5.1" builds one zip
-	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/build.py $(ARGS)
+	@$(SETUP) dev blender && .venv/bin/python tools/build.py $(ARGS)
 
 bench: ## speed and accuracy figures
 	@$(SETUP) bpy-4.5 && .venv-bpy-4.5/bin/python tools/bench_speed.py $(ARGS)
@@ -44,7 +47,7 @@ track-evidence: ## docs/tracking.md: how well FAPs come back from films of known
 	@$(SETUP) bpy-4.5 track && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/track_evidence.py films && OMP_NUM_THREADS=1 .venv-track/bin/python tools/track_evidence.py read && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/track_evidence.py sheet
 
 docs-pictures: ## the manual's pictures, taken in a real Blender window; ARGS="--only wheel" for some of them
-	@$(SETUP) dev bpy-4.5 && .venv/bin/python tools/docs_pictures.py $(ARGS)
+	@$(SETUP) dev blender && .venv/bin/python tools/docs_pictures.py $(ARGS)
 
 clean: ## remove what the commands above made, downloads included
-	rm -rf .venv .venv-bpy-* .cache .typecheck .mypy_cache .ruff_cache .pytest_cache build dist out *.egg-info
+	rm -rf .venv .venv-* .cache .typecheck .mypy_cache .ruff_cache .pytest_cache build dist out *.egg-info

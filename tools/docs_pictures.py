@@ -10,7 +10,6 @@ and writes docs/pictures/. Needs Linux, root and the shared tool that keeps a Bl
 from __future__ import annotations
 
 import argparse
-import os
 import subprocess
 import sys
 import tempfile
@@ -19,7 +18,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from places import DOCS, ROOT, shared_folder
-from window.driver import Window, WindowError, call
+from window.driver import NoSharedBlenderError, Window, WindowError, call, shared_blender
 
 PICTURES = DOCS / "pictures"
 #: Quality of the JPEG files, and seconds for the window to draw what was changed.
@@ -220,9 +219,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", nargs="*", choices=PICTURED, default=list(PICTURED), help="which pictures")
     arguments = parser.parse_args()
-    tool = shared_folder() / "tools" / "blender-gui"
-    if not tool.is_file() or not hasattr(os, "geteuid") or os.geteuid() != 0:
-        print(f"The pictures need {tool} and root: set RISORIUS_SHARED to the folder that has it.", file=sys.stderr)
+    try:
+        tool = shared_blender()
+    except NoSharedBlenderError as reason:
+        print(f"The pictures need a Blender with a virtual screen: {reason}.", file=sys.stderr)
         return 1
     with tempfile.TemporaryDirectory(prefix="risorius-") as name:
         folder = Path(name)

@@ -1,9 +1,10 @@
 """Set up the Python environments of this checkout: one to develop in, and one per Blender (the `bpy` module).
 
-    python3.11 tools/environments.py NAME [NAME ...]
+    python3 tools/environments.py NAME [NAME ...]
 
-makes what is missing of dev, track, bpy-4.2, bpy-4.5 and bpy-5.0 (`all`: each of them) and leaves what is up to date.
-Needs only Python 3.11's own library.
+makes what is missing of dev, track, bpy-4.2, bpy-4.5, bpy-5.0 and bpy-5.3 (`all`: each of them) and leaves what is up
+to date; `blender` stands for one Blender, whichever can be had. Runs on Python 3.11 to 3.14 with nothing but its own
+library, and finds the Python that each environment needs. A set-up that was interrupted is begun anew by the next run.
 """
 
 from __future__ import annotations
@@ -14,21 +15,25 @@ import shutil
 import subprocess
 import sys
 import tomllib
-import venv
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from places import ROOT
 from system_libraries import MissingLibraries, ensure_system_libraries
 
+#: Pythons that Risorius runs on; those that there is a bpy module for come first.
+PYTHONS = ("3.11", "3.13", "3.12", "3.14")
+
 
 @dataclass(frozen=True)
 class Environment:
-    """One virtual environment: its folder in the checkout and what `pip install` puts there."""
+    """One virtual environment: its folder in the checkout, what `pip install` puts there, and Pythons that it takes."""
 
     folder: str
     requirements: tuple[str, ...]
-    blender: bool
+    pythons: tuple[str, ...] = PYTHONS
+    blender: bool = False
 
     @property
     def path(self) -> Path:
@@ -40,31 +45,46 @@ class Environment:
         """The environment's interpreter."""
         return self.path / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
 
+    @property
+    def stamp(self) -> Path:
+        """The file that is written when all else is done: by what the environment's packages were chosen."""
+        return self.path / ".risorius"
+
     def fingerprint(self) -> str:
-        """What the environment's packages were chosen by: when this changes, pip runs again."""
+        """By what the environment's packages are chosen: when this changes, pip runs again."""
         project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-        chosen = [self.requirements, str(ROOT), sys.version, project["project"], project["tool"]["setuptools"]]
+        chosen = [self.requirements, str(ROOT), self.pythons, project["project"], project["tool"]["setuptools"]]
         return hashlib.sha256(json.dumps(chosen, sort_keys=True).encode()).hexdigest()
 
 
 # NumPy is what the official Blender of that version brings; SciPy is the newest that runs on it.
 ENVIRONMENTS = {
-    "dev": Environment(".venv", ("-e", ".[dev]"), blender=False),
-    "track": Environment(".venv-track", ("-e", ".[test,track]", "scikit-image"), blender=False),
+    "dev": Environment(".venv", ("-e", ".[dev]")),
+    "track": Environment(".venv-track", ("-e", ".[test,track]", "scikit-image"), ("3.11", "3.12")),
     "bpy-4.2": Environment(
-        ".venv-bpy-4.2", ("-e", ".[test]", "bpy~=4.2.0", "numpy==1.24.3", "scipy<1.16"), blender=True
+        ".venv-bpy-4.2", ("-e", ".[test]", "bpy~=4.2.0", "numpy==1.24.3", "scipy<1.16"), ("3.11",), blender=True
     ),
     "bpy-4.5": Environment(
-        ".venv-bpy-4.5", ("-e", ".[test]", "bpy~=4.5.0", "numpy==1.26.4", "scipy<1.16"), blender=True
+        ".venv-bpy-4.5", ("-e", ".[test]", "bpy~=4.5.0", "numpy==1.26.4", "scipy<1.16"), ("3.11",), blender=True
     ),
     "bpy-5.0": Environment(
-        ".venv-bpy-5.0", ("-e", ".[test]", "bpy~=5.0.1", "numpy==1.26.4", "scipy<1.16"), blender=True
+        ".venv-bpy-5.0", ("-e", ".[test]", "bpy~=5.0.1", "numpy==1.26.4", "scipy<1.16"), ("3.11",), blender=True
+    ),
+    "bpy-5.3": Environment(
+        ".venv-bpy-5.3", ("-e", ".[test]", "bpy~=5.3.0", "numpy==2.3.4", "scipy<1.18"), ("3.13",), blender=True
     ),
 }
+
+#: Blenders that do where any will do, the preferred one first.
+ANY_BLENDER = ("bpy-4.5", "bpy-5.3")
 
 
 class SetUpError(Exception):
     """What stopped the setting up, and what to do about it."""
+
+
+class NoPythonError(SetUpError):
+    """This machine has no Python of the versions that an environment needs, and none could be fetched."""
 
 
 def ensure(name: str) -> Environment:
@@ -72,8 +92,10 @@ def ensure(name: str) -> Environment:
 
     Raises
     ------
+    NoPythonError
+        when there is no Python for it.
     SetUpError
-        when the environment cannot be made; the message says what to do.
+        when the environment cannot be made for another reason; the message says what to do.
     """
     environment = ENVIRONMENTS[name]
     if environment.blender:
@@ -81,17 +103,29 @@ def ensure(name: str) -> Environment:
             ensure_system_libraries()
         except MissingLibraries as missing:
             raise SetUpError(str(missing)) from missing
-    stamp = environment.path / ".risorius"
-    if stamp.exists() and stamp.read_text(encoding="utf-8") == environment.fingerprint():
+    fits, fingerprint = _fits(environment), environment.fingerprint()
+    if fits and environment.stamp.read_text(encoding="utf-8") == fingerprint:
         return environment
-    if sys.version_info[:2] != (3, 11):
-        raise SetUpError(f"{sys.executable} is Python {sys.version.split()[0]}; Risorius is set up with Python 3.11")
     print(f"Setting up {environment.folder} ({name}) ...", flush=True)
-    if not _fits(environment):
-        _create(environment)
+    if not fits:
+        _create(environment, find_python(environment.pythons))
+    # Without its stamp the environment is half made, and is made anew should this be interrupted.
+    environment.stamp.unlink(missing_ok=True)
     _install(environment)
-    stamp.write_text(environment.fingerprint(), encoding="utf-8")
+    environment.stamp.write_text(fingerprint, encoding="utf-8")
     return environment
+
+
+def ensure_any_blender() -> Environment:
+    """Make one environment with a Blender, whichever this machine has the Python for.
+
+    Raises
+    ------
+    SetUpError
+        as `ensure` does.
+    """
+    python = find_python(tuple(version for name in ANY_BLENDER for version in ENVIRONMENTS[name].pythons))
+    return ensure(next(name for name in ANY_BLENDER if version_of(python) in ENVIRONMENTS[name].pythons))
 
 
 def ensure_link() -> Path:
@@ -105,26 +139,52 @@ def ensure_link() -> Path:
     return folder
 
 
+def find_python(versions: tuple[str, ...]) -> str:
+    """The path of a Python of one of these versions: the one that runs this, or what `find_python.sh` finds.
+
+    Raises
+    ------
+    NoPythonError
+        when there is none; says what would do.
+    """
+    if ".".join(map(str, sys.version_info[:2])) in versions:
+        return sys.executable
+    shell = shutil.which("sh")
+    if shell is None:
+        raise NoPythonError(f"Found no Python {versions[0]}: run tools/environments.py with one.")
+    search = [shell, str(ROOT / "tools" / "find_python.sh"), *versions]
+    done = subprocess.run(search, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise NoPythonError(done.stderr.strip())
+    return done.stdout.strip()
+
+
+def version_of(python: str) -> str:
+    """The version of an interpreter, such as 3.11."""
+    ask = [python, "-c", "import sys; print('%d.%d' % sys.version_info[:2])"]
+    return subprocess.run(ask, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+
+
 def _fits(environment: Environment) -> bool:
-    """Whether the environment's folder holds a Python of this very version, made at this very place."""
+    """Whether the environment was made to its end, at this very place, of a Python that it takes and that is there."""
     settings = environment.path / "pyvenv.cfg"
-    if not settings.exists() or not environment.python.exists():
+    if not (environment.stamp.exists() and settings.exists() and environment.python.exists()):
         return False
-    version = ".".join(map(str, sys.version_info[:3]))
     lines = settings.read_text(encoding="utf-8").splitlines()
-    return f"version = {version}" in lines and any(line.endswith(f" {environment.path}") for line in lines)
+    of_version = any(line.startswith(f"version = {version}.") for line in lines for version in environment.pythons)
+    return of_version and any(line.endswith(f" {environment.path}") for line in lines)
 
 
-def _create(environment: Environment) -> None:
-    """Make the empty environment with pip in it."""
-    shutil.rmtree(environment.path, ignore_errors=True)
+def _create(environment: Environment, python: str) -> None:
+    """Make the empty environment, with pip in it, where nothing is or what an interrupted set-up left."""
     try:
-        venv.create(environment.path, with_pip=True, symlinks=sys.platform != "win32")
+        if environment.path.exists():
+            shutil.rmtree(environment.path)
+        subprocess.run([python, "-m", "venv", str(environment.path)], check=True)
     except (subprocess.CalledProcessError, OSError) as error:
-        shutil.rmtree(environment.path, ignore_errors=True)
         raise SetUpError(
-            f"{sys.executable} cannot make a virtual environment ({error}).\n"
-            "On Debian and Ubuntu: apt-get install python3.11-venv"
+            f"{python} cannot make a virtual environment ({error}).\n"
+            f"On Debian and Ubuntu: apt-get install python{version_of(python)}-venv"
         ) from error
 
 
@@ -140,15 +200,23 @@ def _install(environment: Environment) -> None:
         )
 
 
+def chosen(names: Iterable[str]) -> None:
+    """Set up what these names stand for."""
+    for name in names:
+        if name == "blender":
+            ensure_any_blender()
+        else:
+            ensure(name)
+
+
 def main(names: list[str]) -> int:
     """Set up the named environments; 0 when all stand."""
-    unknown = [name for name in names if name not in {"all", *ENVIRONMENTS}]
+    unknown = [name for name in names if name not in {"all", "blender", *ENVIRONMENTS}]
     if unknown or not names:
-        print(f"usage: environments.py all | {' | '.join(ENVIRONMENTS)}", file=sys.stderr)
+        print(f"usage: environments.py all | blender | {' | '.join(ENVIRONMENTS)}", file=sys.stderr)
         return 2
     try:
-        for name in ENVIRONMENTS if "all" in names else names:
-            ensure(name)
+        chosen(ENVIRONMENTS if "all" in names else names)
         ensure_link()
     except SetUpError as error:
         print(f"\nSet-up stopped: {error}", file=sys.stderr)

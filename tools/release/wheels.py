@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -71,11 +72,14 @@ def _fetch_one(platform: Platform, python: str, requirement: str, folder: Path) 
     place.mkdir(parents=True, exist_ok=True)
     print(f"Downloading {requirement} for Python {python} on {platform.name} ...", flush=True)
     command = [sys.executable, "-m", "pip", "download", "--disable-pip-version-check", "--no-deps"]
-    command += ["--only-binary=:all:", "--python-version", python, "--dest", str(place)]
+    command += ["--only-binary=:all:", "--python-version", python]
     command += [] if sys.stdout.isatty() else ["--progress-bar=off"]
     for tag in platform.tags:
         command += ["--platform", tag]
-    if subprocess.run([*command, requirement], check=False).returncode:
-        wanted = f"{requirement} for Python {python} on {platform.name}"
-        raise DownloadError(f"no wheel of {wanted} (pip's message is above)")
-    return sorted(place.glob("scipy-*.whl"))[-1]
+    # Another run may fetch the same one: what is found here has been fetched to its end.
+    with tempfile.TemporaryDirectory(dir=place) as scratch:
+        if subprocess.run([*command, "--dest", scratch, requirement], check=False).returncode:
+            wanted = f"{requirement} for Python {python} on {platform.name}"
+            raise DownloadError(f"no wheel of {wanted} (pip's message is above)")
+        (wheel,) = Path(scratch).glob("scipy-*.whl")
+        return wheel.replace(place / wheel.name)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import tomllib
 import zipfile
@@ -60,12 +59,12 @@ def blender_extension_command() -> list[str]:
         if environment.blender:
             found = sorted(environment.path.glob("[lL]ib/**/bl_pkg/cli/blender_ext.py"))
             if found:
-                return [sys.executable, str(found[-1])]
+                return [str(environment.python), str(found[-1])]
     if blender := shutil.which("blender"):
         return [blender, "--command", "extension"]
     raise BuildError(
         "Blender's extension tool is needed to build and check the zip: put a Blender 4.2 or later on the PATH, "
-        "or run tools/environments.py bpy-4.5"
+        "or run tools/environments.py blender"
     )
 
 

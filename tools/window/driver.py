@@ -18,16 +18,42 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from places import ROOT
+from places import ROOT, shared_folder
 
 SERVED = Path(__file__).with_name("served.py")
-#: Seconds for an answer, and for what is waited for.
-ANSWER, PATIENCE = 60.0, 120.0
+#: Seconds for an answer, for what is waited for, and for setting a Blender up.
+ANSWER, PATIENCE, SET_UP = 60.0, 120.0, 1200.0
 HEIGHT = 900
 
 
 class WindowError(Exception):
     """The window did not do what was asked; says what Blender said."""
+
+
+class NoSharedBlenderError(Exception):
+    """Why the shared program that keeps a Blender of its own is of no use here."""
+
+
+def shared_blender() -> Path:
+    """The shared program that keeps a Blender of its own, with a virtual screen; its Blender is set up.
+
+    Raises
+    ------
+    NoSharedBlenderError
+        it is not there, this is not root, or its Blender cannot be set up.
+    """
+    tool = shared_folder() / "tools" / "blender-gui"
+    if not tool.is_file():
+        raise NoSharedBlenderError(f"{tool} is not there: set RISORIUS_SHARED to the folder that has it")
+    if not hasattr(os, "geteuid") or os.geteuid() != 0:
+        raise NoSharedBlenderError("a Blender with a virtual screen needs root")
+    try:
+        done = call(tool, "setup", settings=Path("/tmp"), timeout=SET_UP)
+    except subprocess.TimeoutExpired:
+        raise NoSharedBlenderError(f"setting up its Blender took more than {SET_UP / 60:.0f} minutes") from None
+    if done.returncode:
+        raise NoSharedBlenderError(f"its Blender cannot be set up: {(done.stderr or done.stdout).strip()[-300:]}")
+    return tool
 
 
 def call(tool: Path, *arguments: str, settings: Path, timeout: float = 300.0) -> subprocess.CompletedProcess[str]:

@@ -12,7 +12,10 @@ from pathlib import Path
 import pytest
 from places import ROOT
 
-pytest.importorskip("bpy", reason="needs the bpy module")
+bpy = pytest.importorskip("bpy", reason="needs the bpy module")
+
+#: The zip for this Blender.
+RANGE = "5.1" if bpy.app.version >= (5, 1) else "4.2"
 
 # Runs in an interpreter of its own, with an empty settings folder. SciPy may come from the extension's wheel alone.
 SCRIPT = '''
@@ -76,7 +79,7 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
     if not sys.platform.startswith("linux"):
         pytest.skip("the zip is built for Linux here")
     folder = tmp_path_factory.mktemp("installed")
-    path = built_zip(folder / "zip", "--platform", "linux-x64", "--blender", "4.2")
+    path = built_zip(folder / "zip", "--platform", "linux-x64", "--blender", RANGE)
     settings = folder / "settings"
     settings.mkdir()
     run = [sys.executable, "-I", "-c", SCRIPT, str(path), str(settings)]
