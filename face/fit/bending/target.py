@@ -23,6 +23,10 @@ PIXEL, TOLERANCE = 3e-3, 3e-3
 TURN = 10e-3
 #: Points nearer than this to an open edge are not matched: inside openings, and at the mesh's outer rim; metres.
 EDGE, RIM = 5e-3, 12e-3
+#: Where mouth, eyes and nostrils are: least and greatest x, y, z round the template's origin, metres.
+OPENINGS = ((-52e-3, -np.inf, -55e-3), (52e-3, -40e-3, 55e-3))
+#: Skin that turns away from the front by more than this (y of its normal) is not seen from there.
+TURNED_AWAY = 0.3
 
 
 @dataclass(frozen=True)
@@ -52,7 +56,7 @@ def head_target(surface: Surface, pose: HeadPose) -> Target:
     cloud = box_cloud(skin, AT_HOME, HEAD_BOX, COUNT)
     x, y, z = cloud.positions.T
     normal = cloud.normals
-    front = first_hits(y, x, z, pixel=PIXEL, tolerance=TOLERANCE) & (normal[:, 1] < 0.3)
+    front = first_hits(y, x, z, pixel=PIXEL, tolerance=TOLERANCE) & (normal[:, 1] < TURNED_AWAY)
     seen = front.copy()
     for depth, across, up, facing in (
         (-x, y, z, normal[:, 0]), (x, y, z, -normal[:, 0]), (-z, x, y, normal[:, 2]), (-y, x, z, normal[:, 1]),
@@ -81,10 +85,9 @@ def _open_edges(surface: Surface) -> tuple[Floats, Floats]:
     ends = open_edges(surface.triangles)
     a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
     places = np.concatenate([a + share * (b - a) for share in (0.0, 0.25, 0.5, 0.75)])
-    x, y, z = places.T
     low, high = np.array(HEAD_BOX)
     places_inside = ((places >= low) & (places <= high)).all(axis=1)
-    inner = (np.abs(x) < 52e-3) & (z > -55e-3) & (z < 55e-3) & (y < -40e-3)
+    inner = ((places > OPENINGS[0]) & (places < OPENINGS[1])).all(axis=1)
     return places[places_inside & inner], places[places_inside & ~inner]
 
 

@@ -16,12 +16,18 @@ PROBES = 600
 ROUNDS_ALIKE, ROUNDS_AXES, AXIS_RATIO = 8, 14, 1.3
 #: How firmly the axes keep one scale: square metres per squared logarithm of a scale over their mean.
 AXIS_PRIOR = 0.01
+#: A step's turns and stretches count as ways of a point so far from the middle, metres; damping relative to the mean.
+ARM, DAMPING = 0.1, 1e-3
+#: Largest step: logarithm of a scale, angle in radians.
+MOST_STRETCH, MOST_TURN = 0.1, 0.3
 #: Farthest match, metres, from the first round to the last; distance at which a match counts half.
 GATES, HALF = (25e-3, 9e-3), 4e-3
 #: Matches whose normals differ more (cosine) are no matches.
 FACING = 0.4
 #: Visibility from the front, metres.
 PIXEL, TOLERANCE = 4e-3, 3.5e-3
+#: What may be visible of a head, and before it: least and greatest x, y, z round the template's origin, metres.
+BEFORE_HEAD = ((-0.11, -0.25, -0.16), (0.11, 0.06, 0.13))
 #: The picture of what is visible is taken anew in these rounds.
 LOOKS = (0, 8)
 
@@ -73,8 +79,7 @@ def align(cloud: Cloud, pose: HeadPose, template: FitTemplate) -> HeadPose:
 def _seen_from_front(positions: Floats, pose: HeadPose) -> Ints:
     """Indices of the points that the face's viewer sees."""
     local = pose.to_template(positions)
-    inside: Ints = np.flatnonzero((np.abs(local[:, 0]) < 0.11) & (local[:, 2] > -0.16) & (local[:, 2] < 0.13))
-    inside = inside[(local[inside, 1] < 0.06) & (local[inside, 1] > -0.25)]
+    inside: Ints = np.flatnonzero(((local > BEFORE_HEAD[0]) & (local < BEFORE_HEAD[1])).all(axis=1))
     if len(inside) == 0:
         return inside
     view = local[inside]
@@ -99,17 +104,17 @@ def _improved(pose: HeadPose, model: Floats, away: Floats, facing: Floats, *, by
     rows = np.column_stack(
         [np.cross(turned, facing), facing, stretch if by_axis else stretch.sum(axis=1, keepdims=True)]
     )
-    unit = np.array([1.0 / 0.1] * 3 + [1.0] * 3 + [1.0 / 0.1] * (rows.shape[1] - 6))  # metres each
+    unit = np.array([1.0 / ARM] * 3 + [1.0] * 3 + [1.0 / ARM] * (rows.shape[1] - 6))  # metres each
     rows = rows * unit
     normal = rows.T @ (rows * weight[:, None])
-    normal += np.eye(len(normal)) * 1e-3 * np.trace(normal) / len(normal)
+    normal += np.eye(len(normal)) * DAMPING * np.trace(normal) / len(normal)
     wanted = rows.T @ (weight * rest)
     if by_axis:
         own = np.log(pose.scale / np.cbrt(np.prod(pose.scale)))
         normal[6:, 6:] += AXIS_PRIOR * np.diag(unit[6:] ** 2)
         wanted[6:] -= AXIS_PRIOR * unit[6:] * own
     step = unit * np.linalg.solve(normal, wanted)
-    scale = pose.scale * np.exp(np.clip(step[6:], -0.1, 0.1))
+    scale = pose.scale * np.exp(np.clip(step[6:], -MOST_STRETCH, MOST_STRETCH))
     middle = np.cbrt(np.prod(scale))
     scale = np.clip(scale, middle / np.sqrt(AXIS_RATIO), middle * np.sqrt(AXIS_RATIO))
     return HeadPose(pose.axes @ _rotation(step[:3]).T, pose.origin + step[3:6], scale)
@@ -117,7 +122,7 @@ def _improved(pose: HeadPose, model: Floats, away: Floats, facing: Floats, *, by
 
 def _rotation(turn: Floats) -> Floats:
     """(3, 3) rotation by a vector, radians (Rodrigues)."""
-    angle = min(float(np.linalg.norm(turn)), 0.3)
+    angle = min(float(np.linalg.norm(turn)), MOST_TURN)
     if angle < 1e-12:
         return np.eye(3)
     x, y, z = turn / np.linalg.norm(turn)

@@ -30,6 +30,10 @@ FACE_BOX = ((-0.068, -0.185, -0.09), (0.068, 0.0, 0.076))
 ALIGNED, FINALISTS = 10, 3
 #: From this score on it is asked whether the mouth is open, by so many degrees; an open one must score better by this.
 GOOD_SCORE, JAW_DEGREES, OPEN_COST = 0.55, (7.0, 14.0, 21.0), 0.1
+#: Half width and half height of the middle of a face, metres, and the share of it that lies foremost.
+FRONT, FOREMOST = (0.05, 0.07), 0.4
+#: Poses nearer than a centimetre and about 20 degrees (trace of the turn between them) are one.
+SAME_PLACE, SAME_TRACE = 0.01, 2.88
 #: Of more triangles than this, none is so large that it crosses a box with no corner inside.
 MANY = 100_000
 #: Least and greatest x, y, z round the template's origin, metres.
@@ -181,21 +185,21 @@ def _aligned(surface: Surface, cloud: Cloud, guess: HeadPose) -> Located:
 def looks_backwards(cloud: Cloud, pose: HeadPose) -> bool:
     """Whether the normals of what is seen from the front point away from the viewer."""
     local = pose.to_template(cloud.positions)
-    inside = (np.abs(local[:, 0]) < 0.05) & (np.abs(local[:, 2]) < 0.07)
+    inside = (np.abs(local[:, 0]) < FRONT[0]) & (np.abs(local[:, 2]) < FRONT[1])
     if not inside.any():
         return False
     depth = local[inside, 1]
-    front = depth <= np.quantile(depth, 0.4)
+    front = depth <= np.quantile(depth, FOREMOST)
     return bool(np.median(cloud.normals[inside][front] @ pose.axes[1]) > 0.0)
 
 
 def _distinct(places: Sequence[Located]) -> list[Located]:
-    """Places that differ by more than a centimetre or 20 degrees."""
+    """Places that differ in position or direction."""
     kept: list[Located] = []
     for place in places:
         for other in kept:
-            near = np.linalg.norm(place.pose.origin - other.pose.origin) < 0.01 * other.pose.size
-            if near and np.trace(place.pose.axes @ other.pose.axes.T) > 2.88:
+            near = np.linalg.norm(place.pose.origin - other.pose.origin) < SAME_PLACE * other.pose.size
+            if near and np.trace(place.pose.axes @ other.pose.axes.T) > SAME_TRACE:
                 break
         else:
             kept.append(place)

@@ -16,6 +16,8 @@ from ..template.template import FitTemplate
 DEPTH_UNIT = 4e-3
 #: From this score on a mesh is refused; beneath it, from this agreement of relief on, it is accepted.
 SCORE_LIMIT, RELIEF_LIMIT = 1.6, 0.6
+#: Less of the face's oval than this tells nothing.
+ENOUGH = 0.3
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,7 @@ def face_score(positions: Floats, template: FitTemplate) -> FaceScore:
     oval = in_oval() & np.isfinite(own)
     known = np.isfinite(depth) & np.isfinite(own)
     both = known & oval
-    if both.sum() < 0.3 * oval.sum():
+    if both.sum() < ENOUGH * oval.sum():
         return FaceScore(DEPTH_CLIP, 0.0, float(both.sum() / oval.sum()))
     difference = (depth - own)[both]
     difference = difference - np.median(difference)
