@@ -71,7 +71,7 @@ def test_every_row_of_the_table_tells_about_the_place_of_the_default_heads_point
     [
         ("5.3,above,3.7,8.3,3.7,0,0,1", "column view: must be one of front, side, but it is 'above'"),
         ("5.3,front,3.7,8.3,3.7,0,x,1", "column across: must be a number, but it is 'x'"),
-        ("5.3,front,3.7", "has 3 cells where the heading has 8"),
+        ("5.3,front,3.7", "has 3 cells, but the heading has 8"),
     ],
 )
 def test_a_damaged_row_is_named(row: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
