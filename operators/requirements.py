@@ -16,8 +16,8 @@ REMEDY = (
     "this Blender's Python does not have.",
     "Install the Risorius zip made for your",
     "system and Blender: it brings SciPy.",
-    "A Linux distribution's Blender uses the",
-    "system's: install python3-scipy.",
+    "The Blender of a Linux distribution",
+    "needs the package python3-scipy.",
 )
 
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+#: Letters that fit on a line of the sidebar at its usual width.
+LINE = 38
+
 
 class Sidebar:
     """Mix into `bpy.types.Panel`."""

@@ -9,16 +9,13 @@ from typing import Any
 import bpy
 
 from ..preview import live
-from ..sidebar import Sidebar
+from ..sidebar import LINE, Sidebar
 from ..timeline.linked import linked_clip
 from ..timeline.titles import clip_title
 from ..wheel.panel import RISORIUS_PT_wheel
 from ..wheel.places import between
 from .ops import RISORIUS_OT_reset_activation
 from .props import own_activation
-
-#: Letters that fit on a line of the sidebar.
-LINE = 38
 
 
 class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import bpy
 
 from ..active import ready_reason
 from ..requirements import has_scipy
-from ..sidebar import Sidebar
+from ..sidebar import LINE, Sidebar
 from .ops import RISORIUS_OT_reset_muscles
 from .props import by_hand_of, list_muscles_soon
 
@@ -93,7 +94,9 @@ class RISORIUS_PT_muscles(Sidebar, bpy.types.Panel):
         if state.active < len(state.names):
             entry = contractibles()[state.names[state.active].name]
             unit = f" (AU {entry.action_unit})" if entry.action_unit else ""
-            layout.label(text=f"{entry.title[0].upper()}{entry.title[1:]}{unit}")
+            column = layout.column(align=True)
+            for line in textwrap.wrap(f"{entry.title[0].upper()}{entry.title[1:]}{unit}", LINE):
+                column.label(text=line)
         count = len(by_hand_of(obj))
         layout.operator(
             RISORIUS_OT_reset_muscles.bl_idname,

@@ -10,12 +10,12 @@ import bpy
 
 from ...scene.live.belief_curves import has_curves
 from ...scene.live.reading import Reading
-from ..sidebar import Sidebar
+from ..sidebar import LINE, Sidebar
 from . import live
 from .ops import RISORIUS_OT_clear_reading, RISORIUS_OT_read_animation, RISORIUS_OT_show_beliefs
 
-#: Words that are named besides the six; letters per line of a reason.
-CLOSEST, LINE = 4, 38
+#: Words that are named besides the six.
+CLOSEST = 4
 #: So many FAPs are marked, those that speak most for (or against) the most believed emotion, by at least this much.
 DECISIVE, LEAST = 5, 0.1
 

@@ -9,7 +9,7 @@ import bpy
 import pytest
 from risorius.operators import requirements
 from risorius.operators.classes import CLASSES
-from risorius.operators.sidebar import Sidebar
+from risorius.operators.sidebar import LINE, Sidebar
 
 pytestmark = pytest.mark.smoke
 
@@ -26,6 +26,7 @@ class Spy:
     row = column = box = split = _nested
 
     def label(self, *, text: str = "", icon: str = "NONE") -> None:
+        assert len(text) <= LINE, f"{text!r} is cut off in the sidebar"
         self.seen.append(("label", text))
 
     def prop(self, data: Any, name: str, **options: Any) -> None:

@@ -13,8 +13,11 @@ from bl_ui.utils import PresetPanel
 from risorius.errors import FormatError
 from risorius.operators import translations
 from risorius.operators.classes import CLASSES
+from risorius.operators.sidebar import LINE
 
 OPERATORS = Path(translations.__file__).parent
+#: Letters that fit on a button, which has an icon and may share its row.
+BUTTON = 28
 #: What a layout writes text with.
 LAYOUT = ("label", "menu", "operator", "prop")
 
@@ -60,6 +63,13 @@ def test_every_translated_text_is_a_name_of_ours(properties_of: Callable[[type],
 def test_every_name_is_translated(properties_of: Callable[[type], Any]) -> None:
     for language, table in translations.load().items():
         assert sorted(names(properties_of) - set(table)) == [], language
+
+
+def test_every_text_fits_the_sidebar(properties_of: Callable[[type], Any]) -> None:
+    for language, table in {"en": {name: name[1] for name in names(properties_of)}, **translations.load()}.items():
+        assert [text for text in table.values() if len(text) > LINE] == [], language
+    for context, text in names(properties_of):
+        assert context != "Operator" or len(text) <= BUTTON, text
 
 
 @pytest.mark.skipif(not bpy.app.build_options.international, reason="this Blender was built without languages")
