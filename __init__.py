@@ -2,10 +2,11 @@
 
 The layers, each knowing only those above it:
 
-- ``errors``, ``files``, ``tables``, ``resources``, ``arrays`` the ground: errors, files, tables, where they lie;
+- ``errors``, ``files``, ``tables``, ``resources``, ``arrays``, ``progress`` the ground: errors, files, tables, where
+  they lie, how far long work is;
 - ``mpeg4`` the standard's face animation parameters and the emotion model; ``physics`` skin, muscles, solvers;
 - ``face`` one particular face: its parts, feature points, muscles, and the way from parameters to contractions;
-- ``api`` the public interface, arrays in and out, without Blender;
+- ``api`` the public interface, arrays in and out, without Blender: what scripts and the command line use;
 - ``scene`` Blender's meshes, shape keys, actions and renders to arrays and back; registers nothing;
 - ``track`` films and cameras to parameters, in plain Python;
 - ``cli`` the command line over ``api``, ``scene`` and ``track``;

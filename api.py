@@ -1,7 +1,9 @@
 """The public API: arrays and dataclasses in and out, no Blender.
 
-Everything here may be used by scripts; names and shapes are kept. The operators, the command line and your scripts
-all go through it.
+Everything here may be used by scripts; names and shapes are kept. Your scripts and the command line need nothing else.
+Importing it loads SciPy, which a Blender may lack; so `scene` and `operators` use what is here too, but import it late,
+and take what registering needs straight from `mpeg4` and from the outer rooms of `face`. The inner rooms of a face
+(pyproject.toml names them) are closed to them as to everybody.
 """
 
 from __future__ import annotations
@@ -9,9 +11,11 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
+from .face.contractible import Contractible, contractibles
 from .face.default_head import HeadMesh, build_default_head
+from .face.drive.natural import EmotionShares
 from .face.drive.wishes import Drive
-from .face.face import Clip, Face
+from .face.face import Clip, EyeballPlace, Face
 from .face.fit.find import FoundPoints, find_points, find_points_steps
 from .face.fit.topologies import (
     Topology,
@@ -24,7 +28,9 @@ from .face.fit.topologies import (
 )
 from .face.mechanism import ADDITIONS, MUSCLE_GROUPS, Mechanism
 from .face.mesh.fap_units import Fapu
+from .face.mesh.files import MeshFile, read_mesh
 from .face.mesh.parts import Part
+from .face.mesh.point_files import PointTable, read_point_file
 from .face.mesh.points import REQUIRED as REQUIRED_POINTS
 from .face.pose import Pose
 from .face.products.animation_table_building import face_animation_tables
@@ -106,12 +112,15 @@ __all__ = [
     "CaptureFormat",
     "CaptureShape",
     "Clip",
+    "Contractible",
     "Creases",
     "Cue",
     "Decoded",
     "Drawn",
     "Drive",
+    "EmotionShares",
     "ExpressionField",
+    "EyeballPlace",
     "Face",
     "Fap",
     "FapStream",
@@ -124,7 +133,9 @@ __all__ = [
     "LandmarkReading",
     "Liveliness",
     "Mechanism",
+    "MeshFile",
     "Part",
+    "PointTable",
     "Pose",
     "Profile",
     "Progress",
@@ -138,6 +149,7 @@ __all__ = [
     "arkit_shapes",
     "between",
     "build_default_head",
+    "contractibles",
     "decode_fba",
     "default_face",
     "drawn_within",
@@ -161,6 +173,8 @@ __all__ = [
     "read_fap",
     "read_fap_json",
     "read_fba",
+    "read_mesh",
+    "read_point_file",
     "read_points",
     "read_topology",
     "recognise",

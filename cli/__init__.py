@@ -1,4 +1,4 @@
-"""The command line: argparse over `api`, and over `scene` for what needs Blender. No logic of its own.
+"""The command line: argparse over `api` and `track`, and over the jobs of `scene` for what needs Blender.
 
 `risorius VERB`, `python -m risorius VERB` and `blender --command risorius VERB` are the same. Exit code 0 on success,
 2 on wrong usage, 1 otherwise. With `--json` the result is one JSON object on standard output.
@@ -12,6 +12,7 @@ capture        import, export
 track          track
 options        what several verbs share
 result         what a verb has to say, for people and as JSON
+progress       how far it is, on standard error
 """
 
 from __future__ import annotations

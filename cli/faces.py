@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from ..errors import ModelError
-from ..face.fit.doubt import DOUBTFUL
 from ..files import write_whole
 from .options import add_face, face_of, verb, vertices_of
 from .result import Result, UsageError
@@ -88,26 +87,19 @@ def _points(arguments: argparse.Namespace) -> Result:
     return Result({"points": len(face.points), "fapu_m": units}, lines)
 
 
-def _point_order(name: str) -> tuple[int, ...]:
-    """Feature points by group and number."""
-    return tuple(int(part) for part in name.split("."))
-
-
 def _found_points(arguments: argparse.Namespace) -> Result:
     """Feature points found on a mesh; written as the JSON that every verb reads."""
     from .. import api
-    from ..face.mesh.files import read_mesh
 
-    mesh = read_mesh(arguments.mesh)
+    mesh = api.read_mesh(arguments.mesh)
     found = api.find_points(mesh.vertices, mesh.polygons)
     positions = {name: place.tolist() for name, place in found.positions.items()}
     if arguments.out is not None:
         write_whole(arguments.out, json.dumps(positions, indent=1) + "\n")
     how = f"by its topology ({found.topology})" if found.topology else f"score {found.score:.2f}"
-    doubtful = sorted((name for name, sure in found.confidence.items() if sure < DOUBTFUL), key=_point_order)
     lines = [f"{len(positions)} feature points found on {arguments.mesh}, {how}"]
     lines += ["the face is unlike most faces: check every point"] if found.is_doubtful else []
-    lines += [f"doubtful points to check: {', '.join(doubtful)}"] if doubtful else []
+    lines += [f"doubtful points to check: {', '.join(found.doubtful)}"] if found.doubtful else []
     lines += [f"wrote {arguments.out}"] if arguments.out else []
     return Result(
         {"points": positions, "confidence": found.confidence, "score": found.score, "topology": found.topology}, lines

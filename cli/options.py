@@ -69,22 +69,20 @@ def expression_of(arguments: argparse.Namespace) -> Any:
 def face_of(arguments: argparse.Namespace) -> Any:
     """The face of --mesh and --points; the default one without them."""
     from .. import api
-    from ..face.mesh.files import read_mesh
-    from ..scene.points.file import read_points
 
     if (arguments.mesh is None) != (arguments.points is None):
         raise UsageError("--mesh and --points must be given together")
     if arguments.mesh is None:
         return api.default_face()
-    mesh = read_mesh(arguments.mesh)
-    return api.Face.from_arrays(mesh.vertices, mesh.polygons, read_points(arguments.points))
+    mesh = api.read_mesh(arguments.mesh)
+    return api.Face.from_arrays(mesh.vertices, mesh.polygons, api.read_point_file(arguments.points))
 
 
 def vertices_of(path: Path, face: Any) -> Any:
     """The vertices of a deformed mesh, as many as the face has."""
-    from ..face.mesh.files import read_mesh
+    from .. import api
 
-    vertices = read_mesh(path).vertices
+    vertices = api.read_mesh(path).vertices
     if len(vertices) != len(face.vertices):
         rule = f"must have the neutral face's {len(face.vertices)} vertices"
         raise ParameterError(str(path), rule, len(vertices))

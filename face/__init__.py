@@ -20,6 +20,7 @@ skin            the visible skin as a sheet: geometry only
 mesh            what is given: vertices, points, parts, openings, the head's frame, the template
 figures         figures of anatomy, read from presets/anatomy into dataclasses
 mechanism       the names of all mechanisms
+contractible    the names of all that can be contracted by hand
 
 Beside them: `fit` finds feature points on any head, `tracked` turns what trackers saw into FAPs, `default_head` is the
 head that comes with Risorius.

@@ -41,6 +41,23 @@ class Clip:
     fps: float
 
 
+@dataclass(frozen=True)
+class EyeballPlace:
+    """An eyeball at rest, in the face's coordinates.
+
+    Attributes
+    ----------
+    vertices : (k,) its vertices of the mesh. centre : (3,) about which it turns. gaze : (3,) where it looks, length 1.
+    iris, pupil : angles from the gaze to their edges, rad.
+    """
+
+    vertices: Ints
+    centre: Floats
+    gaze: Floats
+    iris: float
+    pupil: float
+
+
 class Sketcher:
     """Poses one face again and again, as a slider is dragged: each begins where the last one ended.
 
@@ -64,7 +81,10 @@ class Sketcher:
 
 
 class Face:
-    """One face. Make it with `from_arrays`; nothing in it changes afterwards."""
+    """One face. Make it with `from_arrays`; nothing in it changes afterwards.
+
+    `anatomy` is for the rooms of `face` alone: what others need of it, a property gives in the face's own coordinates.
+    """
 
     def __init__(self, vertices: Floats, anatomy: Anatomy) -> None:
         self._vertices = vertices
@@ -150,6 +170,30 @@ class Face:
     def parts(self) -> Ints:
         """(V,) numbers of `Part`."""
         return self.anatomy.mesh.parts
+
+    @property
+    def axes(self) -> Floats:
+        """(3, 3) unit vectors to the subject's left, up and forward, along which FAPs are measured."""
+        return self.anatomy.mesh.frame.axes
+
+    @property
+    def outer_skin(self) -> Ints:
+        """(n,) vertices of the skin that shows: without the lining of mouth and eyes."""
+        return self.anatomy.given_skin.index
+
+    @property
+    def eyeballs(self) -> tuple[EyeballPlace, ...]:
+        """Its eyeballs at rest; none where the mesh has none."""
+        frame = self.anatomy.mesh.frame
+        return tuple(
+            EyeballPlace(ball.index, frame.to_face(ball.centre), ball.gaze @ frame.axes, ball.iris, ball.pupil)
+            for ball in self.anatomy.eyeballs
+        )
+
+    @property
+    def is_mask(self) -> bool:
+        """Whether the mesh has no skull, so that a turn of the head cannot be told from expression."""
+        return not self.anatomy.head_turn.is_readable
 
     @property
     def units(self) -> Fapu:

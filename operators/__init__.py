@@ -8,6 +8,7 @@ session                    what is known of the faces of the open file
 requirements               SciPy, which this Blender may lack
 names, translations        lists of names for panels; the interface in other languages
 gizmo_keys                 keymaps of gizmos, put in order
+blender_types, declared    Blender's types and properties, as mypy is to see them
 
 Features, in the order of the sidebar:
 

@@ -6,7 +6,8 @@ mesh, split                      topology and areas of polygons, and how to make
 elastic, springs, tissue         the linear skin, factored once; biphasic springs; the figures of skin
 muscles                          the paper's three muscles
 skin                             all of it as one mechanical system
-equilibrium, implicit, rk2       three ways to solve it; quasi_newton: what the first two minimise with
+equilibrium, implicit, rk2       three ways to solve it
+quasi_newton                     what the first two of them minimise with
 oscillator                       how a rigid thing on springs, such as the mandible, follows
 """
 

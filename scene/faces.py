@@ -18,10 +18,10 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..errors import SceneError
 from ..face.mesh.parts import Part
+from ..face.mesh.point_files import PointTable
 from . import mesh as meshes
 from .blender_types import Mesh, Object, Scene
 from .points.bound import bind, followed, table_of
-from .points.file import PointTable
 from .points.kept import Origin, read_kept, write_kept
 from .points.kept import forget_points as forget_points
 from .points.kept import has_points as has_points

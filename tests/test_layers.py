@@ -39,3 +39,15 @@ def test_blenders_figures_are_read_and_written_in_bulk_in_one_place() -> None:
         if ".foreach_" in path.read_text(encoding="utf-8")
     ]
     assert using == ["scene/attributes.py"]
+
+
+def test_the_anatomy_of_a_face_is_for_the_rooms_of_face_alone() -> None:
+    """Import contracts keep its modules closed; this keeps closed what hangs on a `Face`."""
+    root = Path(__file__).resolve().parents[1]
+    using = [
+        path.relative_to(root).as_posix()
+        for room in ("api.py", "cli", "operators", "scene", "track")
+        for path in ([root / room] if room.endswith(".py") else (root / room).rglob("*.py"))
+        if ".anatomy" in path.read_text(encoding="utf-8")
+    ]
+    assert using == []

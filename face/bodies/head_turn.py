@@ -44,6 +44,11 @@ class HeadTurn:
     weights: Floats
     skull: Ints
 
+    @property
+    def is_readable(self) -> bool:
+        """Whether enough of the skull is there to tell how the head is turned."""
+        return len(self.skull) >= 4
+
     def apply(self, positions: Floats, frame: Floats) -> Floats:
         """Positions (V, 3) with FAPs 48 (down), 49 (left) and 50 (right shoulder) of a frame (68,) applied."""
         pitch, yaw, roll = (value_of(frame, number) * ANGLE_UNIT for number in (48, 49, 50))
@@ -56,7 +61,7 @@ class HeadTurn:
 
     def undo(self, positions: Floats, rest: Floats) -> tuple[Floats, dict[int, float]]:
         """Positions (V, 3) with the head's turn taken out, and FAPs 48-50; unchanged where the mesh shows no skull."""
-        if len(self.skull) < 4:
+        if not self.is_readable:
             return positions, {}
         turn, shift = self._rigid_motion(rest[self.skull], positions[self.skull])
         vector = turn.as_rotvec()

@@ -17,7 +17,7 @@ from .bending.carry import RIM_POINTS, carry
 from .bending.fitted import fit
 from .bending.target import head_target
 from .clicks import FEWEST, checked_clicks, click_misses, click_wishes, pose_from_clicks
-from .doubt import DOUBTFUL_SCORE
+from .doubt import DOUBTFUL, DOUBTFUL_SCORE
 from .locating.align import align
 from .locating.crooked import Start, better_start, starting_bend
 from .locating.head_pose import HeadPose
@@ -55,6 +55,12 @@ class FoundPoints:
     def is_doubtful(self) -> bool:
         """Whether the face is so unlike the template that every point wants to be looked at, or a few clicks given."""
         return self.score > DOUBTFUL_SCORE
+
+    @property
+    def doubtful(self) -> tuple[str, ...]:
+        """Points that want to be looked at, by group and number."""
+        unsure = (name for name, confidence in self.confidence.items() if confidence < DOUBTFUL)
+        return tuple(sorted(unsure, key=lambda name: [int(part) for part in name.split(".")]))
 
 
 def find_points(

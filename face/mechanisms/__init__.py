@@ -5,7 +5,7 @@ separation                              upper and lower lip and lid, told apart 
 jaw, lids                               what turns: the mandible, the lids about the eyeballs
 brow, cheek, nose, lips, corners        muscles by region: where they insert, how firmly the skin is held there,
 buccinator, chin, orbicularis_oris,       what their pulls have that the paper's three classes lack
-platysma
+  platysma
 
 A mechanism says what it contributes; skin, muscles and actuators add the contributions up.
 Its muscles stand in presets/anatomy/muscles/<name>.toml; its other figures in jaw.toml, lids.toml, skin.toml and

@@ -10,5 +10,5 @@ parts, segmentation,      which vertex is skin, eyeball, tooth or tongue, and ho
   mouth_parts, sphere
 openings                  where lips and lids end
 template                  the template face of the tables, and the warp from it
-files                     meshes in files
+files, point_files        meshes in files; feature points in files
 """

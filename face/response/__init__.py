@@ -3,7 +3,7 @@
 regions                   how firmly each place is held, how stiffly it bends
 sheet                     the skin's elastic answer to forces
 pulls                     what of the muscles' pull shows
-actuators, contractible   muscles, lids and jaw as one list; their names, for setting by hand
+actuators                 muscles, lids and jaw as one list
 living_skin               the biphasic springs with mass and damping
 folds                     lines where squeezed skin gives way
 followers                 mouth bag, sockets, lashes, brows and loose pieces

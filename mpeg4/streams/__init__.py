@@ -1,6 +1,6 @@
 """Streams of FAPs, in memory and in files.
 
-fap_stream            frames with their mask; filling: what silent FAPs do
+fap_stream, filling   frames with their mask; what silent FAPs do
 fap_file, fap_json    .fap and JSON
 fba                   the standard's own bit stream
 capture               what trackers write

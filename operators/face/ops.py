@@ -8,8 +8,8 @@ import bpy
 from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 
+from ...face.mesh.point_files import read_point_file
 from ...scene import faces, refusals
-from ...scene.points.file import read_points
 from ...scene.points.kept import forget_points, has_points
 from ..base import RisoriusOperator
 from ..preview import live
@@ -61,7 +61,7 @@ index"""
 
     def run(self, context: Any) -> str:
         """Read, check against the standard and the mesh, store."""
-        points = read_points(self.filepath)
+        points = read_point_file(self.filepath)
         faces.store_points(context.object, points)
         return f"{context.object.name} has {len(points)} feature points"
 

@@ -128,7 +128,7 @@ def _lay_out(preset: Preset, timeline: Any, scene: Any) -> None:
 def _check_muscles(preset: Preset) -> None:
     """Every muscle must be known."""
     if preset.contractions:
-        from ...face.response.contractible import contractibles
+        from ...face.contractible import contractibles
 
         for name in preset.contractions:
             if name not in contractibles():

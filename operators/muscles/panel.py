@@ -34,7 +34,7 @@ class RISORIUS_UL_muscles(bpy.types.UIList):
 
     def filter_items(self, context: Any, data: Any, property: str) -> tuple[list[int], list[int]]:
         """What is asked for; one of each pair where the sides are linked."""
-        from ...face.response.contractible import contractibles
+        from ...face.contractible import contractibles
 
         linked, wanted = context.object.risorius.muscles.linked, self.filter_name.casefold()
         by_hand = by_hand_of(context.object)
@@ -75,7 +75,7 @@ class RISORIUS_PT_muscles(Sidebar, bpy.types.Panel):
         if reason is not None or not has_scipy():
             layout.label(text="Needs a face with feature points", icon="INFO")
             return
-        from ...face.response.contractible import contractibles
+        from ...face.contractible import contractibles
 
         window = context.window_manager.risorius
         row = layout.row(align=True)

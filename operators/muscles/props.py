@@ -51,7 +51,7 @@ def set_by_hand(obj: Any, name: str, value: float | None) -> None:
     ParameterError : there is no such muscle.
     """
     from ...errors import ParameterError
-    from ...face.response.contractible import contractibles
+    from ...face.contractible import contractibles
 
     muscles, known = obj.risorius.muscles, contractibles()
     if name not in known:
@@ -121,7 +121,7 @@ def list_muscles() -> None:
     """Fill the list; after a file was opened the window's properties are empty."""
     if not hasattr(bpy.types.WindowManager, "risorius"):
         return
-    from ...face.response.contractible import contractibles
+    from ...face.contractible import contractibles
 
     for manager in bpy.data.window_managers:
         names = manager.risorius.muscles.names

@@ -6,8 +6,9 @@ drag                one point along the surface, its counterpart with it
 first               a button that needs feature points finds them itself
 question, show      points that were found are shown, and doubtful ones asked about
 joined              points of a face that was joined into another object
-topologies          meshes whose points need not be searched; topologies_panel lists them
-panel               points listed, with a diagram of where each lies
+topologies,         meshes whose points need not be searched; their list
+  topologies_panel
+panel, diagram      points listed; a diagram of where each lies
 props               how points are shown and corrected
 reasons             why a button is grey
 overlay, hover      points drawn over the face, and the one under the mouse

@@ -29,7 +29,7 @@ from .notes import Note, write_note
 from .remarks import remarks
 
 if TYPE_CHECKING:
-    from ...face.drive.natural import EmotionShares
+    from ...api import EmotionShares
     from ...face.products.creases import Creases
 
 #: A piece that moves less than this everywhere gets no shape keys, metres.

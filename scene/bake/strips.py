@@ -24,7 +24,7 @@ from .notes import BakeKind, Note, read_notes
 from .remarks import remarks
 
 if TYPE_CHECKING:
-    from ...face.drive.natural import EmotionShares
+    from ...api import EmotionShares
 
 
 @dataclass(frozen=True)

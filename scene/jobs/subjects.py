@@ -11,6 +11,7 @@ import numpy as np
 from ...arrays import Bools, Ints
 from ...errors import FormatError
 from ...face.mesh.parts import Part
+from ...face.mesh.point_files import read_point_file
 from ...progress import run
 from .. import mesh as meshes
 from ..blender_types import Object
@@ -19,7 +20,6 @@ from ..faces import face_of, read_face, store_points
 from ..head import add_default_head, select_only
 from ..materials import new_material
 from ..pictures.irises import iris_polygons, lay_irises
-from ..points.file import read_points
 from ..points.found import find_points
 from ..points.kept import has_points
 
@@ -83,7 +83,7 @@ def subject(mesh: str | Path | None = None, points: str | Path | None = None, *,
     else:
         raise FormatError(path, "is not a .npz, .obj, .blend, .glb or .gltf file: export the mesh as one of these")
     if points is not None:
-        store_points(obj, read_points(points))
+        store_points(obj, read_point_file(points))
     if not has_points(obj):
         run(find_points(obj))
     if not obj.data.materials:
@@ -171,12 +171,12 @@ def paint_parts(obj: Object, *, creases: bool = False) -> None:
 
 def _lining(face: Face, corners: Ints, sizes: Ints) -> Bools:
     """(F,) polygons of skin behind the lips, by the corners of all polygons (L,) and their sizes (F,)."""
-    anatomy, starts = face.anatomy, np.cumsum(sizes) - sizes
+    starts = np.cumsum(sizes) - sizes
     inner = np.asarray(face.parts) == Part.SKIN
-    inner[anatomy.given_skin.index] = False
-    centres = np.add.reduceat(anatomy.mesh.positions[corners], starts) / sizes[:, None]
+    inner[face.outer_skin] = False
+    centres = np.add.reduceat(face.vertices[corners], starts) / sizes[:, None]
     lips, *eyes = (
-        np.linalg.norm(centres - np.mean([anatomy.given_skin.points[name] for name in names], axis=0), axis=1)
+        np.linalg.norm(centres - np.mean([face.points[name].position for name in names], axis=0), axis=1)
         for names in (("2.2", "2.3"), ("3.7", "3.11"), ("3.8", "3.12"))
     )
     behind: Bools = np.logical_or.reduceat(inner[corners], starts) & (lips < np.minimum(*eyes))

@@ -21,7 +21,7 @@ from ..points.kept import POINTS
 from . import preview
 
 if TYPE_CHECKING:
-    from ...face.drive.natural import EmotionShares
+    from ...api import EmotionShares
     from ...face.products.muscle_lines import MuscleLines
 
 #: Stops on a traced way, and distance of the traced vertices, metres.

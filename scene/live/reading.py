@@ -78,10 +78,9 @@ class FaceReader:
         self._to_metres = source.pieces[0].to_metres[:3, :3]
         self._rest = source.pieces[0].rest
         self._shown_rest: Floats | None = None
-        anatomy = self._face.anatomy
-        held = [n for n in STEADY if n in self._face.points and self._face.points[n].is_bound]
-        is_mask = len(anatomy.head_turn.skull) < 4
-        self._steady = anatomy.mesh.points.matrix(held) if is_mask and len(held) >= 4 else None
+        points = self._face.points
+        held = [name for name in STEADY if name in points and points[name].is_bound]
+        self._steady = points.matrix(held) if self._face.is_mask and len(held) >= 4 else None
 
     def is_of(self, obj: Object) -> bool:
         """Whether `obj` still is the face that was read."""

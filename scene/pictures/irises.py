@@ -15,8 +15,7 @@ from ..blender_types import Image, Material, Object
 from ..materials import node_tree_of, principled_of
 
 if TYPE_CHECKING:
-    from ...face.bodies.eyeball import Eyeball
-    from ...face.face import Face
+    from ...api import EyeballPlace, Face
 
 #: Name of the picture and of the layer of coordinates on it.
 IRISES = "Risorius irises"
@@ -39,7 +38,7 @@ def lay_irises(
     materials : those of its eyeballs; their solid colours stay for windows that show no pictures.
     sclera, iris, pupil : (3,) linear RGB.
     """
-    balls = face.anatomy.eyeballs
+    balls = face.eyeballs
     if not balls or obj.data.uv_layers.get(IRISES) is not None:
         return
     layer = obj.data.uv_layers.new(name=IRISES)
@@ -47,13 +46,13 @@ def lay_irises(
         return
     places, behind = np.zeros((len(face.vertices), 2)), np.zeros(len(face.vertices), dtype=bool)
     for ball in balls:
-        away, angle = _seen_from(ball, ball.positions)
-        side = np.cross([0.0, 1.0, 0.0], ball.gaze)
+        away, angle = _seen_from(ball, face.vertices[ball.vertices])
+        side = np.cross(face.axes[1], ball.gaze)
         side /= np.linalg.norm(side)
         across = np.stack([away @ side, away @ np.cross(ball.gaze, side)], axis=1)
         across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-12)
-        places[ball.index] = 0.5 + across * (0.5 * SHARE * angle / ball.iris)[:, None]
-        behind[ball.index] = angle > FRONT
+        places[ball.vertices] = 0.5 + across * (0.5 * SHARE * angle / ball.iris)[:, None]
+        behind[ball.vertices] = angle > FRONT
     corners, sizes = meshes.polygon_arrays(obj.data)
     hidden = np.logical_or.reduceat(behind[corners], np.cumsum(sizes) - sizes)
     shown = np.where(np.repeat(hidden, sizes)[:, None], 0.0, places[corners])
@@ -68,17 +67,17 @@ def lay_irises(
 def iris_polygons(face: Face, corners: Ints, sizes: Ints) -> tuple[Bools, Bools]:
     """(F,) polygons of irises and of pupils, by all polygons' corners (L,) and their sizes (F,)."""
     starts = np.cumsum(sizes) - sizes
-    centres = np.add.reduceat(face.anatomy.mesh.positions[corners], starts) / sizes[:, None]
+    centres = np.add.reduceat(face.vertices[corners], starts) / sizes[:, None]
     iris, pupil = np.zeros(len(sizes), dtype=bool), np.zeros(len(sizes), dtype=bool)
-    for ball in face.anatomy.eyeballs:
-        own = np.isin(corners[starts], ball.index)
+    for ball in face.eyeballs:
+        own = np.isin(corners[starts], ball.vertices)
         _, angle = _seen_from(ball, centres)
         iris |= own & (angle < ball.iris)
         pupil |= own & (angle < ball.pupil)
     return iris, pupil
 
 
-def _seen_from(ball: Eyeball, positions: Floats) -> tuple[Floats, Floats]:
+def _seen_from(ball: EyeballPlace, positions: Floats) -> tuple[Floats, Floats]:
     """Directions (n, 3) of places from the middle of an eyeball, and their angles (n,) from where it looks."""
     away = positions - ball.centre
     away /= np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-12)

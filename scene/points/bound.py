@@ -17,9 +17,9 @@ from mathutils.bvhtree import BVHTree
 from mathutils.interpolate import poly_3d_calc
 
 from ...arrays import Floats
+from ...face.mesh.point_files import PointTable
 from .. import mesh as meshes
 from ..blender_types import Mesh, SearchTree
-from .file import PointTable
 from .kept import KeptPoint, KeptPoints, Origin, mesh_counts, triple
 
 #: A place farther from the surface than this share of the diagonal of all points lies off it, as a pupil does.

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 import risorius.api as api
-from risorius.face.response.contractible import contractibles
+from risorius.face.contractible import contractibles
 from risorius.operators.emotion.performance import performance_of
 from risorius.operators.library import exchange
 from risorius.operators.library.exchange import BUNDLED, expression_of, preset_files, timeline_of

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.errors import ParameterError
-from risorius.face.response.contractible import contractibles
+from risorius.face.contractible import contractibles
 from risorius.operators.emotion.profile import wanted_of
 from risorius.operators.muscles.props import by_hand_of, list_muscles, set_by_hand
 from risorius.operators.tissue.props import FIGURES, OWN, tissue_of

@@ -10,11 +10,11 @@ import bpy
 import numpy as np
 import pytest
 from risorius.errors import FormatError, SceneError
+from risorius.face.mesh.point_files import read_point_file
 from risorius.scene import faces
 from risorius.scene.bake import baking as bake
 from risorius.scene.bake import shape_keys
 from risorius.scene.bake.remarks import remarks
-from risorius.scene.points.file import read_points
 
 pytestmark = pytest.mark.smoke
 
@@ -179,7 +179,7 @@ def test_a_wrong_file_of_points_names_the_place(tmp_path: Path, cube: Any, text:
     path = tmp_path / "points.json"
     path.write_text(text)
     with pytest.raises(FormatError, match=match):
-        read_points(path)
+        read_point_file(path)
     with pytest.raises(RuntimeError, match=r"points\.json"):
         bpy.ops.risorius.import_points(filepath=str(path))
     assert not faces.has_points(cube)

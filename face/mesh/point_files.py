@@ -1,4 +1,4 @@
-"""Feature points from a JSON file. Needs no Blender.
+"""Feature points from a JSON file.
 
 The file is an object of name -> vertex index or position in the mesh's own coordinates, ``{"8.4": 6207, "3.5":
 [0.03, -0.1, 0.04]}``, or has such an object under "points" beside other things it may say; positions may then
@@ -13,12 +13,13 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ...errors import FormatError
+from ...files import read_bytes
 
 #: Name ("8.4") -> vertex index, or position (3,) in the mesh's own coordinates.
 PointTable: TypeAlias = Mapping[str, int | tuple[float, float, float]]
 
 
-def read_points(path: str | Path) -> dict[str, int | tuple[float, float, float]]:
+def read_point_file(path: str | Path) -> dict[str, int | tuple[float, float, float]]:
     """Read feature points.
 
     Raises
@@ -26,23 +27,11 @@ def read_points(path: str | Path) -> dict[str, int | tuple[float, float, float]]
     FormatError : with the line of a JSON error, or the key of a wrong entry.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as problem:
-        raise FormatError(path, f"cannot be read ({problem}): choose a JSON file of feature points") from problem
-    try:
-        table = json.loads(text)
+        table = json.loads(read_bytes(path).decode("utf-8-sig"))
     except json.JSONDecodeError as problem:
         raise FormatError(path, f"is not JSON: {problem.msg}", line=problem.lineno) from problem
-    return points_of_table(table, path)
-
-
-def points_of_table(table: object, path: str | Path) -> dict[str, int | tuple[float, float, float]]:
-    """Feature points of a decoded JSON object; `path` names it in errors.
-
-    Raises
-    ------
-    FormatError : with the key of a wrong entry.
-    """
+    except (UnicodeDecodeError, RecursionError) as problem:
+        raise FormatError(path, f"is not JSON ({problem}): choose a JSON file of feature points") from problem
     if not isinstance(table, dict):
         raise FormatError(path, 'must be an object such as {"8.4": 6207, ...}')
     entries = table.get("points", table)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 
-from ..mechanisms.lids import LID_MOVERS
-from ..muscles.table import read_muscles
+from .mechanisms.lids import LID_MOVERS
+from .muscles.table import read_muscles
 
 
 @dataclass(frozen=True)
