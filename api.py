@@ -13,8 +13,7 @@ from pathlib import Path
 
 from .face.contractible import Contractible, contractibles
 from .face.default_head import HeadMesh, build_default_head
-from .face.drive.natural import EmotionShares
-from .face.drive.wishes import Drive
+from .face.drive.request import Drive, EmotionShares
 from .face.face import Clip, EyeballPlace, Face
 from .face.fit.find import FoundPoints, find_points, find_points_steps
 from .face.fit.topologies import (

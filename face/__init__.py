@@ -3,9 +3,13 @@
 The spine, from the public `Face` down; each knows only what stands below it:
 
 face            the public `Face`
-simulate, pose  a face in motion; a face in balance
+simulate        a face in motion, plan by plan
+pose            a face in balance: request -> plan -> targets -> amounts -> pose
+motion          how skin and mandible follow postures
+posture         from a plan to amounts, and where they bring the outer skin
+assembly        from the outer skin to all vertices
 measure         FAPs and features read off a deformed face
-requests        the frames, drives and emotions that a caller gives, checked
+requests        the FAPs, drives and emotions that a caller gives, checked
 anatomy         one face prepared for motion; builds all that the rooms hold
 
 The rooms, in the same order (`products` alone stands above `face`):

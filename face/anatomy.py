@@ -199,6 +199,11 @@ class Anatomy:
         return Inverse(self.inverse_rows, self.actuators, self.kernel)
 
     @cached_property
+    def points_on_skin(self) -> Ints:
+        """Vertices of the outer skin that FAPs are read off."""
+        return np.unique(self.kernel.matrix.indices // 3).astype(np.int64)
+
+    @cached_property
     def inner_skin(self) -> InnerSkin:
         """Mouth bag and sockets."""
         inner: Bools = self.mesh.parts == Part.SKIN

@@ -11,13 +11,12 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Floats, Ints
 from ..mpeg4 import Cue, Liveliness
-from ..mpeg4.standard import FAP_COUNT
 from ..physics import mesh
 from ..physics.tissue import Tissue
 from ..progress import Progress, Work
 from .anatomy import Anatomy
-from .drive.natural import EmotionShares
-from .drive.wishes import Drive
+from .drive.over_time import cue_plans, stream_plans
+from .drive.request import Drive, EmotionShares, Request, silence
 from .measure import features, measure
 from .mechanism import Mechanism, named
 from .mesh.checks import checked_axes, checked_parts, checked_polygons, checked_vertices, with_pupils
@@ -28,9 +27,9 @@ from .mesh.parts import Part
 from .mesh.points import FeaturePoints, PointSource, bind_points, check_sides
 from .muscles.placement import PlacedMuscle
 from .pose import Pose, Poser, Sketch
-from .requests import checked_drive, checked_emotion, checked_emotions, checked_frame, checked_frames
+from .requests import checked_drive, checked_emotions, checked_frames, checked_request
 from .response.living_skin import Memory
-from .simulate import Simulation, cue_moments, stream_moments
+from .simulate import Simulation
 
 
 @dataclass(frozen=True)
@@ -76,8 +75,8 @@ class Sketcher:
         contractions: Mapping[str, float] | None = None,
     ) -> Sketch:
         """The face for one frame of FAPs; parameters and errors as `Face.pose`."""
-        checked = checked_frame(frame), checked_drive(drive), checked_emotion(emotion)
-        return self._poser.sketch(*checked, contractions, self._memory)
+        request = checked_request(frame, drive, emotion, contractions)
+        return self._poser.sketch(request, self._memory)
 
 
 class Face:
@@ -238,7 +237,7 @@ class Face:
         ------
         ParameterError : a frame of another shape, an unknown drive, muscle or archetype.
         """
-        return self._poser.pose(checked_frame(frame), checked_drive(drive), checked_emotion(emotion), contractions)
+        return self._poser.pose(checked_request(frame, drive, emotion, contractions))
 
     def prepare(self) -> Work[None]:
         """Work out what a first pose needs, bit by bit; yields how far it is and what comes next.
@@ -255,7 +254,7 @@ class Face:
         yield Progress(0.7, "Preparing contact of lips and lids")
         _ = poser.anatomy.contact
         yield Progress(0.9, "Solving the skin")
-        poser.sketch(np.full(FAP_COUNT, np.nan), Drive.NATURAL, None, None, Memory())
+        poser.sketch(Request(silence()), Memory())
 
     def sketcher(self) -> Sketcher:
         """Quick poses for a live preview; see `Sketcher`."""
@@ -276,7 +275,7 @@ class Face:
         checked = checked_frames(frames)
         weights = checked_emotions(emotions, len(checked))
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
-        return simulation.run(stream_moments(self._poser, checked, checked_drive(drive), weights))
+        return simulation.run(stream_plans(checked, checked_drive(drive), weights))
 
     def performance(
         self,
@@ -297,7 +296,7 @@ class Face:
         `liveliness` adds blinks and small motions of head and eyes. Other keywords and errors as `simulate`.
         """
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
-        return simulation.run(cue_moments(self._poser, cues, fps, checked_drive(drive), contractions, liveliness))
+        return simulation.run(cue_plans(cues, fps, checked_drive(drive), contractions, liveliness))
 
     def simulate(
         self,

@@ -8,8 +8,15 @@ from numpy.typing import ArrayLike
 from ..arrays import Floats
 from ..errors import ParameterError
 from ..mpeg4 import ARCHETYPES, FAP_COUNT
-from .drive.natural import EmotionShares
-from .drive.wishes import Drive
+from .drive.request import ByHand, Contractions, Drive, EmotionShares, Request
+
+
+def checked_request(
+    frame: ArrayLike, drive: str | Drive, emotion: EmotionShares | None, contractions: Contractions | None
+) -> Request:
+    """The request that a caller makes; contractions are checked by the face that has the muscles."""
+    by_hand = (ByHand(contractions),) if contractions else ()
+    return Request(checked_frame(frame), checked_drive(drive), checked_emotion(emotion), by_hand)
 
 
 def checked_frame(frame: ArrayLike) -> Floats:

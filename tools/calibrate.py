@@ -25,14 +25,15 @@ from faithful.heads import ICT_SKIN, IDENTITIES, load_face
 from faithful.scans import Shape, scanned_shapes
 from risorius.api import Face
 from risorius.arrays import Floats
-from risorius.face.drive.wishes import Drive
+from risorius.face.drive.plan import Plan
+from risorius.face.drive.request import Drive, Request
 from risorius.face.mesh.template import MM
 from risorius.face.muscles.insertion import force_density
 from risorius.face.muscles.placement import place_muscles
 from risorius.face.muscles.row import MuscleRow
 from risorius.face.muscles.sphincter import SphincterSkinRow
 from risorius.face.muscles.table import read_muscles
-from risorius.face.pose import Poser
+from risorius.face.posture import Balance
 
 #: Figure -> one step of a fit, its least and largest value; places may go `FARTHEST` from where anatomy has them.
 STEPS = {
@@ -61,7 +62,7 @@ class Bench:
     def __init__(self, face: Face) -> None:
         self.anatomy = face.anatomy
         self.shapes = scanned_shapes(face)
-        self.poser = Poser(self.anatomy)
+        self.balance = Balance(self.anatomy)
         self.anatomy.inverse.kernel = np.ascontiguousarray(self.anatomy.inverse.kernel)
         self.anatomy.actuators.fields = np.ascontiguousarray(self.anatomy.actuators.fields)
         alive = {m.row.name for m in self.anatomy.actuators.muscles}
@@ -103,10 +104,9 @@ class Bench:
 
     def moved(self, shape: Shape) -> Floats:
         """Displacement (ICT_SKIN, 3) that the shape's FAPs alone give."""
-        amounts = self.poser.amounts(shape.frame, Drive.EXACT, None)
-        state = self.poser.skin_state(shape.frame, Drive.EXACT, None, amounts)
+        posture = self.balance.posture(Plan.as_asked(Request(shape.frame, Drive.EXACT)))
         moved = np.zeros_like(self.anatomy.mesh.positions)
-        moved[self.anatomy.skin.index] = state.displacement
+        moved[self.anatomy.skin.index] = posture.displacement
         self.anatomy.inner_skin.follow(moved)
         return moved[:ICT_SKIN]
 

@@ -17,9 +17,11 @@ import numpy as np
 import risorius.api as api
 from places import DOCS, ROOT, shared_folder
 from risorius.arrays import Floats
-from risorius.face.drive.synergies import load_synergies
+from risorius.face.drive.natural.planning import plan_naturally
+from risorius.face.drive.natural.synergies import load_synergies
+from risorius.face.drive.request import Request
 from risorius.face.mesh.fap_units import unit_length
-from risorius.face.pose import Poser
+from risorius.face.posture import Balance
 from risorius.face.response.actuators import LID_NAMES
 
 PAGE = DOCS / "faps.md"
@@ -87,8 +89,8 @@ def request(number: int, sign: float) -> Floats:
     """(68,) frame that asks for a FAP and its mirror alone."""
     data = load_synergies()
     size = ANGLE_UNITS if api.FAPS[number].angular else LENGTH_UNITS
-    if number in data.position:
-        row = data.position[number]
+    if number in data.row_of:
+        row = data.row_of[number]
         limit = data.high[row] if sign > 0.0 else -data.low[row]
         size = min(size, RANGE_SHARE * float(limit / data.per_fap[row]))
     frame = np.full(68, np.nan)
@@ -104,9 +106,8 @@ def mechanisms(face: api.Face, frame: Floats, number: int) -> dict[str, float]:
         return {"eyeball" if group == 3 else "tongue" if group == 6 else "head turn": 1.0}
     anatomy = face.anatomy
     rows, actuators = anatomy.inverse.rows, anatomy.actuators
-    poser = Poser(anatomy)
-    amounts = poser.amounts(frame, api.Drive.NATURAL, poser.natural.plan(frame))
-    row = rows.position[number]
+    amounts = Balance(anatomy).posture(plan_naturally(Request(frame))).amounts
+    row = rows.row_of[number]
     lids = [amounts.lids.get(key, 0.0) for key in actuators.lid_moves]
     opening = amounts.jaw.angle * actuators.chin_lever
     solution = np.array([*amounts.muscles, *lids, opening, amounts.jaw.left, amounts.jaw.forward])

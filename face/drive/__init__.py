@@ -1,7 +1,13 @@
-"""What is asked of a face, what it can do of it, and the amounts of muscles, lids and jaw behind that.
+"""From a request to the amounts of muscles, lids and jaw behind it: request -> plan -> targets -> amounts.
 
-wishes                  what each way of driving a face asks of the feature points
-natural, synergies      the natural mode: ranges, action units and the mixture that explains a request
-inverse                 from wanted displacements to amounts
-bounded_least_squares   the small problems that both solve
+request                 what is asked of a face at one moment
+plan                    what the face is to do, FAP by FAP, and why
+natural                 plans of the natural drive: requests weighed, silence filled
+targets                 what a plan wants of the feature points of one face
+filled, lip_middles     what goes with asked FAPs in the exact drive; points that no FAP names
+drives                  the four drives: which plan, which targets, who has the last word
+inverse                 from targets to amounts, and the elastic correction of what they leave
+by_hand                 contractions set by hand
+over_time               plans of streams, and of expressions that come and go
+bounded_least_squares   the small problems that mixture and inverse solve
 """

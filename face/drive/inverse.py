@@ -1,4 +1,4 @@
-"""From wanted displacements of the feature points to amounts of muscles, lids and jaw.
+"""From targets of the feature points to amounts of muscles, lids and jaw, and what the elastic skin adds.
 
 A residual is judged by the elastic energy that it would take to pull the points the rest of the way, not by its
 millimetres: what neighbouring points share is left to muscles, what one point alone wants is left to the skin.
@@ -6,23 +6,25 @@ millimetres: what neighbouring points share is left to muscles, what one point a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from scipy import linalg
 
-from ...arrays import Bools, Floats
+from ...arrays import Floats
 from ...physics.mesh import Sparse
 from ..mesh.fap_rows import FapRows
-from ..response.actuators import Actuators, Amounts
+from ..response.actuators import OPENING, SLIDES, Actuators, Amounts
 from ..response.sheet import Tissue
 from .bounded_least_squares import bounded_least_squares
+from .targets import Targets
 
 #: How much of the points' motion the skin alone may explain, metres.
 TAU = 6e-3
-EXACT_NOISE = 0.05e-3
+
+#: Rows to be met as near as may be are met within this by muscles, lids and jaw, metres; the skin does the rest.
+LEAST_DOUBT = 0.05e-3
 
 #: The jaw, not the skin, explains the chin.
 CHIN_COMPLIANCE = 0.3
@@ -30,29 +32,6 @@ CHIN_FAPS = (3, 14, 15)
 
 #: Beyond this opening at the chin the jaw's response is taken about the opening found first.
 SECOND_PASS = 8e-3
-
-ANGLE_PRIOR_ASKED, ANGLE_PRIOR_SILENT = 60e-3, 3e-3
-SLIDE_PRIOR_SILENT = 2e-3
-
-
-@dataclass(frozen=True)
-class Wish:
-    """What the rows should do.
-
-    Attributes
-    ----------
-    targets, doubts : (m,) metres; NaN targets make no statement.
-    muscles : prior amounts of muscles by name, metres.
-    jaw_prior, slide_prior : usual size of the jaw's opening (at the chin) and slides, metres.
-    carried : (m,) rows that only say where muscles move them relative to the jaw; None: no such rows.
-    """
-
-    targets: Floats
-    doubts: Floats
-    muscles: dict[str, float]
-    jaw_prior: float
-    slide_prior: float
-    carried: Bools | None = None
 
 
 class Kernel(NamedTuple):
@@ -100,42 +79,46 @@ class Inverse:
         share = np.where(np.isin(self.rows.numbers, CHIN_FAPS), CHIN_COMPLIANCE, 1.0)
         return np.asarray(self.compliance * self._scale * share[:, None] * share[None, :])
 
-    def solve(self, wish: Wish) -> Amounts:
-        """The amounts that explain a wish best."""
-        actuators = self.actuators
-        known = ~np.isnan(wish.targets)
-        prior = actuators.prior
-        prior[-3], prior[-2:] = wish.jaw_prior, wish.slide_prior
-        mean: Floats = np.zeros(len(prior))
-        for i, muscle in enumerate(actuators.muscles):
-            mean[i] = wish.muscles.get(muscle.name, 0.0)
+    def solve(self, targets: Targets) -> Amounts:
+        """The amounts that explain targets best."""
+        actuators, known = self.actuators, ~np.isnan(targets.displacements)
+        wanted = targets.displacements[known]
+        doubts = np.maximum(targets.doubts[known], LEAST_DOUBT)
+        covariance = TAU**2 * self._weighing[np.ix_(known, known)] + np.diag(doubts**2)
+        factor = linalg.cholesky(covariance, lower=True)
+        usual, expected = self._usual(targets)
         upper = actuators.upper
         lower = np.zeros(len(upper))
-        lower[-2:] = -upper[-2:]
-        covariance = TAU**2 * self._weighing[np.ix_(known, known)] + np.diag(wish.doubts[known] ** 2)
-        factor = linalg.cholesky(covariance, lower=True)
+        lower[SLIDES] = -upper[SLIDES]
         responses = self._still.copy()
-        if wish.carried is not None:
-            responses[wish.carried, -3:] = 0.0
+        responses[targets.carried, OPENING:] = 0.0
         solution: Floats = lower
         for _ in range(2):
             whitened = linalg.solve_triangular(
-                factor, np.column_stack([responses[known], wish.targets[known]]), lower=True, check_finite=False
+                factor, np.column_stack([responses[known], wanted]), lower=True, check_finite=False
             )
-            matrix = np.concatenate([whitened[:, :-1], np.diag(1.0 / prior)])
-            right = np.concatenate([whitened[:, -1], mean / prior])
+            matrix = np.concatenate([whitened[:, :-1], np.diag(1.0 / usual)])
+            right = np.concatenate([whitened[:, -1], expected / usual])
             solution = bounded_least_squares(matrix, right, lower, upper)
-            if solution[-3] < SECOND_PASS:
+            if solution[OPENING] < SECOND_PASS:
                 break
-            responses[:, -3] = self._opening_response(float(solution[-3]))
-            if wish.carried is not None:
-                responses[wish.carried, -3] = 0.0
+            responses[:, OPENING] = self._opening_response(float(solution[OPENING]))
+            responses[targets.carried, OPENING] = 0.0
         return actuators.amounts(solution)
+
+    def _usual(self, targets: Targets) -> tuple[Floats, Floats]:
+        """Usual size of every amount about what is expected of it, and that, metres."""
+        usual = self.actuators.prior
+        usual[OPENING], usual[SLIDES] = targets.opening, targets.slide
+        expected: Floats = np.zeros(len(usual))
+        for i, muscle in enumerate(self.actuators.muscles):
+            expected[i] = targets.muscles.get(muscle.name, 0.0)
+        return usual, expected
 
     def _opening_response(self, opening: float) -> Floats:
         """(m,) exact response of the rows to an opening of the jaw (metres at the chin), per metre."""
         amounts = np.zeros(len(self.actuators.prior))
-        amounts[-3] = opening
+        amounts[OPENING] = opening
         return np.asarray(self.matrix @ self.actuators.kinematic(self.actuators.amounts(amounts)).ravel()) / opening
 
     def correction(self, residual: Floats, doubts: Floats) -> Floats:

@@ -41,7 +41,7 @@ class FapRows:
         return len(self.numbers)
 
     @cached_property
-    def position(self) -> dict[int, int]:
+    def row_of(self) -> dict[int, int]:
         """FAP number -> row."""
         return {int(number): row for row, number in enumerate(self.numbers) if number}
 

@@ -14,8 +14,8 @@ from ...errors import ParameterError
 from ...mpeg4 import ANGLE_UNIT, FAP_COUNT, FAPS, GROUPS
 from ...progress import Progress, Report
 from ...tables import read_csv
-from ..drive.synergies import load_synergies, template_millimetres
-from ..drive.wishes import Drive
+from ..drive.natural.synergies import load_synergies, template_millimetres
+from ..drive.request import Drive
 from ..face import Face
 from ..figures import ANATOMY
 from ..mesh.fap_units import unit_length

@@ -11,7 +11,7 @@ from ...arrays import Floats
 from ...mpeg4 import FAP_COUNT
 from ...mpeg4.streams.capture import CaptureShape, KeyShape, load_key_names, load_shapes
 from ...progress import Progress, Work, run
-from ..drive.wishes import Drive
+from ..drive.request import Drive
 from ..face import Face
 
 

@@ -20,6 +20,9 @@ from ..mechanisms.lids import LID_MOVERS, Eye, LidMove
 from ..skin.outer import OuterSkin
 from .pulls import Pulls
 
+#: Places in a vector of amounts: the jaw's opening, then its slides to the left and forward; all else comes before.
+OPENING, SLIDES = -3, slice(-2, None)
+
 
 @dataclass(frozen=True)
 class JawFigures:
@@ -100,9 +103,13 @@ class Actuators:
     def amounts(self, solution: Floats) -> Amounts:
         """Name the entries of a solution vector (k + 8 + 3,)."""
         count = len(self.muscles)
-        lids = dict(zip(self.lid_moves, solution[count:-3].tolist(), strict=True))
-        angle, left, forward = solution[-3] / self.chin_lever, solution[-2], solution[-1]
+        lids = dict(zip(self.lid_moves, solution[count:OPENING].tolist(), strict=True))
+        angle, (left, forward) = solution[OPENING] / self.chin_lever, solution[SLIDES]
         return Amounts(solution[:count].copy(), lids, JawMotion(float(angle), float(left), float(forward)))
+
+    def none(self) -> Amounts:
+        """No amount of anything."""
+        return self.amounts(np.zeros(len(self.prior)))
 
     def kinematic(self, amounts: Amounts) -> Floats:
         """(n, 3) displacement of the outer skin by jaw and lids, as exact rotations."""
@@ -121,5 +128,5 @@ class Actuators:
         for (side, move), amount in amounts.lids.items():
             named[f"{LID_NAMES[move]}_{side}"] = amount / LID_AMPLITUDES[move]
         if self.skin.has(Mechanism.JAW):
-            named["jaw_open"] = amounts.jaw.angle * self.chin_lever / self.upper[-3]
+            named["jaw_open"] = amounts.jaw.angle * self.chin_lever / self.upper[OPENING]
         return {name: float(np.clip(value, 0.0, 1.0)) for name, value in named.items()}

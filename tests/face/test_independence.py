@@ -14,8 +14,8 @@ from risorius.face.default_head import HeadMesh
 from risorius.face.default_head.figures import DEFAULT_FIGURES, read_figures
 from risorius.face.default_head.limit import cage_through, limit_matrix, subdivide
 from risorius.face.default_head.skin import build_skin
-from risorius.face.drive.synergies import mirror_frame
-from risorius.face.drive.wishes import Drive
+from risorius.face.drive.natural.symmetry import mirrored as in_mirror
+from risorius.face.drive.request import Drive, Request
 from risorius.face.pose import Poser
 from scipy.spatial.transform import Rotation
 
@@ -142,7 +142,7 @@ def test_a_mirrored_request_makes_a_mirrored_face(face: Face, head: HeadMesh, dr
     """Emotions that are stronger on one side, and FAPs of one side: what is left becomes right, to rounding."""
     weaker = np.array([0.3 if "_r_" in api.FAPS[number].name else 1.0 for number in range(1, 69)])
     for frame in [*requests(), api.archetype("disgust", 0).frame() * weaker]:
-        mirrored = moved(face, mirror_frame(frame), drive)
+        mirrored = moved(face, in_mirror(frame), drive)
         assert_same(mirrored[head.mirror] * MIRROR, moved(face, frame, drive))
 
 
@@ -150,8 +150,8 @@ def test_a_mirrored_request_makes_a_mirrored_face(face: Face, head: HeadMesh, dr
 def test_a_symmetric_request_makes_a_symmetric_face(face: Face, head: HeadMesh, drive: str) -> None:
     for word, variant in (("joy", 2), ("surprise", 1)):
         frame = api.archetype(word, variant).frame()
-        both = np.where(np.isnan(frame), mirror_frame(frame), frame)
-        alike = np.where(np.isnan(mirror_frame(frame)), both, (both + mirror_frame(both)) / 2.0)
+        both = np.where(np.isnan(frame), in_mirror(frame), frame)
+        alike = np.where(np.isnan(in_mirror(frame)), both, (both + in_mirror(both)) / 2.0)
         now = moved(face, alike, drive)
         assert_same(now[head.mirror] * MIRROR, now)
 
@@ -211,7 +211,7 @@ def posed(frame: np.ndarray, drive: Drive) -> Callable[[Face], np.ndarray]:
     """How a face moves for a frame, without the folds that only fine meshes can show."""
 
     def displacement(face: Face) -> np.ndarray:
-        pose = Poser(face.anatomy, folds=False).pose(frame, drive, None, None)
+        pose = Poser(face.anatomy, folds=False).pose(Request(frame, drive))
         return np.asarray(pose.positions - face.vertices)
 
     return displacement

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.api import Face
-from risorius.face.drive.wishes import Drive
+from risorius.face.drive.over_time import stream_plans
+from risorius.face.drive.request import Drive
 from risorius.face.pose import Poser
-from risorius.face.simulate import Simulation, stream_moments
+from risorius.face.simulate import Simulation
 
 JOY = api.archetype("joy", 1)
 
@@ -60,9 +61,9 @@ def test_folds_are_those_of_the_moving_skin(any_face: Callable[[str], Face]) -> 
     for folds in (True, False):
         poser = Poser(face.anatomy, folds=folds)
         simulation = Simulation(poser, fps=50.0, integrator="implicit", substeps=1, tissue="default")
-        moving = simulation.run(stream_moments(poser, frames, Drive.NATURAL, None))
+        moving = simulation.run(stream_plans(frames, Drive.NATURAL, None))
         skins.append([face.anatomy.mesh.frame.to_head(p)[face.anatomy.skin.index] for p in moving])
-    placed = Poser(face.anatomy).folds
+    placed = Poser(face.anatomy).assembly.folds
     for number, (folded, smooth) in enumerate(zip(*skins, strict=True)):
         expected = placed.displacement(smooth - face.anatomy.skin.positions)
         np.testing.assert_allclose(folded - smooth, expected, atol=1e-9)

@@ -8,7 +8,7 @@ import numpy as np
 import risorius.api as api
 from risorius.api import Drive, Face, Profile
 from risorius.arrays import Bools, Floats
-from risorius.face.drive.synergies import load_synergies
+from risorius.face.drive.natural.synergies import load_synergies
 from risorius.mpeg4 import VARIANTS
 
 #: Requests below so many units are judged as if they were that large: an error of 3 units in 5 is nothing to see.

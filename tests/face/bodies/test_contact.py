@@ -263,3 +263,14 @@ def test_exact_requests_outrank_contact(face: Face) -> None:
     frame[18:20], frame[20:22] = 1024.0, 500.0
     achieved = face.pose(frame, drive="exact").achieved
     assert achieved[[18, 20]] == pytest.approx([1024.0, 500.0], rel=0.01)
+
+
+def test_a_raised_lip_pushes_the_other_one_by_muscles_alone_too(face: Face) -> None:
+    """Most of the way that its muscles take it: with lips that share the way it comes half as far."""
+    frame = np.full(68, np.nan)
+    frame[np.array([5, 10, 11, 52, 57, 58]) - 1] = 400.0
+    moved = face.pose(frame, drive="muscles").positions - face.vertices
+    middles = (face.points[name] for name in ("2.2", "2.3"))
+    upper, lower = (float((point.weights @ moved[point.vertices])[2]) for point in middles)
+    assert upper == pytest.approx(lower, abs=1e-5)
+    assert lower > 4e-3

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from risorius.face.drive.wishes import lip_middles
+from risorius.face.drive.lip_middles import lip_middles
 from risorius.face.face import Face
 from risorius.face.mesh.fap_rows import LIP_MIDDLES
 
@@ -57,7 +57,7 @@ def test_silent_corners_say_nothing_of_the_middle(face: Face) -> None:
 
 def test_the_hidden_rows_are_no_fap(face: Face) -> None:
     rows = face.anatomy.inverse.rows
-    assert 0 not in rows.position
+    assert 0 not in rows.row_of
     frame = np.arange(68.0)
     assert np.isnan(rows.select(frame)[rows.numbers == 0]).all()
     assert len(rows) == len(face.anatomy.skin_rows) + len(LIP_MIDDLES)

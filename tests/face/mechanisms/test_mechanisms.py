@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.api import Face, Mechanism
+from risorius.face.assembly import Assembly
 from risorius.face.bodies.margins import crossing
 from risorius.face.mechanisms.jaw import JawMotion
 from risorius.face.muscles.insertion import force_density
-from risorius.face.pose import Poser
 from risorius.face.response.pulls import pulls_of
 
 SILENT = np.full(68, np.nan)
@@ -131,7 +131,7 @@ def fold_beside_the_nose(face: Face) -> float:
     """A smile: how much of the nasolabial fold's full profile shows in the skin's heights."""
     corners = {6: 250.0, 7: 250.0, 12: 400.0, 13: 400.0, 53: 250.0, 54: 250.0, 59: 400.0, 60: 400.0}
     moved, sheet = posed(face, corners, "natural"), face.anatomy.skin
-    fold = next(fold for fold in Poser(face.anatomy).folds.placed if fold.row.name == "nasolabial_l")
+    fold = next(fold for fold in Assembly(face.anatomy).folds.placed if fold.row.name == "nasolabial_l")
     profile = sheet.areas * np.asarray(fold.field.sum(axis=1)).ravel()
     height = (moved.skin * MM * sheet.normals).sum(axis=1)
     return float(profile @ height / (profile @ np.asarray(fold.field.sum(axis=1)).ravel()))

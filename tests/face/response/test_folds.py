@@ -10,7 +10,7 @@ import pytest
 import risorius.api as api
 from risorius.api import Face
 from risorius.errors import FormatError
-from risorius.face.drive.wishes import Drive
+from risorius.face.drive.request import Drive, Request
 from risorius.face.figures import ANATOMY
 from risorius.face.pose import Poser
 from risorius.face.response.folds import FoldRow, Folds, PlacedFold, place_fold, read_folds
@@ -89,7 +89,7 @@ def test_left_and_right_fold_alike(scan: Face) -> None:
 def test_joy_folds_the_cheek_and_moves_no_feature_point(scan: Face) -> None:
     profile = api.expression("joy")
     smooth, folded = (
-        Poser(scan.anatomy, folds=folds).pose(profile.frame(), Drive.NATURAL, profile.weights, None)
+        Poser(scan.anatomy, folds=folds).pose(Request(profile.frame(), Drive.NATURAL, profile.weights))
         for folds in (False, True)
     )
     assert np.linalg.norm(folded.positions - smooth.positions, axis=1).max() > 0.5e-3
@@ -99,7 +99,7 @@ def test_joy_folds_the_cheek_and_moves_no_feature_point(scan: Face) -> None:
 def test_exact_faces_have_no_folds(scan: Face) -> None:
     frame = api.expression("joy").frame()
     smooth, folded = (
-        Poser(scan.anatomy, folds=folds).pose(frame, Drive.EXACT, None, None).positions for folds in (False, True)
+        Poser(scan.anatomy, folds=folds).pose(Request(frame, Drive.EXACT)).positions for folds in (False, True)
     )
     assert (folded == smooth).all()
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.api import Creases, Face
+from risorius.face.assembly import Assembly
 from risorius.face.mesh.openings import Opening
 from risorius.face.mesh.template import MM
-from risorius.face.pose import Poser
 from risorius.face.response.folds import Folds
 from risorius.face.skin.fine import SOLVED, SUMMED, fine_skin
 from risorius.face.skin.outer import OuterSkin
@@ -73,7 +73,7 @@ def test_a_coarse_face_shows_folds_and_creases_of_its_own_mesh_alone(any_face: C
     """The nasolabial fold is narrower than its edges, though not than those of the skin that is solved."""
     coarse = any_face("mediapipe")
     own, anatomy = coarse.anatomy.given_skin, coarse.anatomy
-    assert not Poser(anatomy).folds.placed
+    assert not Assembly(anatomy).folds.placed
     assert Folds(anatomy.skin, anatomy.warp, np.array([0])).placed
     creases = Creases(coarse)
     assert creases.areas.sum() == pytest.approx(own.areas.sum())

@@ -11,7 +11,7 @@ import risorius.api as api
 from faithful import baselines, heads, report, requests, scans
 from places import OUT
 from risorius.errors import FormatError, ParameterError
-from risorius.face.drive.synergies import load_synergies
+from risorius.face.drive.natural.synergies import load_synergies
 
 
 def smile() -> object:
@@ -40,9 +40,9 @@ def test_baselines_move_the_points_as_asked_and_explain_less_than_the_face() -> 
         moved = np.zeros_like(face.vertices)
         moved[shape.skin] = model(shape)
         corner = face.points["8.3"]
-        shown = (corner.weights @ moved[corner.vertices]) @ rows.directions[rows.position[59]]
+        shown = (corner.weights @ moved[corner.vertices]) @ rows.directions[rows.row_of[59]]
         doubt = 0.25 if name == "zones" else 1e-6  # zones share where they overlap, here with the inner corner's
-        assert shown == pytest.approx(wanted[rows.position[59]], rel=doubt), name
+        assert shown == pytest.approx(wanted[rows.row_of[59]], rel=doubt), name
     model = scans.posed(face)
     whole = shape.explained_by(model(shape))
     assert whole > 0.95
@@ -60,7 +60,7 @@ def test_the_fourteen_words_are_those_of_table_6() -> None:
 
 def test_a_request_is_within_its_range_or_beyond() -> None:
     data = load_synergies()
-    row = data.position[3]
+    row = data.row_of[3]
     end, knee = data.high[row] / data.per_fap[row], data.high_linear[row]
     for share, expected in ((0.9 * knee, (True, True)), (1.1 * knee, (False, True)), (1.1, (False, False))):
         frame = np.full(68, np.nan)

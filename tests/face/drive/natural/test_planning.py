@@ -8,10 +8,12 @@ import risorius.api as api
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from risorius.api import Face
-from risorius.errors import FormatError
-from risorius.face.drive.natural import EMOTIONS, Known, Natural, Plan, blend, saturate, symmetric
-from risorius.face.drive.synergies import load_synergies, mirror_fap
-from risorius.face.figures import ANATOMY
+from risorius.face.drive.natural.planning import Natural
+from risorius.face.drive.natural.ranges import saturate
+from risorius.face.drive.natural.recognition import Shown
+from risorius.face.drive.natural.symmetry import evened, mirror_fap
+from risorius.face.drive.plan import Plan
+from risorius.face.drive.request import EmotionShares, Request
 from risorius.mpeg4 import VARIANTS
 
 NATURAL = Natural()
@@ -29,9 +31,14 @@ def asked(**values: float) -> np.ndarray:
     return frame
 
 
+def planned(faps: np.ndarray, emotion: EmotionShares | None = None) -> Plan:
+    """The natural plan for FAPs (68,)."""
+    return NATURAL.plan(Request(faps, emotion=emotion))
+
+
 def within(number: int, value: float, share: float = 1.0) -> bool:
     """Whether a value in FAP units lies within a share of its range."""
-    row = DATA.position[number]
+    row = DATA.row_of[number]
     return bool(share * DATA.low[row] <= value * DATA.per_fap[row] <= share * DATA.high[row])
 
 
@@ -41,14 +48,14 @@ def within(number: int, value: float, share: float = 1.0) -> bool:
 )
 def test_small_differences_of_left_and_right_are_no_wish(left: float, right: float, even: bool) -> None:
     """12 units or 12 % of the larger."""
-    frame, asymmetric = symmetric(asked(F12=left, F13=right))
+    frame, asymmetric = evened(asked(F12=left, F13=right))
     assert asymmetric is not even
     expected = [(left + right) / 2] * 2 if even else [left, right]
     assert frame[[11, 12]].tolist() == expected
 
 
 def test_a_side_that_is_not_given_follows_the_other() -> None:
-    frame, asymmetric = symmetric(asked(F41=100.0))
+    frame, asymmetric = evened(asked(F41=100.0))
     assert not asymmetric
     assert frame[[40, 41]].tolist() == [100.0, 100.0]
     assert np.isnan(frame).sum() == 66
@@ -116,7 +123,7 @@ def test_sadness_lowers_the_lip_corners_that_its_profile_never_names() -> None:
     profile = api.archetype("sadness", 0)
     frame = profile.frame()
     assert np.isnan(frame[[11, 12, 58, 59]]).all()
-    with_word, other_word = NATURAL.plan(frame, profile.weights), NATURAL.plan(frame, {"fear": 1.0})
+    with_word, other_word = planned(frame, profile.weights), planned(frame, {"fear": 1.0})
     assert with_word.goal[11] < -80.0
     assert with_word.goal[11] < other_word.goal[11] - 50.0
     assert with_word.goal[18 - 1] > 20.0  # and raises the chin
@@ -134,9 +141,9 @@ def test_disgust_wrinkles_the_nose_that_no_fap_measures(face: Face) -> None:
 def test_fear_stretches_the_mouth_where_surprise_narrows_it() -> None:
     fear, surprise = api.archetype("fear", 8), api.archetype("surprise", 2)
     assert np.isnan(fear.frame()[[52, 53]]).all()
-    assert NATURAL.plan(fear.frame(), fear.weights).goal[53 - 1] > 60.0
-    assert NATURAL.plan(fear.frame(), surprise.weights).goal[53 - 1] < 20.0
-    assert NATURAL.plan(surprise.frame(), surprise.weights).goal[53 - 1] < 0.0
+    assert planned(fear.frame(), fear.weights).goal[53 - 1] > 60.0
+    assert planned(fear.frame(), surprise.weights).goal[53 - 1] < 20.0
+    assert planned(surprise.frame(), surprise.weights).goal[53 - 1] < 0.0
 
 
 @pytest.mark.parametrize("word", list(api.ARCHETYPES))
@@ -144,27 +151,27 @@ def test_an_emotion_is_told_from_its_profile_without_its_word(word: str) -> None
     """Fear from surprise above all: the same brows and jaw, told apart by the paper's own recogniser."""
     profile = api.expression(word)
     frame = profile.frame()
-    named, seen = NATURAL.plan(frame, profile.weights).goal, NATURAL.plan(frame).goal
+    named, seen = planned(frame, profile.weights).goal, planned(frame).goal
     np.testing.assert_allclose(seen, named, atol=5.0)
-    known = Known.by_sight(frame)
-    assert max(known.shares, key=lambda name: known.shares[name]) == word
-    assert known.certainty > 0.9
+    shown = Shown.by_sight(frame)
+    assert max(shown.shares, key=lambda name: shown.shares[name]) == word
+    assert shown.certainty > 0.9
 
 
 def test_a_few_faps_are_no_emotion() -> None:
     for request in (asked(F3=600.0), asked(F12=300.0, F13=300.0), asked(F19=900.0, F20=900.0)):
-        assert Known.by_sight(request).certainty < 0.01
+        assert Shown.by_sight(request).certainty < 0.01
 
 
 def test_an_opening_jaw_opens_the_lips_and_a_smile_lifts_the_cheeks() -> None:
-    jaw = NATURAL.plan(asked(F3=600.0))
+    jaw = planned(asked(F3=600.0))
     assert jaw.goal[5 - 1] < -400.0
     assert abs(jaw.goal[31 - 1]) < 10.0  # and leaves the brows alone
-    smile = NATURAL.plan(asked(F12=300.0))
+    smile = planned(asked(F12=300.0))
     assert smile.goal[41 - 1] > 30.0
     assert smile.goal[6 - 1] > 50.0
-    brows = NATURAL.plan(asked(F31=200.0, F32=200.0))
-    chin = DATA.per_fap[DATA.position[3]] * brows.goal[3 - 1]
+    brows = planned(asked(F31=200.0, F32=200.0))
+    chin = DATA.per_fap[DATA.row_of[3]] * brows.goal[3 - 1]
     assert abs(chin) < 1.0  # raised brows alone do not open the jaw (mm; nearly 10 where silence counts for nothing)
 
 
@@ -181,7 +188,7 @@ def test_a_lowered_lip_or_corner_alone_does_not_open_the_jaw(face: Face) -> None
 def test_smiling_eyes_are_not_torn_open() -> None:
     frame = api.archetype("joy", 1).frame()
     assert frame[19 - 1] < -200.0
-    plan = NATURAL.plan(frame, {"joy": 1.0})
+    plan = planned(frame, {"joy": 1.0})
     assert plan.goal[19 - 1] > -60.0
     assert plan.reason(19) != "as asked"
 
@@ -204,11 +211,11 @@ def test_requests_within_range_are_met(face: Face) -> None:
 
 def test_an_open_jaw_and_a_mouth_drawn_aside_are_met_as_scans_have_them() -> None:
     """The jaw takes lips and chin beyond their own ranges, one corner takes the other along (scanned actions)."""
-    wide = NATURAL.plan(asked(F3=1329.0, F5=-1700.0, F14=-1377.0, F18=-1485.0)).goal
+    wide = planned(asked(F3=1329.0, F5=-1700.0, F14=-1377.0, F18=-1485.0)).goal
     assert wide[[2, 4, 13, 17]] == pytest.approx([1329.0, -1700.0, -1377.0, -1485.0], rel=0.1)
-    aside = NATURAL.plan(asked(F6=-300.0, F7=130.0, F53=-310.0, F54=140.0)).limited
+    aside = planned(asked(F6=-300.0, F7=130.0, F53=-310.0, F54=140.0)).limited
     assert aside[[5, 6, 52, 53]] == pytest.approx([-300.0, 130.0, -310.0, 140.0], rel=0.12)
-    assert NATURAL.plan(asked(F6=-300.0, F7=-300.0)).limited[5] > -200.0
+    assert planned(asked(F6=-300.0, F7=-300.0)).limited[5] > -200.0
 
 
 def test_each_fap_asked_for_alone_is_met(face: Face) -> None:
@@ -216,7 +223,7 @@ def test_each_fap_asked_for_alone_is_met(face: Face) -> None:
     for number in DATA.numbers.tolist():
         if mirror_fap(number) < number:
             continue
-        row = DATA.position[number]
+        row = DATA.row_of[number]
         for limit in (DATA.low[row], DATA.high[row]):
             value = 0.3 * limit / DATA.per_fap[row]
             achieved = face.pose(asked(**{f"F{number}": value})).achieved[number - 1]
@@ -231,7 +238,7 @@ def test_the_face_does_what_is_planned_and_no_more_than_anatomy_where_it_was_ask
         profile = api.archetype(word, variant)
         pose = face.pose(profile.frame(), emotion=profile.weights)
         for number in DATA.numbers.tolist():
-            row = DATA.position[number]
+            row = DATA.row_of[number]
             done, goal = (v[number - 1] * DATA.per_fap[row] for v in (pose.achieved, pose.goal))
             silent = np.isnan(pose.asked[number - 1])
             assert done == pytest.approx(goal, abs=2.0 if silent else 0.5), (word, number)
@@ -243,58 +250,7 @@ def test_the_face_does_what_is_planned_and_no_more_than_anatomy_where_it_was_ask
 def test_a_louder_request_is_a_louder_face() -> None:
     """Saturation keeps the order of worried, afraid and terrified."""
     brows = [
-        NATURAL.plan(p.frame(), p.weights).goal[31 - 1]
+        planned(p.frame(), p.weights).goal[31 - 1]
         for p in (api.archetype("fear", 8).scaled(activation) for activation in (3.0, 4.5, 6.0))
     ]
     assert brows[0] < brows[1] - 5.0 < brows[2] - 10.0
-
-
-def plan_of(word: str, variant: int) -> Plan:
-    profile = api.archetype(word, variant)
-    return NATURAL.plan(profile.frame(), profile.weights)
-
-
-def test_a_plan_shown_alone_is_itself_and_two_in_full_are_their_mean() -> None:
-    joy, fear = plan_of("joy", 1), plan_of("fear", 8)
-    alone = blend([joy, fear], [1.0, 0.0])
-    np.testing.assert_allclose(alone.goal, joy.goal)
-    np.testing.assert_array_equal(np.isnan(alone.asked), np.isnan(joy.asked))
-    assert alone.muscles == pytest.approx(dict(joy.muscles))
-    both = blend([joy, fear], [1.0, 1.0])
-    np.testing.assert_allclose(both.goal, (joy.goal + fear.goal) / 2.0)
-    half = blend([joy], [0.5])
-    np.testing.assert_allclose(half.goal, joy.goal / 2.0)
-    nothing = blend([joy, fear], [0.0, 0.0])
-    assert not np.nan_to_num(nothing.goal).any()
-    assert np.isnan(nothing.asked).all()
-
-
-def test_the_tables_are_whole() -> None:
-    assert {name[:-2] for name in DATA.sum_names} >= set(EMOTIONS) == {str(a) for a in api.ARCHETYPES}
-    assert (DATA.low < 0.0).all()
-    assert (DATA.high > 0.0).all()
-    for number in DATA.numbers.tolist():
-        row, other = DATA.position[number], DATA.position[mirror_fap(number)]
-        assert (DATA.low[row], DATA.high[row]) == (DATA.low[other], DATA.high[other]), number
-
-
-@pytest.mark.parametrize(
-    ("name", "old", "new", "said"),
-    [
-        ("ranges.csv", "3,-2.5,32.0", "3,2.5,32.0", "below and above 0"),
-        ("synergies.toml", "19 = -325", "47 = -325", "units.AU5.*names FAP 47, which has no range"),
-        ("synergies.toml", "joy = { AU6", "joy = { AU66", "sums.joy.*names unit AU66"),
-    ],
-)
-def test_a_wrong_table_is_refused_by_file_and_key(
-    tmp_path_factory: pytest.TempPathFactory, name: str, old: str, new: str, said: str
-) -> None:
-    folder = tmp_path_factory.mktemp("anatomy")
-    for file in ("ranges.csv", "synergies.toml"):
-        text = (ANATOMY / file).read_text(encoding="utf-8")
-        if file == name:
-            assert old in text
-            text = text.replace(old, new)
-        (folder / file).write_text(text, encoding="utf-8")
-    with pytest.raises(FormatError, match=rf"{name}.*{said}"):
-        load_synergies(folder)

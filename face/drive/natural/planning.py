@@ -1,0 +1,95 @@
+"""The plan of the natural drive: what a face does when it is asked for a few FAPs.
+
+A profile names few FAPs, some beyond anatomy, some against one another, and is silent about the rest. Requests are
+weighed against each FAP's range and against one another; what the profile does not say comes from a sparse,
+non-negative mixture of action units that explains what it does say, with the emotion word's own mixture preferred.
+Figures and reasons: docs/muscles.md; all in millimetres on the template face.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from ....arrays import Floats
+from ....mpeg4 import FAP_COUNT
+from ..plan import Plan
+from ..request import Request
+from .conflicts import doubts, smiling_eyes_spared
+from .mixture import Mixture, Weighed
+from .ranges import carried_by_jaw, held
+from .recognition import Shown
+from .symmetry import evened
+from .synergies import Synergies, load_synergies
+
+LID_FAPS = (19, 20, 21, 22)
+BROW_CHEEK_FAPS = (*range(31, 43), 61, 62, 63, 64)
+SPREAD_MOUTH, SPREAD_BROW, SPREAD_LID = 1.0, 0.8, 0.4
+
+#: A unit of which a plan holds no more than this is not named in it.
+LEAST_TOLD = 0.01
+
+
+class Natural:
+    """Plans requests; the same for every face."""
+
+    def __init__(self, data: Synergies | None = None) -> None:
+        self.data = load_synergies() if data is None else data
+        self._mixture = Mixture(self.data)
+        numbers = self.data.numbers
+        brow = np.where(np.isin(numbers, BROW_CHEEK_FAPS), SPREAD_BROW, SPREAD_MOUTH)
+        self._spread = np.where(np.isin(numbers, LID_FAPS), SPREAD_LID, brow)
+
+    def plan(self, request: Request) -> Plan:
+        """The plan for a request; where no emotion is given, it is recognised."""
+        data, spread = self.data, self._spread
+        faps, asymmetric = evened(request.faps)
+        asked = ~np.isnan(faps[data.numbers - 1])
+        wanted = np.nan_to_num(faps[data.numbers - 1] * data.per_fap)
+        carried = carried_by_jaw(data, wanted)
+        within = held(data, wanted, carried)
+        doubt = doubts(data, spread, wanted, within, asked)
+        limited = smiling_eyes_spared(data, within)
+        shown = Shown.by_word(request.emotion) if request.emotion else Shown.by_sight(faps)
+        weight = 1.0 / np.sqrt(spread**2 + doubt**2)
+        amounts = self._mixture.amounts(Weighed(limited, asked, weight, asymmetric), shown)
+        explained = data.units @ amounts
+        trust = spread**2 / (spread**2 + doubt**2)
+        goal = np.where(asked, explained + trust * (limited - explained), explained)
+        least, most = (np.minimum(data.low, carried), np.maximum(data.high, carried))
+        return Plan(
+            request,
+            goal=self._faps(np.clip(goal, np.minimum(least, limited), np.maximum(most, limited))),
+            evened=faps,
+            limited=self._faps(np.where(asked, limited, np.nan)),
+            muscles=self._hidden(amounts),
+            units={n: float(a) for n, a in zip(data.unit_names, amounts, strict=True) if a > LEAST_TOLD},
+        )
+
+    def _faps(self, millimetres: Floats) -> Floats:
+        """(68,) FAP units from rows (m,) in mm."""
+        faps = np.full(FAP_COUNT, np.nan)
+        faps[self.data.numbers - 1] = millimetres / self.data.per_fap
+        return faps
+
+    def _hidden(self, amounts: Floats) -> dict[str, float]:
+        """Muscle name -> amount in metres that is expected of it, for what no FAP sees."""
+        expected: dict[str, float] = {}
+        for name, amount in zip(self.data.unit_names, amounts, strict=True):
+            unit, _, side = name.partition("_")
+            for muscle, per_unit in self.data.hidden.get(unit, {}).items():
+                key = f"{muscle}_{side}"
+                expected[key] = expected.get(key, 0.0) + per_unit * float(amount)
+        return expected
+
+
+@lru_cache(maxsize=1)
+def natural() -> Natural:
+    """The planner over the tables that come with Risorius."""
+    return Natural()
+
+
+def plan_naturally(request: Request) -> Plan:
+    """The natural plan for a request."""
+    return natural().plan(request)

@@ -1,0 +1,67 @@
+"""Plans over time: of a stream of FAPs, and of expressions that come and go."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ...arrays import Floats
+from ...errors import ParameterError
+from ...mpeg4 import ARCHETYPES, FAP_COUNT, Cue, Liveliness, Overlay, sequence, strengths
+from .drives import DRIVES
+from .plan import Plan, blended
+from .request import ByHand, Contractions, Drive, Request
+
+LID_FAPS = (19, 20, 21, 22)
+
+
+def stream_plans(stream: Floats, drive: Drive, weights: Floats | None) -> Iterator[Plan]:
+    """Plans of a stream of FAPs (T, 68), each planned by itself; weights (T, 6) name the emotions where known."""
+    for step, faps in enumerate(stream):
+        emotion = None
+        if weights is not None and (total := float(weights[step].sum())) > 0.0:
+            emotion = {str(a): float(w) / total for a, w in zip(ARCHETYPES, weights[step], strict=True)}
+        yield DRIVES[drive].plan(Request(faps, drive, emotion))
+
+
+def cue_plans(
+    cues: Sequence[Cue],
+    fps: float,
+    drive: Drive,
+    contractions: Sequence[Contractions] | None = None,
+    liveliness: Liveliness | None = None,
+) -> Iterator[Plan]:
+    """Plans of cues, one for each step of 1/fps seconds.
+
+    In the natural drive each cue is planned once at its apex, and the plans are blended by the cues' strengths. So what
+    a face adds by itself to one expression is not contradicted by FAPs that another cue asks for. Contractions set by
+    hand, one set per cue, come and go with it. Blinks and small motions of head and eyes are laid over all that.
+
+    Raises
+    ------
+    ParameterError : not one set of contractions for each cue.
+    """
+    hands: Sequence[Contractions] = [{} for _ in cues] if contractions is None else contractions
+    if len(hands) != len(cues):
+        raise ParameterError("contractions", f"must be one set for each of the {len(cues)} cues", len(hands))
+    stream = sequence(cues, fps=fps)
+    overlay = (liveliness or Liveliness()).over(len(stream), fps)
+    apexes = [Request(cue.profile.frame(cue.seed), drive, cue.profile.weights) for cue in cues]
+    plans = [DRIVES[drive].plan(apex) for apex in apexes] if drive is Drive.NATURAL else []
+    for step, (faps, weights) in enumerate(zip(stream, strengths(cues, fps=fps), strict=True)):
+        shares = (weights / max(1.0, weights.sum())).tolist()
+        by_hand = tuple(ByHand(hand, share) for hand, share in zip(hands, shares, strict=True) if hand and share > 0.0)
+        request = Request(overlay.upon(faps, step), drive, by_hand=by_hand)
+        if drive is Drive.NATURAL:
+            yield _laid_over(blended(request, plans, weights.tolist()), overlay, step)
+        else:
+            yield DRIVES[drive].plan(request)
+
+
+def _laid_over(plan: Plan, overlay: Overlay, step: int) -> Plan:
+    """A plan whose lids close as far as is laid over its step; eyes and head are no matter of plans."""
+    goal = overlay.upon(plan.goal, step)
+    blinks = np.isin(np.arange(1, FAP_COUNT + 1), LID_FAPS) & (overlay.closure[step] > 0.0)
+    return replace(plan, goal=goal, evened=np.where(blinks, goal, plan.evened))

@@ -1,0 +1,127 @@
+"""From a plan to a posture: how much of muscles, lids and jaw, and where that brings the outer skin.
+
+The skin is carried by jaw and lids, pulled by muscles, corrected elastically where the drive goes the rest of the way
+to the targets, and pushed by what it meets.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..arrays import Floats
+from .anatomy import Anatomy
+from .bodies.contact import lip_share
+from .bodies.surroundings import Surroundings
+from .drive.by_hand import set_by_hand
+from .drive.drives import DRIVES, Correction
+from .drive.plan import Plan
+from .drive.targets import Targets
+from .mechanism import Mechanism
+from .response.actuators import Amounts
+from .response.living_skin import Memory
+
+#: Rounds of elastic correction by who has the last word: where FAPs have it, what contact disturbs is corrected again.
+ROUNDS = {Correction.NONE: 0, Correction.CONTACT: 1, Correction.FAPS: 3}
+
+#: Where FAPs have the last word, contact leaves the skin alone within this of their points, fading, metres.
+SPARED = 3.0e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Posture:
+    """What a pose is made of; displacements (n, 3) of the outer skin in head space, metres.
+
+    Attributes
+    ----------
+    amounts : of muscles, lids and jaw.
+    carried : what jaw and lids do, which turn as bodies.
+    elastic : what muscles and the elastic correction add.
+    pushed : what contact adds.
+    surroundings : where mandible and eyeballs are.
+    lip_share : the upper lip's part of the way where lips give way to each other, 0..1.
+    """
+
+    amounts: Amounts
+    carried: Floats
+    elastic: Floats
+    pushed: Floats
+    surroundings: Surroundings
+    lip_share: float
+
+    @property
+    def displacement(self) -> Floats:
+        """(n, 3) of the outer skin, all together."""
+        return self.carried + self.elastic + self.pushed
+
+
+class Balance:
+    """Finds the postures in which one face's skin is in balance."""
+
+    def __init__(self, anatomy: Anatomy) -> None:
+        self.anatomy = anatomy
+
+    def posture(self, plan: Plan, *, memory: Memory | None = None) -> Posture:
+        """The posture of a plan; with a memory it begins at the one found last and stops a little short of balance.
+
+        Raises
+        ------
+        ParameterError : an unknown muscle set by hand, or a contraction outside 0..1.
+        SolverError : contractions beyond what the skin can bear.
+        """
+        anatomy, rules = self.anatomy, DRIVES[plan.request.drive]
+        targets = rules.targets(anatomy.inverse.rows, plan)
+        found = anatomy.inverse.solve(targets) if rules.muscles else anatomy.actuators.none()
+        amounts = set_by_hand(anatomy.actuators, found, plan.request.by_hand)
+        if plan.request.by_hand and rules.correction is Correction.CONTACT:
+            targets = self._moved_by_hand(targets, found, amounts)
+        return self._corrected(self._pulled(plan, amounts, memory), targets, rules.correction)
+
+    def _moved_by_hand(self, targets: Targets, found: Amounts, amounts: Amounts) -> Targets:
+        """Targets that want what was set by hand, too: the difference that it makes is not corrected away."""
+        actuators = self.anatomy.actuators
+        before, after = (actuators.kinematic(each) + actuators.muscular(each) for each in (found, amounts))
+        change = np.asarray(self.anatomy.inverse.matrix @ (after - before).ravel())
+        return replace(targets, displacements=targets.displacements + change)
+
+    def _pulled(self, plan: Plan, amounts: Amounts, memory: Memory | None) -> Posture:
+        """The posture that amounts alone make, in balance with the muscles' forces."""
+        anatomy = self.anatomy
+        carried = anatomy.actuators.kinematic(amounts)
+        return Posture(
+            amounts,
+            carried,
+            elastic=anatomy.relaxation.muscular(amounts, memory=memory),
+            pushed=np.zeros_like(carried),
+            surroundings=Surroundings(amounts.jaw, {b.side: b.look(plan.request.faps) for b in anatomy.eyeballs}),
+            lip_share=lip_share(plan.evened),
+        )
+
+    def _corrected(self, posture: Posture, targets: Targets, correction: Correction) -> Posture:
+        """A posture held off what its skin meets, and taken the rest of the way to targets."""
+        inverse, contact = self.anatomy.inverse, self.anatomy.contact
+        at, share = posture.surroundings, posture.lip_share
+        wanted = np.where(targets.corrected, targets.displacements, np.nan)
+        rounds = ROUNDS[correction] if Mechanism.CORRECTION in self.anatomy.mechanisms else 0
+        free = posture.carried + posture.elastic
+        shown = contact.settle(free, share, at)
+        elastic, pushed = posture.elastic, shown - free
+        for number in range(1, rounds + 1):
+            change = inverse.correction(wanted - np.asarray(inverse.matrix @ shown.ravel()), targets.doubts)
+            elastic, free = elastic + change, shown + change
+            if correction is Correction.FAPS and number == rounds:
+                shown = contact.clear(free, at, self._near_points)
+            else:
+                shown = contact.settle(free, share, at)
+            pushed = pushed + (shown - free)
+        return replace(posture, elastic=elastic, pushed=pushed)
+
+    @cached_property
+    def _near_points(self) -> Floats:
+        """(n,) 1 where FAPs are read off the skin, fading over a few millimetres."""
+        positions = self.anatomy.skin.positions
+        distance, _ = cKDTree(positions[self.anatomy.points_on_skin]).query(positions)
+        return np.asarray(np.exp(-((distance / SPARED) ** 2)))
