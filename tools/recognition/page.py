@@ -47,8 +47,10 @@ POSED = """
 ## Posed faces
 
 Each of the 25 profiles of Table 5 at {shares} of its archetype's own activation (limited to 1..7), with new draws
-within its ranges on each of {faces} faces: the default head, ICT, MakeHuman and six identities ({counts}). *Natural*
-and *exact* are the drives with the word known; *untold* is the natural drive with the FAPs only, without the word.
+within its ranges on each of {faces} faces: the default head, ICT, MakeHuman and six identities
+({counts}).
+*Natural* and *exact* are the drives with the word known; *untold* is the natural drive with the FAPs only, without the
+word.
 """
 
 FEATURES = """
