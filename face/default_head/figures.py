@@ -216,7 +216,7 @@ def _nodes(table: TomlTable) -> dict[str, Floats]:
             nodes |= {ring_name(family[:3] + ring, k): p for k, p in enumerate(values)}
     for name, point in nodes.items():
         if (point[0] != 0.0) if on_midline(name) else (point[0] <= 0.0):
-            rule = "must have x = 0 (it lies on the midline)" if on_midline(name) else "must have x > 0 (left half)"
+            rule = "must have x = 0 (it is on the midline)" if on_midline(name) else "must have x > 0 (left half)"
             raise table.refuse(f"{rule}, but x is {point[0]:g}", name)
     return {name: point * MM for name, point in nodes.items()}
 

@@ -208,8 +208,8 @@ def check_sides(points: Mapping[str, Floats]) -> None:
     """
     if points["9.3"][2] <= (points["8.3"][2] + points["8.4"][2]) / 2.0:
         raise ModelError(
-            "all left and right feature points are swapped, or the nose tip 9.3 is wrong: it lies behind the mouth; "
-            "8.3, 3.7 and 4.1 lie on the subject's left (the viewer's right)"
+            "all left and right feature points are swapped, or the nose tip 9.3 is wrong (behind the mouth); "
+            "8.3, 3.7 and 4.1 must be on the subject's left (the viewer's right)"
         )
     for left, right in (
         ("8.3", "8.4"),
@@ -221,7 +221,7 @@ def check_sides(points: Mapping[str, Floats]) -> None:
     ):
         if points[left][0] <= points[right][0]:
             raise ModelError(
-                f"feature points {left} and {right} are swapped: {left} must lie on the subject's left "
+                f"feature points {left} and {right} are swapped: {left} must be on the subject's left "
                 "(the viewer's right)"
             )
     for upper, lower in (
@@ -233,4 +233,4 @@ def check_sides(points: Mapping[str, Floats]) -> None:
         ("4.3", "3.1"),
     ):
         if points[upper][1] <= points[lower][1]:
-            raise ModelError(f"feature points {upper} and {lower} are swapped: {upper} must lie above {lower}")
+            raise ModelError(f"feature points {upper} and {lower} are swapped: {upper} must be above {lower}")

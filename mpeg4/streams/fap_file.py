@@ -181,7 +181,7 @@ def _frame(file: Path, line: int, text: str, mask: Bools) -> _Frame:
     stated = int(mask[2:].sum())
     wanted = 1 + viseme + expression + stated
     if len(values) != wanted:
-        problem = f"the mask above requires {wanted} numbers (the frame's and {wanted - 1} values), this line has"
+        problem = f"the mask above requires {wanted} numbers (the frame's and {wanted - 1} values), but this line has"
         raise FormatError(file, f"{problem} {len(values)}", line=line)
     frame = _Frame(int(values[0]), np.full(FAP_COUNT, np.nan))
     try:
@@ -197,7 +197,7 @@ def _frame(file: Path, line: int, text: str, mask: Bools) -> _Frame:
     huge = ~endless & (np.abs(low_level) > LARGEST)
     if huge.any():
         place = wanted - stated + int(huge.argmax())
-        problem = f"value {place + 1} is beyond {LARGEST:.0f} FAP units: mend it, but it is {tokens[place]!r}"
+        problem = f"value {place + 1} must be within {LARGEST:.0f} FAP units, but it is {tokens[place]!r}"
         raise FormatError(file, problem, line=line)
     frame.values[2:][mask[2:]] = np.where(endless, np.nan, low_level)
     return frame

@@ -83,7 +83,7 @@ def _range(row: CsvRow) -> tuple[int, float, float, float, float]:
         raise row.refuse("must reach below and above 0", "low_mm")
     low_linear, high_linear = (row.number(name, above=0.0) for name in ("low_linear", "high_linear"))
     if not max(low_linear, high_linear) < 1.0:
-        raise row.refuse("low_linear and high_linear must lie between 0 and 1")
+        raise row.refuse("low_linear and high_linear must be between 0 and 1")
     return number, low, high, low_linear, high_linear
 
 

@@ -85,7 +85,7 @@ def _listed(frame: JsonFrame) -> list[Any]:
     if not isinstance(found, list):
         raise frame.refuse("landmarks", "must be a list")
     if len(found) <= 16 and all(isinstance(face, list) and len(face) >= FEWEST for face in found):
-        raise frame.refuse("landmarks", f"hold {len(found)} faces: keep one")
+        raise frame.refuse("landmarks", f"contain {len(found)} faces: keep one face")
     return found
 
 
@@ -176,7 +176,7 @@ def _times(table: TableFile) -> Floats:
 def _upright(raw: Floats, aspect: float) -> Floats:
     """Positions from x to the right, y down and z away, as shares of the picture or in pixels."""
     if not (math.isfinite(aspect) and aspect > 0.0):
-        raise ParameterError("aspect", "must be the picture's width over its height", aspect)
+        raise ParameterError("aspect", "must be the width of the image divided by its height", aspect)
     pixels = np.nanmax(np.abs(raw[..., :2]), initial=0.0) > NORMALISED
     wide = 1.0 if pixels else aspect
     positions: Floats = raw * np.array([wide, -1.0, -wide])

@@ -148,7 +148,7 @@ HEADER = "2.1 x 25 1\n"
         (f"{HEADER}{_mask(3)}\n1 1\n{_mask(3)}\n1 2\n", 5, "frame 1 comes after frame 1"),
         (f"{HEADER}{_mask(3)}\n0 1\n{_mask(3)}\n99999999 2\n", 5, "more than 10000 frames after 0"),
         (f"{HEADER}{_mask(3)}\n99999999999 1\n", 3, "frame number must be"),
-        (f"{HEADER}{_mask(3, 4)}\n0 1 2e7\n", 3, "value 3 is beyond 10000000 FAP units"),
+        (f"{HEADER}{_mask(3, 4)}\n0 1 2e7\n", 3, "value 3 must be within 10000000 FAP units, but it is"),
         (f"{HEADER}{_mask(3)}\n0 1e999\n", 3, "value 2 must be a number"),
         (f"2.1 x 1e999 1\n{_mask(3)}\n0 1\n", 1, "frame rate"),
         (f"{HEADER}{_mask(1)}\n0 4.5 0 0 0\n", 3, "sub-field of FAP 1 or 2 must be a whole number"),
