@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 
-from .mechanisms.lids import LID_MOVERS
+from .mechanisms.lid_movers import LID_MOVERS
 from .muscles.table import read_muscles
 
 

@@ -24,7 +24,7 @@ from .anatomy import Anatomy
 from .bodies.contact import Contact, Slack
 from .bodies.surroundings import Look, Surroundings
 from .mechanisms.jaw import JawMotion
-from .mechanisms.lids import LidMove
+from .mechanisms.lid_movers import LidMove
 from .posture import Posture
 from .response.actuators import Amounts
 from .response.living_skin import living_skin, mandible

@@ -20,9 +20,9 @@ from risorius.arrays import Floats
 from risorius.face.drive.natural.planning import plan_naturally
 from risorius.face.drive.natural.synergies import load_synergies
 from risorius.face.drive.request import Request
+from risorius.face.mechanisms.lid_movers import LID_MOVERS
 from risorius.face.mesh.fap_units import unit_length
 from risorius.face.posture import Balance
-from risorius.face.response.actuators import LID_NAMES
 
 PAGE = DOCS / "faps.md"
 
@@ -112,7 +112,7 @@ def mechanisms(face: api.Face, frame: Floats, number: int) -> dict[str, float]:
     opening = amounts.jaw.angle * actuators.chin_lever
     solution = np.array([*amounts.muscles, *lids, opening, amounts.jaw.left, amounts.jaw.forward])
     names = [muscle.name[:-2] if muscle.name[-2:] in ("_l", "_r") else muscle.name for muscle in actuators.muscles]
-    names += [LID_NAMES[move] for _, move in actuators.lid_moves] + ["jaw opening", "jaw shift", "jaw thrust"]
+    names += [LID_MOVERS[move].name for _, move in actuators.lid_moves] + ["jaw opening", "jaw shift", "jaw thrust"]
     moved = actuators.responses(anatomy.inverse.matrix)[row] * solution
     asked = float(frame[number - 1] * rows.units[row])
     shares: dict[str, float] = {}

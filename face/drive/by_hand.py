@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping
 from ...errors import ParameterError
 from ..mechanism import Mechanism
 from ..mechanisms.jaw import JawMotion
-from ..response.actuators import LID_AMPLITUDES, LID_NAMES, OPENING, Actuators, Amounts
+from ..mechanisms.lid_movers import LID_MOVERS
+from ..response.actuators import OPENING, Actuators, Amounts
 from .request import ByHand
 
 
@@ -32,13 +33,13 @@ def _with(actuators: Actuators, amounts: Amounts, contractions: Mapping[str, flo
     """Amounts with some contractions instead of their own."""
     muscles, lids, jaw = amounts.muscles.copy(), dict(amounts.lids), amounts.jaw
     index = {muscle.name: i for i, muscle in enumerate(actuators.muscles)}
-    lid_index = {f"{LID_NAMES[move]}_{side}": (side, move) for side, move in actuators.lid_moves}
+    lid_index = {f"{LID_MOVERS[move].name}_{side}": (side, move) for side, move in actuators.lid_moves}
     hinge = ["jaw_open"] if actuators.skin.has(Mechanism.JAW) else []
     for name, value in contractions.items():
         if name in index:
             muscles[index[name]] = value * actuators.muscles[index[name]].amplitude
         elif name in lid_index:
-            lids[lid_index[name]] = value * LID_AMPLITUDES[lid_index[name][1]]
+            lids[lid_index[name]] = value * LID_MOVERS[lid_index[name][1]].amplitude
         elif name in hinge:
             jaw = JawMotion(value * float(actuators.upper[OPENING]) / actuators.chin_lever, jaw.left, jaw.forward)
         else:

@@ -108,8 +108,7 @@ class Inverse:
 
     def _usual(self, targets: Targets) -> tuple[Floats, Floats]:
         """Usual size of every amount about what is expected of it, and that, metres."""
-        usual = self.actuators.prior
-        usual[OPENING], usual[SLIDES] = targets.opening, targets.slide
+        usual = self.actuators.usual(targets.opening, targets.slide)
         expected: Floats = np.zeros(len(usual))
         for i, muscle in enumerate(self.actuators.muscles):
             expected[i] = targets.muscles.get(muscle.name, 0.0)
@@ -117,7 +116,7 @@ class Inverse:
 
     def _opening_response(self, opening: float) -> Floats:
         """(m,) exact response of the rows to an opening of the jaw (metres at the chin), per metre."""
-        amounts = np.zeros(len(self.actuators.prior))
+        amounts = np.zeros(self.actuators.count)
         amounts[OPENING] = opening
         return np.asarray(self.matrix @ self.actuators.kinematic(self.actuators.amounts(amounts)).ravel()) / opening
 

@@ -2,7 +2,7 @@
 
 sliding, bulge                          what the skin does beyond the second paper's membrane
 separation                              upper and lower lip and lid, told apart along the skin
-jaw, lids                               what turns: the mandible, the lids about the eyeballs
+jaw, lids, lid_movers                   what turns: the mandible, the lids about the eyeballs, and the lids' muscles
 brow, cheek, nose, lips, corners        muscles by region: where they insert, how firmly the skin is held there,
 buccinator, chin, orbicularis_oris,       what their pulls have that the paper's three classes lack
   platysma

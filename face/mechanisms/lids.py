@@ -7,20 +7,16 @@ margin by nearly the same angle, and slides a little towards the nose as it clos
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import StrEnum
-from types import MappingProxyType
 
 import numpy as np
 
 from ...arrays import Floats
-from ...tables import read_toml
-from ..figures import ANATOMY, Length, Pair, Place, Share, read_figures
+from ..figures import Length, Pair, Place, Share, read_figures
 from ..mechanism import Mechanism
 from ..mesh.sphere import fit_sphere
-from ..mesh.template import MM
 from ..skin.outer import OuterSkin, smoothstep
+from .lid_movers import LidMove
 
 
 @dataclass(frozen=True)
@@ -77,43 +73,6 @@ SHORTEST_LEVER = 0.3
 
 #: An eyeball needs this many vertices to be measured.
 MEASURABLE = 12
-
-
-class LidMove(StrEnum):
-    """The four movements of a pair of lids; each is a muscle of its own and only pulls one way."""
-
-    UPPER_CLOSE = "upper_close"
-    UPPER_OPEN = "upper_open"
-    LOWER_UP = "lower_up"
-    LOWER_DOWN = "lower_down"
-
-
-@dataclass(frozen=True)
-class LidMover:
-    """The muscle of one movement: name, title and action unit for people; usual and largest way of the lid, metres."""
-
-    name: str
-    title: str
-    au: str
-    prior: float
-    amplitude: float
-
-
-def _read_movers() -> Mapping[LidMove, LidMover]:
-    """The muscles of presets/anatomy/lids.toml by what they do."""
-    table = read_toml(ANATOMY / "lids.toml").table("movers")
-    table.text("source")
-    table.only("source", *LidMove)
-    movers = {}
-    for move in LidMove:
-        row = table.table(move)
-        row.only("name", "title", "au", "prior_mm", "amplitude_mm")
-        prior, amplitude = (MM * row.number(key, above=0.0) for key in ("prior_mm", "amplitude_mm"))
-        movers[move] = LidMover(row.text("name"), row.text("title"), row.text("au", ""), prior, amplitude)
-    return MappingProxyType(movers)
-
-
-LID_MOVERS = _read_movers()
 
 #: Point that measures a move, and the sign of its angle (positive turns downwards).
 _MOVES = {
@@ -201,6 +160,14 @@ def _taper(along: Floats, outer: Pair, inner: Pair = EXTENT.inner) -> Floats:
     return smoothstep((along - inner[0]) / inner[1]) * smoothstep((outer[0] - along) / outer[1])
 
 
+def _ball_behind(side: str, middle: Floats, top: Floats, bottom: Floats) -> tuple[Floats, float]:
+    """Centre and radius of an eyeball that no mesh has, behind the middle of its corners and its lids' middles (3,)."""
+    inwards = np.array([-1.0 if side == "l" else 1.0, 1.0, 1.0])
+    centre: Floats = middle + BALL.from_corners * inwards
+    nearest = float(min(np.linalg.norm(top - centre), np.linalg.norm(bottom - centre)))
+    return centre, nearest - BALL.lid_thickness
+
+
 def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
     """One eye from its points, the skin, and the eyeball's vertices (k, 3) in head space where the mesh has them."""
     names = ("3.11", "3.7", "3.1", "3.3") if side == "l" else ("3.8", "3.12", "3.2", "3.4")
@@ -208,9 +175,7 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
     if eyeball is not None and len(eyeball) >= MEASURABLE:
         centre, radius = fit_sphere(eyeball)
     else:
-        inwards = np.array([-1.0 if side == "l" else 1.0, 1.0, 1.0])
-        centre = (inner + outer) / 2.0 + BALL.from_corners * inwards
-        radius = float(min(np.linalg.norm(top - centre), np.linalg.norm(bottom - centre))) - BALL.lid_thickness
+        centre, radius = _ball_behind(side, (inner + outer) / 2.0, top, bottom)
     upper, lower = skin.lid_distances(side)
     along = _fissure_position(skin, side)
     on_upper = smoothstep(((lower - upper) / EXTENT.between + 1.0) / 2.0)

@@ -16,7 +16,8 @@ from ...physics.mesh import Sparse
 from ..figures import Length, read_figures
 from ..mechanism import Mechanism
 from ..mechanisms.jaw import Jaw, JawMotion
-from ..mechanisms.lids import LID_MOVERS, Eye, LidMove
+from ..mechanisms.lid_movers import LID_MOVERS, LidMove
+from ..mechanisms.lids import Eye
 from ..skin.outer import OuterSkin
 from .pulls import Pulls
 
@@ -26,23 +27,18 @@ OPENING, SLIDES = -3, slice(-2, None)
 
 @dataclass(frozen=True)
 class JawFigures:
-    """How far the mandible goes, largest and usual (presets/anatomy/jaw.toml)."""
+    """How far the mandible goes at most, and how far it usually opens (presets/anatomy/jaw.toml)."""
 
     opening: Length
     left: Length
     forward: Length
     usual_opening: Length
-    usual_left: Length
-    usual_forward: Length
 
 
 JAW = read_figures("jaw.motion", JawFigures)
 
 #: A lid's way by which its response about rest is found, metres.
 SMALL = 1e-3
-
-LID_NAMES: Mapping[LidMove, str] = {move: mover.name for move, mover in LID_MOVERS.items()}
-LID_AMPLITUDES: Mapping[LidMove, float] = {move: mover.amplitude for move, mover in LID_MOVERS.items()}
 
 
 @dataclass(frozen=True)
@@ -64,20 +60,21 @@ class Actuators:
         self.lid_moves = [(side, move) for side in "lr" for move in LidMove] if lids else []
 
     @property
-    def prior(self) -> Floats:
-        """(k + 8 + 3,) usual amounts, metres: muscles, lids, jaw at the chin, its slides left and forward.
+    def count(self) -> int:
+        """How many amounts there are: k muscles, 8 lid moves (none without lids), the jaw's opening, its two slides."""
+        return len(self.muscles) + len(self.lid_moves) + 3
 
-        Without lids there are no 8.
-        """
+    def usual(self, opening: float, slide: float) -> Floats:
+        """(k + 8 + 3,) usual amounts, metres; the jaw's opening at the chin and its slides as they are given."""
         muscles = [muscle.row.prior for muscle in self.muscles]
         lids = [LID_MOVERS[move].prior for _, move in self.lid_moves]
-        return np.array([*muscles, *lids, JAW.usual_opening, JAW.usual_left, JAW.usual_forward])
+        return np.array([*muscles, *lids, opening, slide, slide])
 
     @property
     def upper(self) -> Floats:
         """Largest amount of each actuator, metres; the jaw's slides may also be negative."""
         muscles = [muscle.amplitude for muscle in self.muscles]
-        lids = [LID_AMPLITUDES[move] for _, move in self.lid_moves]
+        lids = [LID_MOVERS[move].amplitude for _, move in self.lid_moves]
         return np.array([*muscles, *lids, JAW.opening, JAW.left, JAW.forward])
 
     @property
@@ -109,7 +106,7 @@ class Actuators:
 
     def none(self) -> Amounts:
         """No amount of anything."""
-        return self.amounts(np.zeros(len(self.prior)))
+        return self.amounts(np.zeros(self.count))
 
     def kinematic(self, amounts: Amounts) -> Floats:
         """(n, 3) displacement of the outer skin by jaw and lids, as exact rotations."""
@@ -126,7 +123,7 @@ class Actuators:
         """Actuator name -> contraction in [0, 1]; the jaw as "jaw_open"."""
         named = {muscle.name: a / muscle.amplitude for muscle, a in zip(self.muscles, amounts.muscles, strict=True)}
         for (side, move), amount in amounts.lids.items():
-            named[f"{LID_NAMES[move]}_{side}"] = amount / LID_AMPLITUDES[move]
+            named[f"{LID_MOVERS[move].name}_{side}"] = amount / LID_MOVERS[move].amplitude
         if self.skin.has(Mechanism.JAW):
             named["jaw_open"] = amounts.jaw.angle * self.chin_lever / self.upper[OPENING]
         return {name: float(np.clip(value, 0.0, 1.0)) for name, value in named.items()}

@@ -17,7 +17,7 @@ from risorius.tables import read_toml
 FACE = Path(risorius.face.__file__).parent
 
 #: Where all figures are anatomy, but for the numbers below.
-ROOMS = ("mesh", "muscles", "skin", "mechanisms", "response", "bodies", "products")
+ROOMS = ("mesh", "muscles", "skin", "mechanisms", "response", "bodies")
 
 #: Numbers that are no figures: parts of formulas, and what keeps a division from nothing.
 FORMULAS = (0.0, 0.5, 1.0, 2.0)
@@ -38,12 +38,6 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "mesh/points.py": (0.02,),  # how far off the surface a point may lie
     "mesh/sphere.py": (0.8,),  # share of points that a fit keeps
     "mesh/template.py": (1e-3, 3.0),  # a millimetre; smoothing of the warp
-    "products/animation_table_building.py": (1e-4,),  # what counts as moved
-    "products/animation_table_files.py": (1e3, 1e3, 1e-3, 1e-3),  # millimetres in files
-    "products/crease_places.py": (0.1,),  # weight of distances off the skin
-    "products/creases.py": (2.5,),  # rounds of an average per its squared radius
-    "products/muscle_lines.py": (0.25,),  # smoothing of a line
-    "products/trajectories.py": (75e-3,),  # how much of a head is drawn
     "response/actuators.py": (1e-3,),  # a step of a difference
     "response/folds.py": (
         1.3,

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from risorius.api import Face
-from risorius.face.mechanisms.lids import LidMove
+from risorius.face.mechanisms.lid_movers import LidMove
 
 FACES = ["default", "ict", "makehuman"]
 

@@ -9,7 +9,7 @@ import pytest
 from risorius.api import Face, Part
 from risorius.face.bodies.contact import AT_REST
 from risorius.face.bodies.eyeball_surface import EyeballSurface
-from risorius.face.mechanisms.lids import LidMove
+from risorius.face.mechanisms.lid_movers import LidMove
 from risorius.face.muscles.insertion import force_density
 from risorius.face.muscles.kinds import KINDS
 from risorius.face.muscles.row import Region
@@ -218,7 +218,7 @@ def test_contractions_scale_from_nothing_to_the_amplitude(face: Face) -> None:
     number = [placed.name for placed in actuators.muscles].index(name)
     gains = []
     for share in (0.25, 1.0):
-        solution = np.zeros(len(actuators.prior))
+        solution = np.zeros(actuators.count)
         solution[number] = share * muscle.amplitude
         linear = np.linalg.norm(actuators.muscular(actuators.amounts(solution)), axis=1).max()
         assert linear == pytest.approx(share * muscle.amplitude, rel=1e-6)

@@ -14,7 +14,7 @@ from risorius.physics.tissue import tissue
 def smiling(face: Face, millimetres: float) -> Amounts:
     """Both zygomatici majores by so much."""
     actuators = face.anatomy.actuators
-    solution = np.zeros(len(actuators.prior))
+    solution = np.zeros(actuators.count)
     for number, muscle in enumerate(actuators.muscles):
         if muscle.row.name == "zygomaticus_major":
             solution[number] = millimetres * 1e-3
