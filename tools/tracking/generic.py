@@ -16,11 +16,11 @@ from risorius.track.generic_face import TABLE
 PRESETS = TABLE.parent
 
 HEADING = """\
-# A neutral face of nobody as MediaPipe's face mesh sees it: mm to the subject's left, up, forward; origin feature point
+# The generic neutral face as MediaPipe's face mesh sees it: mm to the subject's left, up, forward; origin feature point
 # 9.15; sizes by the template's points that expression does not move. Written by tools/track_evidence.py: the mean over
 # Workbench pictures of neutral heads from the front, and its mirror image:
 # {heads}.
-# spread_mm: how far the heads stray from it (root mean square).
+# spread_mm: how far the heads differ from it (root mean square).
 point,landmark,left_mm,up_mm,forward_mm,spread_mm
 """
 
