@@ -20,15 +20,23 @@ from .drive.by_hand import set_by_hand
 from .drive.drives import DRIVES, Correction
 from .drive.plan import Plan
 from .drive.targets import Targets
+from .figures import Length, read_figures
 from .mechanism import Mechanism
 from .response.actuators import Amounts
 from .response.living_skin import Memory
 
+
+@dataclass(frozen=True)
+class LastWordFigures:
+    """What contact leaves alone where FAPs have the last word (presets/anatomy/targets.toml)."""
+
+    spared: Length
+
+
+LAST_WORD = read_figures("targets.last_word", LastWordFigures)
+
 #: Rounds of elastic correction by who has the last word: where FAPs have it, what contact disturbs is corrected again.
 ROUNDS = {Correction.NONE: 0, Correction.CONTACT: 1, Correction.FAPS: 3}
-
-#: Where FAPs have the last word, contact leaves the skin alone within this of their points, fading, metres.
-SPARED = 3.0e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,4 +132,4 @@ class Balance:
         """(n,) 1 where FAPs are read off the skin, fading over a few millimetres."""
         positions = self.anatomy.skin.positions
         distance, _ = cKDTree(positions[self.anatomy.points_on_skin]).query(positions)
-        return np.asarray(np.exp(-((distance / SPARED) ** 2)))
+        return np.asarray(np.exp(-((distance / LAST_WORD.spared) ** 2)))

@@ -2,10 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...arrays import Floats
 from ...mpeg4 import LIP_TWINS
+from ..figures import Share, read_figures
+
+
+@dataclass(frozen=True)
+class FilledFigures:
+    """How far the lips' sides go with their middles (presets/anatomy/targets.toml)."""
+
+    lower_lip: Share
+    corners: Share
+
+
+FILLED = read_figures("targets.filled", FilledFigures)
 
 
 def filled(faps: Floats) -> Floats:
@@ -22,9 +36,9 @@ def filled(faps: Floats) -> Floats:
     for number in (8, 9):
         give(number, faps[3])
     for number in (10, 11):
-        give(number, 0.9 * faps[4])
+        give(number, FILLED.lower_lip * faps[4])
     if not np.isnan(faps[2]):
-        lowered = 0.4 * min(float(np.nan_to_num(faps[4])), 0.0)
+        lowered = FILLED.corners * min(float(np.nan_to_num(faps[4])), 0.0)
         for number in (12, 13):
             give(number, lowered)
     for inner, outer in LIP_TWINS:

@@ -6,6 +6,7 @@ millimetres: what neighbouring points share is left to muscles, what one point a
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -14,20 +15,27 @@ from scipy import linalg
 
 from ...arrays import Floats
 from ...physics.mesh import Sparse
+from ..figures import Length, Share, read_figures
 from ..mesh.fap_rows import FapRows
 from ..response.actuators import OPENING, SLIDES, Actuators, Amounts
 from ..response.sheet import Tissue
 from .bounded_least_squares import bounded_least_squares
 from .targets import Targets
 
-#: How much of the points' motion the skin alone may explain, metres.
-TAU = 6e-3
+
+@dataclass(frozen=True)
+class SkinFigures:
+    """What the elastic skin leaves to muscles and jaw (presets/anatomy/targets.toml)."""
+
+    share: Length
+    chin: Share
+
+
+SKIN = read_figures("targets.skin", SkinFigures)
 
 #: Rows to be met as near as may be are met within this by muscles, lids and jaw, metres; the skin does the rest.
 LEAST_DOUBT = 0.05e-3
 
-#: The jaw, not the skin, explains the chin.
-CHIN_COMPLIANCE = 0.3
 CHIN_FAPS = (3, 14, 15)
 
 #: Beyond this opening at the chin the jaw's response is taken about the opening found first.
@@ -76,7 +84,7 @@ class Inverse:
     @cached_property
     def _weighing(self) -> Floats:
         """(m, m) compliance with a stiff chin, scaled to a mean of 1."""
-        share = np.where(np.isin(self.rows.numbers, CHIN_FAPS), CHIN_COMPLIANCE, 1.0)
+        share = np.where(np.isin(self.rows.numbers, CHIN_FAPS), SKIN.chin, 1.0)
         return np.asarray(self.compliance * self._scale * share[:, None] * share[None, :])
 
     def solve(self, targets: Targets) -> Amounts:
@@ -84,7 +92,7 @@ class Inverse:
         actuators, known = self.actuators, ~np.isnan(targets.displacements)
         wanted = targets.displacements[known]
         doubts = np.maximum(targets.doubts[known], LEAST_DOUBT)
-        covariance = TAU**2 * self._weighing[np.ix_(known, known)] + np.diag(doubts**2)
+        covariance = SKIN.share**2 * self._weighing[np.ix_(known, known)] + np.diag(doubts**2)
         factor = linalg.cholesky(covariance, lower=True)
         usual, expected = self._usual(targets)
         upper = actuators.upper
@@ -129,6 +137,6 @@ class Inverse:
         if not known.any():
             return np.zeros((self.actuators.skin.vertex_count, 3))
         compliance = self.compliance[np.ix_(known, known)] * self._scale
-        loose = (doubts[known] / TAU) ** 2 + 1e-9
+        loose = (doubts[known] / SKIN.share) ** 2 + 1e-9
         weights = linalg.solve(compliance + np.diag(loose), residual[known], assume_a="pos") * self._scale
         return np.tensordot(weights, self.kernel[known], axes=1)

@@ -7,19 +7,27 @@ does (scanned: 16 mm of 15, while the leading corner makes 6).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...arrays import Floats
+from ..figures import Length, read_figures
 from ..mesh.fap_rows import FapRows
-from ..mesh.template import MM
 from ..skin.outer import smoothstep
 
-#: The lips' middles are known as well as this; half way between staying and going along, so many times worse; and not
-#: at all where the jaw goes aside this far.
-MIDDLE_DOUBT, MIDDLE_BETWEEN, MIDDLE_FREE = 0.5 * MM, 4.0, 3.0 * MM
 
-#: Both corners together this far aside take the middles along in full.
-MIDDLE_TAKEN = 6.0 * MM
+@dataclass(frozen=True)
+class LipMiddleFigures:
+    """How well the lips' middles are known, and when they go along (presets/anatomy/targets.toml)."""
+
+    doubt: Length
+    between: float
+    taken: Length
+    free: Length
+
+
+FIGURES = read_figures("targets.lip_middles", LipMiddleFigures)
 
 #: Lip middle -> FAPs of the left and right corner of the same contour.
 CORNERS = {"2.2": (6, 7), "2.3": (6, 7), "8.1": (53, 54), "8.2": (53, 54)}
@@ -31,11 +39,11 @@ def lip_middles(rows: FapRows, faps: Floats) -> tuple[Floats, Floats]:
 
     NaN on other rows, and where the corners are silent.
     """
-    targets, doubts = np.full(len(rows), np.nan), np.full(len(rows), MIDDLE_DOUBT)
+    targets, doubts = np.full(len(rows), np.nan), np.full(len(rows), FIGURES.doubt)
     place = rows.row_of
     jaw_unit = rows.units[place[JAW_ASIDE_FAP]] if JAW_ASIDE_FAP in place else 0.0
     jaw_aside = abs(float(np.nan_to_num(faps[JAW_ASIDE_FAP - 1]))) * jaw_unit
-    if jaw_aside >= MIDDLE_FREE:
+    if jaw_aside >= FIGURES.free:
         return targets, doubts
     for row in np.flatnonzero(rows.numbers == 0).tolist():
         left, right = CORNERS[rows.names[row]]
@@ -43,9 +51,9 @@ def lip_middles(rows: FapRows, faps: Floats) -> tuple[Floats, Floats]:
             continue
         aside = faps[left - 1] * rows.units[place[left]], -faps[right - 1] * rows.units[place[right]]
         together = min(abs(aside[0]), abs(aside[1])) if aside[0] * aside[1] > 0.0 else 0.0
-        taken = float(smoothstep(np.array(together / MIDDLE_TAKEN)))
+        taken = float(smoothstep(np.array(together / FIGURES.taken)))
         trailing = aside[0] if aside[0] < 0.0 else aside[1]
-        between = 1.0 + 4.0 * MIDDLE_BETWEEN * taken * (1.0 - taken)
+        between = 1.0 + 4.0 * FIGURES.between * taken * (1.0 - taken)
         targets[row] = taken * trailing
-        doubts[row] = MIDDLE_DOUBT * between / (1.0 - jaw_aside / MIDDLE_FREE)
+        doubts[row] = FIGURES.doubt * between / (1.0 - jaw_aside / FIGURES.free)
     return targets, doubts

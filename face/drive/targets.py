@@ -8,18 +8,47 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Bools, Floats
+from ..figures import Length, read_figures
 from ..mesh.fap_rows import FapRows
-from ..mesh.template import MM
 from ..response.actuators import JAW
 from .filled import filled
 from .lip_middles import lip_middles
 from .plan import Plan
 
-ASKED_DOUBT, SILENT_DOUBT, LIP_DOUBT = 0.4 * MM, 2.0 * MM, 1.0 * MM
-LIP_FAPS = (5, 10, 11)
-FILLED_DOUBT, CARRIED_DOUBT = 1.0 * MM, 6.0 * MM
-SLIDE_ASKED, SLIDE_SILENT = 16.0 * MM, 2.0 * MM
-JAW_ASKED, JAW_SILENT = 60.0 * MM, 3.0 * MM
+#: The middle of the inner lower lip and its sides.
+LOWER_LIP_FAPS = (5, 10, 11)
+
+
+@dataclass(frozen=True)
+class NaturalFigures:
+    """How far off points may be in the natural drive (presets/anatomy/targets.toml)."""
+
+    asked: Length
+    silent: Length
+    lower_lip: Length
+
+
+@dataclass(frozen=True)
+class ExactFigures:
+    """How far off points of which nothing is asked may be in the other drives (presets/anatomy/targets.toml)."""
+
+    filled: Length
+    carried: Length
+
+
+@dataclass(frozen=True)
+class JawFigures:
+    """Usual motions of the jaw (presets/anatomy/targets.toml)."""
+
+    opening_asked: Length
+    opening_silent: Length
+    slide_asked: Length
+    slide_silent: Length
+
+
+NATURAL = read_figures("targets.natural", NaturalFigures)
+EXACT = read_figures("targets.exact", ExactFigures)
+USUAL = read_figures("targets.jaw", JawFigures)
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +79,8 @@ def natural_targets(rows: FapRows, plan: Plan) -> Targets:
     """Every planned row, asked ones more firmly; what is asked and has no range, exactly."""
     goal, asked = rows.select(plan.goal), rows.select(plan.evened)
     beyond = np.isnan(goal) & ~np.isnan(asked)
-    doubts = np.where(np.isnan(asked), SILENT_DOUBT, ASKED_DOUBT)
-    doubts = np.where(np.isin(rows.numbers, LIP_FAPS), LIP_DOUBT, doubts)
+    doubts = np.where(np.isnan(asked), NATURAL.silent, NATURAL.asked)
+    doubts = np.where(np.isin(rows.numbers, LOWER_LIP_FAPS), NATURAL.lower_lip, doubts)
     doubts = np.where(beyond, 0.0, doubts)
     middles, loose = lip_middles(rows, plan.goal)
     hidden = rows.numbers == 0
@@ -62,7 +91,7 @@ def natural_targets(rows: FapRows, plan: Plan) -> Targets:
         carried=np.zeros(len(rows), dtype=bool),
         muscles=plan.muscles,
         opening=JAW.usual_opening,
-        slide=SLIDE_ASKED if _asks(plan.evened, 14, 15) else SLIDE_SILENT,
+        slide=USUAL.slide_asked if _asks(plan.evened, 14, 15) else USUAL.slide_silent,
     )
 
 
@@ -73,15 +102,15 @@ def exact_targets(rows: FapRows, plan: Plan) -> Targets:
     middles, loose = lip_middles(rows, full)
     displacements = np.where(hidden, middles, rows.select(full))
     carried = np.isnan(displacements) & ~hidden
-    doubts = np.where(carried, CARRIED_DOUBT, np.where(silent, FILLED_DOUBT, 0.0))
+    doubts = np.where(carried, EXACT.carried, np.where(silent, EXACT.filled, 0.0))
     return Targets(
         displacements=np.where(carried, 0.0, displacements),
         doubts=np.where(hidden, loose, doubts),
         corrected=~silent | hidden,
         carried=carried,
         muscles={},
-        opening=JAW_ASKED if _asks(faps, 3) else JAW_SILENT,
-        slide=SLIDE_ASKED if _asks(faps, 14, 15) else SLIDE_SILENT,
+        opening=USUAL.opening_asked if _asks(faps, 3) else USUAL.opening_silent,
+        slide=USUAL.slide_asked if _asks(faps, 14, 15) else USUAL.slide_silent,
     )
 
 

@@ -14,7 +14,7 @@ from ...errors import ParameterError
 from ...mpeg4 import ANGLE_UNIT, FAP_COUNT, FAPS, GROUPS
 from ...progress import Progress, Report
 from ...tables import read_csv
-from ..drive.natural.synergies import load_synergies, template_millimetres
+from ..drive.natural.synergies import load_synergies, template_unit
 from ..drive.request import Drive
 from ..face import Face
 from ..figures import ANATOMY
@@ -55,7 +55,7 @@ def table_ranges() -> Mapping[int, tuple[float, float]]:
     """FAP number -> smallest and largest value that tables reach for, FAP units, from presets/anatomy."""
     data = load_synergies()
     ranges = {
-        int(number): (float(low) / template_millimetres(int(number)), float(high) / template_millimetres(int(number)))
+        int(number): (float(low) / template_unit(int(number)), float(high) / template_unit(int(number)))
         for number, low, high in zip(data.numbers, data.low, data.high, strict=True)
     }
     for row in read_csv(ANATOMY / "table_ranges.csv"):

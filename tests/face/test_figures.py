@@ -17,7 +17,7 @@ from risorius.tables import read_toml
 FACE = Path(risorius.face.__file__).parent
 
 #: Where all figures are anatomy, but for the numbers below.
-ROOMS = ("mesh", "muscles", "skin", "mechanisms", "response", "bodies")
+ROOMS = (".", "mesh", "muscles", "skin", "mechanisms", "response", "bodies", "drive", "drive/natural")
 
 #: Numbers that are no figures: parts of formulas, and what keeps a division from nothing.
 FORMULAS = (0.0, 0.5, 1.0, 2.0)
@@ -31,6 +31,14 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "bodies/eyeball_surface.py": (0.25e-3,),  # distance of samples
     "bodies/margins.py": (0.05e-3,),  # what counts as equally near
     "bodies/tongue.py": (0.1,),  # when points are not believed
+    "drive/inverse.py": (0.05e-3, 8e-3),  # when the skin is left the rest; when the jaw is taken about its opening
+    "drive/lip_middles.py": (4.0,),  # makes the peak of a parabola 1
+    "drive/natural/mixture.py": (10.0,),  # a bound that is never met
+    "drive/natural/planning.py": (0.01,),  # units that are not worth naming
+    "drive/natural/recognition.py": (0.01,),  # shares that are not worth naming
+    "drive/plan.py": (0.02, 0.1, 5.0),  # when a goal is told as it was asked
+    "face.py": (0.1, 0.7, 0.9, 25.0, 25.0, 25.0),  # how far work is; frames per second
+    "figures.py": (1e-3, 1e6, 180.0),  # units
     "mechanisms/bulge.py": (6.0,),  # a triangle's share of a divergence
     "mechanisms/lids.py": (0.3,),  # shortest lever
     "mesh/checks.py": (0.01, 0.01),  # weight of a row of least squares
@@ -73,7 +81,7 @@ def numbers_of(path: Path) -> tuple[float, ...]:
 def test_code_holds_only_what_its_algorithms_need(room: str) -> None:
     """Add a figure of anatomy to presets/anatomy; add a number here only where no anatomist would know it."""
     for path in sorted((FACE / room).glob("*.py")):
-        name = f"{room}/{path.name}"
+        name = path.relative_to(FACE).as_posix()
         assert numbers_of(path) == OF_ALGORITHMS.get(name, ()), name
 
 

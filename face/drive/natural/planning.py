@@ -3,17 +3,19 @@
 A profile names few FAPs, some beyond anatomy, some against one another, and is silent about the rest. Requests are
 weighed against each FAP's range and against one another; what the profile does not say comes from a sparse,
 non-negative mixture of action units that explains what it does say, with the emotion word's own mixture preferred.
-Figures and reasons: docs/muscles.md; all in millimetres on the template face.
+Reasons: docs/muscles.md. Lengths are metres on the template face.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from ....arrays import Floats
 from ....mpeg4 import FAP_COUNT
+from ...figures import Length, read_figures
 from ..plan import Plan
 from ..request import Request
 from .conflicts import doubts, smiling_eyes_spared
@@ -25,7 +27,18 @@ from .synergies import Synergies, load_synergies
 
 LID_FAPS = (19, 20, 21, 22)
 BROW_CHEEK_FAPS = (*range(31, 43), 61, 62, 63, 64)
-SPREAD_MOUTH, SPREAD_BROW, SPREAD_LID = 1.0, 0.8, 0.4
+
+
+@dataclass(frozen=True)
+class SpreadFigures:
+    """How far action units may miss what is asked, by part of the face (presets/anatomy/natural.toml)."""
+
+    mouth: Length
+    brow: Length
+    lid: Length
+
+
+SPREAD = read_figures("natural.spread", SpreadFigures)
 
 #: A unit of which a plan holds no more than this is not named in it.
 LEAST_TOLD = 0.01
@@ -38,8 +51,8 @@ class Natural:
         self.data = load_synergies() if data is None else data
         self._mixture = Mixture(self.data)
         numbers = self.data.numbers
-        brow = np.where(np.isin(numbers, BROW_CHEEK_FAPS), SPREAD_BROW, SPREAD_MOUTH)
-        self._spread = np.where(np.isin(numbers, LID_FAPS), SPREAD_LID, brow)
+        brow = np.where(np.isin(numbers, BROW_CHEEK_FAPS), SPREAD.brow, SPREAD.mouth)
+        self._spread = np.where(np.isin(numbers, LID_FAPS), SPREAD.lid, brow)
 
     def plan(self, request: Request) -> Plan:
         """The plan for a request; where no emotion is given, it is recognised."""
@@ -67,10 +80,10 @@ class Natural:
             units={n: float(a) for n, a in zip(data.unit_names, amounts, strict=True) if a > LEAST_TOLD},
         )
 
-    def _faps(self, millimetres: Floats) -> Floats:
-        """(68,) FAP units from rows (m,) in mm."""
+    def _faps(self, way: Floats) -> Floats:
+        """(68,) FAP units from rows (m,) in metres."""
         faps = np.full(FAP_COUNT, np.nan)
-        faps[self.data.numbers - 1] = millimetres / self.data.per_fap
+        faps[self.data.numbers - 1] = way / self.data.per_fap
         return faps
 
     def _hidden(self, amounts: Floats) -> dict[str, float]:

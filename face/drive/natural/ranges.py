@@ -23,7 +23,7 @@ def saturate(value: Floats, low: Floats, high: Floats, low_linear: Floats, high_
 
 
 def carried_by_jaw(data: Synergies, asked: Floats) -> Floats:
-    """(m,) mm by which the asked opening of the jaw moves every FAP's point, itself left out; asked (m,) in mm."""
+    """(m,) metres by which the asked opening of the jaw moves every FAP's point, itself left out; asked (m,) metres."""
     row = data.row_of[JAW_FAP]
     opening = float(saturate(asked, data.low, data.high, data.low_linear, data.high_linear)[row])
     jaw = data.units[:, data.unit_names.index(JAW)]
@@ -33,7 +33,7 @@ def carried_by_jaw(data: Synergies, asked: Floats) -> Floats:
 
 
 def held(data: Synergies, asked: Floats, carried: Floats) -> Floats:
-    """(m,) requests in mm (0 = none) softly held within the anatomical ranges.
+    """(m,) requests in metres (0 = none) softly held within the anatomical ranges.
 
     Ranges are of what each part does by itself: what the jaw carries along, and what both corners of a mouth that is
     drawn to one side have in common, is not held back.

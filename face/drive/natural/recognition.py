@@ -7,14 +7,20 @@ from dataclasses import dataclass
 
 from ....arrays import Floats
 from ....mpeg4 import recognise
+from ...figures import Share, read_figures
 from ..request import EmotionShares
 from .symmetry import mirrored
 
-#: A belief of the recogniser that counts as half a certainty that the face shows that emotion.
-SIGHT_DOUBT = 0.15
 
-#: How much more the likelier of two emotions counts: the power that beliefs are taken to.
-SHARPNESS = 4
+@dataclass(frozen=True)
+class SightFigures:
+    """How far the recogniser is believed (presets/anatomy/natural.toml)."""
+
+    doubt: Share
+    sharpness: float
+
+
+SIGHT = read_figures("natural.sight", SightFigures)
 
 #: An emotion of a smaller share of the evidence is not seen.
 LEAST_SHARE = 0.01
@@ -47,11 +53,11 @@ class Shown:
         """
         seen, seen_mirrored = recognise(faps), recognise(mirrored(faps))
         evidence = {
-            str(name): (float(belief) ** SHARPNESS + float(seen_mirrored[name]) ** SHARPNESS) / 2.0
+            str(name): (float(belief) ** SIGHT.sharpness + float(seen_mirrored[name]) ** SIGHT.sharpness) / 2.0
             for name, belief in seen.items()
         }
         total = sum(evidence.values())
         if total <= 0.0:
             return cls({}, 0.0)
         shares = {name: value / total for name, value in evidence.items() if value > LEAST_SHARE * total}
-        return cls(shares, total / (total + SIGHT_DOUBT**SHARPNESS))
+        return cls(shares, total / (total + SIGHT.doubt**SIGHT.sharpness))

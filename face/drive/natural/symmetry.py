@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ....arrays import Floats
 from ....mpeg4 import FAP_COUNT, FAPS, Motion
+from ...figures import Length, Share, read_figures
 
-#: A difference of left and right below these is not meant: FAP units, and share of the larger.
-SYMMETRY_UNITS, SYMMETRY_SHARE = 12.0, 0.12
+
+@dataclass(frozen=True)
+class SymmetryFigures:
+    """Which differences of left and right are not meant (presets/anatomy/natural.toml)."""
+
+    units: Length
+    share: Share
+
+
+SYMMETRY = read_figures("natural.symmetry", SymmetryFigures)
 
 
 def mirror_fap(number: int) -> int:
@@ -44,7 +55,7 @@ def evened(faps: Floats) -> tuple[Floats, bool]:
             continue
         if np.isnan(a) or np.isnan(b):
             result[[number - 1, other - 1]] = a if np.isnan(b) else b
-        elif abs(a - b) <= max(SYMMETRY_UNITS, SYMMETRY_SHARE * max(abs(a), abs(b))):
+        elif abs(a - b) <= max(SYMMETRY.units, SYMMETRY.share * max(abs(a), abs(b))):
             result[[number - 1, other - 1]] = (a + b) / 2.0
         else:
             asymmetric = True

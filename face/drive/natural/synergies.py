@@ -1,7 +1,7 @@
 """The tables of the natural drive: ranges of FAPs, action units, emotions as sums of them.
 
-In millimetres on the template face, so that figures of different FAPs compare; FAP units are carried to any face by its
-own FAP units, so nothing is tuned again. Source of the figures: presets/anatomy/synergies.toml and ranges.csv.
+In metres on the template face, so that figures of different FAPs compare; FAP units are carried to any face by its own
+FAP units, so nothing is tuned again. Source of the figures: presets/anatomy/synergies.toml and ranges.csv.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from ....arrays import Floats, Ints
 from ....mpeg4 import FAP_COUNT, FAPS
-from ....tables import CsvRow, TomlTable, read_csv, read_toml
+from ....tables import CsvRow, KeyedTable, read_csv, read_toml
 from ...figures import ANATOMY
 from ...mesh.fap_units import TEMPLATE_FAPU, unit_length
 from ...mesh.template import MM
@@ -26,14 +26,9 @@ RANGE_COLUMNS = ("fap", "low_mm", "high_mm", "low_linear", "high_linear", "sourc
 #: The unit that is the mandible opening, and its FAP.
 JAW, JAW_FAP = "AU27", 3
 
-#: Spread of the prior amount of a unit, and of units that need a reason (nose wrinkler).
-UNIT_PRIOR = 0.4
-UNIT_PRIORS = {"AU9": 0.24}
-
-
-def template_millimetres(number: int) -> float:
-    """Millimetres on the template per unit of a displacement FAP."""
-    return unit_length(FAPS[number].unit, TEMPLATE_FAPU) / MM
+def template_unit(number: int) -> float:
+    """Metres on the template per unit of a displacement FAP."""
+    return unit_length(FAPS[number].unit, TEMPLATE_FAPU)
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,10 +37,10 @@ class Synergies:
 
     Attributes
     ----------
-    numbers : (m,) FAP numbers. low, high : (m,) anatomical range, mm on the template.
+    numbers : (m,) FAP numbers. low, high : (m,) anatomical range, metres on the template.
     low_linear, high_linear : (m,) share of the range up to which a request passes unchanged.
-    units : (m, k) mm per amount of each half unit; `unit_names` (k,) as "AU12_l", "AU27".
-    unit_spread : (k,) usual amount of each.
+    units : (m, k) metres per amount of each half unit; `unit_names` (k,) as "AU12_l", "AU27".
+    unit_spread : unit -> usual amount, of units that need more of a reason than others.
     sums : (k, s) amounts of half units per strength of each half sum; `sum_names` (s,) as "joy_l".
     hidden : unit -> muscle -> metres of muscle amount per amount of the unit.
     """
@@ -57,7 +52,7 @@ class Synergies:
     high_linear: Floats
     units: Floats
     unit_names: tuple[str, ...]
-    unit_spread: Floats
+    unit_spread: Mapping[str, float]
     sums: Floats
     sum_names: tuple[str, ...]
     hidden: Mapping[str, Mapping[str, float]]
@@ -69,16 +64,16 @@ class Synergies:
 
     @cached_property
     def per_fap(self) -> Floats:
-        """(m,) mm on the template per FAP unit."""
-        return np.array([template_millimetres(int(number)) for number in self.numbers])
+        """(m,) metres on the template per FAP unit."""
+        return np.array([template_unit(int(number)) for number in self.numbers])
 
 
 def _range(row: CsvRow) -> tuple[int, float, float, float, float]:
-    """FAP number, range in mm, and the shares of it up to which a request passes unchanged."""
+    """FAP number, range in metres, and the shares of it up to which a request passes unchanged."""
     number = row.integer("fap", least=3, most=FAP_COUNT)
     if FAPS[number].angular:
         raise row.refuse("must be a FAP that moves a point by a length", "fap")
-    low, high = row.number("low_mm"), row.number("high_mm")
+    low, high = MM * row.number("low_mm"), MM * row.number("high_mm")
     if not low < 0.0 < high:
         raise row.refuse("must reach below and above 0", "low_mm")
     low_linear, high_linear = (row.number(name, above=0.0) for name in ("low_linear", "high_linear"))
@@ -87,10 +82,10 @@ def _range(row: CsvRow) -> tuple[int, float, float, float, float]:
     return number, low, high, low_linear, high_linear
 
 
-def _units(table: TomlTable, row_of: Mapping[int, int]) -> dict[str, Floats]:
-    """Half unit -> (m,) mm per amount."""
+def _units(entries: Mapping[str, KeyedTable], row_of: Mapping[int, int]) -> dict[str, Floats]:
+    """Half unit -> (m,) metres per amount."""
     columns: dict[str, Floats] = {}
-    for unit, entry in table.tables("units").items():
+    for unit, entry in entries.items():
         faps = entry.table("faps")
         for half in ("_l", "_r") if entry.flag("paired") else ("",):
             column = np.zeros(len(row_of))
@@ -100,12 +95,12 @@ def _units(table: TomlTable, row_of: Mapping[int, int]) -> dict[str, Floats]:
                 if target not in row_of:
                     raise faps.refuse(f"names FAP {name}, which has no range in ranges.csv", name)
                 sign = -1.0 if half == "_r" and fap in SIDEWAYS else 1.0
-                column[row_of[target]] += sign * faps.number(name) * template_millimetres(target)
+                column[row_of[target]] += sign * faps.number(name) * template_unit(target)
             columns[unit + half] = column
     return columns
 
 
-def _sums(table: TomlTable, units: Sequence[str]) -> dict[str, Floats]:
+def _sums(table: KeyedTable, units: Sequence[str]) -> dict[str, Floats]:
     """Half sum -> (k,) amounts of half units; a unit in the middle gives half of itself to either half."""
     at = {name: i for i, name in enumerate(units)}
     columns: dict[str, Floats] = {}
@@ -124,7 +119,7 @@ def _sums(table: TomlTable, units: Sequence[str]) -> dict[str, Floats]:
     return columns
 
 
-def _hidden(table: TomlTable) -> dict[str, dict[str, float]]:
+def _hidden(table: KeyedTable) -> dict[str, dict[str, float]]:
     """Unit -> muscle -> metres per amount."""
     return {
         unit: {muscle: MM * entry.number(muscle) for muscle in entry} for unit, entry in table.tables("hidden").items()
@@ -142,7 +137,8 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
     ranges = [_range(row) for row in read_csv(folder / "ranges.csv", *RANGE_COLUMNS)]
     numbers, low, high, low_linear, high_linear = (np.array(column) for column in zip(*ranges, strict=True))
     table = read_toml(folder / "synergies.toml")
-    units = _units(table, {int(number): row for row, number in enumerate(numbers)})
+    entries = table.tables("units")
+    units = _units(entries, {int(number): row for row, number in enumerate(numbers)})
     sums = _sums(table, tuple(units))
     return Synergies(
         numbers=numbers.astype(np.int64),
@@ -152,7 +148,7 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
         high_linear=high_linear,
         units=np.column_stack(list(units.values())),
         unit_names=tuple(units),
-        unit_spread=np.array([UNIT_PRIORS.get(name.split("_")[0], UNIT_PRIOR) for name in units]),
+        unit_spread={name: unit.number("spread", above=0.0) for name, unit in entries.items() if "spread" in unit},
         sums=np.column_stack(list(sums.values())),
         sum_names=tuple(sums),
         hidden=_hidden(table),

@@ -172,7 +172,7 @@ def test_an_opening_jaw_opens_the_lips_and_a_smile_lifts_the_cheeks() -> None:
     assert smile.goal[6 - 1] > 50.0
     brows = planned(asked(F31=200.0, F32=200.0))
     chin = DATA.per_fap[DATA.row_of[3]] * brows.goal[3 - 1]
-    assert abs(chin) < 1.0  # raised brows alone do not open the jaw (mm; nearly 10 where silence counts for nothing)
+    assert abs(chin) < 1e-3  # raised brows alone do not open the jaw (nearly 10 mm where silence counts for nothing)
 
 
 def test_a_lowered_lip_or_corner_alone_does_not_open_the_jaw(face: Face) -> None:
@@ -241,9 +241,9 @@ def test_the_face_does_what_is_planned_and_no_more_than_anatomy_where_it_was_ask
             row = DATA.row_of[number]
             done, goal = (v[number - 1] * DATA.per_fap[row] for v in (pose.achieved, pose.goal))
             silent = np.isnan(pose.asked[number - 1])
-            assert done == pytest.approx(goal, abs=2.0 if silent else 0.5), (word, number)
+            assert done == pytest.approx(goal, abs=2e-3 if silent else 0.5e-3), (word, number)
             if not silent and number not in JAW_CARRIES:
-                assert DATA.low[row] - 0.5 <= done <= DATA.high[row] + 0.5, (word, number)
+                assert DATA.low[row] - 0.5e-3 <= done <= DATA.high[row] + 0.5e-3, (word, number)
     assert pose.reasons[31] == "limited by its anatomical range"
 
 
