@@ -1,10 +1,11 @@
-"""Speed of the solvers and of the live preview, beside Blender's own cloth and soft body on the same mesh.
+"""Speed of the solvers and of the live preview, beside Blender's own cloth and soft body; and of the sidebar.
 
-    python tools/bench_speed.py                                                both
+    python tools/bench_speed.py                                                all
     python tools/bench_speed.py solvers [--mesh HEAD.npz | --mesh grid] [--frames 50]
     python tools/bench_speed.py preview [--mesh HEAD.npz --points HEAD.fp.json] [--steps 40]
+    python tools/bench_speed.py redraw [--objects 5000]
 
-The preview needs a Python that has bpy. Everything runs on one core.
+The preview and the sidebar need a Python that has bpy. Everything runs on one core.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from importlib import import_module
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy is imported
 
-PARTS = ("solvers", "preview")
+PARTS = ("solvers", "preview", "redraw")
 
 
 def main(argv: list[str]) -> int:
