@@ -9,6 +9,9 @@ from ..errors import SceneError
 from .blender_types import Object
 from .mesh import rest_vertices
 
+#: An object that was found to share its mesh with the active one; believed only as long as it does.
+_last_sharer = ""
+
 #: Modes in which Blender holds a copy of the mesh that would overwrite ours.
 BUSY_MODES = {"EDIT": "Edit Mode", "SCULPT": "Sculpt Mode"}
 
@@ -50,12 +53,11 @@ def refuse_unwritable(obj: Object | None, *, make_single_user: bool = False) -> 
         )
     if obj.override_library is not None or obj.data.override_library is not None:
         raise SceneError(obj.name, "is a library override: make it local (Object > Relations > Make Local > All) first")
-    sharers = [other.name for other in bpy.data.objects if other.data == obj.data and other != obj]
-    if sharers and not make_single_user:
-        names = ", ".join(sorted(sharers)[:3])
+    sharer = None if make_single_user else sharer_of(obj)
+    if sharer is not None:
         raise SceneError(
             obj.name,
-            f"shares its mesh with {names}, which would get the shape keys too: "
+            f"shares its mesh with {sharer}, which would get the shape keys too: "
             "make it single user (Object > Relations > Make Single User > Object & Data) "
             "or turn on Make Single User in the panel",
         )
@@ -86,8 +88,24 @@ def refuse_broken_vertices(obj: Object) -> None:
 
 def own_mesh(obj: Object) -> None:
     """Give `obj` its own copy of a mesh that other objects share."""
-    if any(other.data == obj.data and other != obj for other in bpy.data.objects):
+    if sharer_of(obj) is not None:
         obj.data = obj.data.copy()
+
+
+def sharer_of(obj: Object) -> str | None:
+    """Name of another object with the same mesh.
+
+    A file may have thousands of objects, and every button asks this at every redraw. So the mesh is asked first
+    whether it has other users at all, then the object that was found last time, and all of them only then.
+    """
+    global _last_sharer
+    mesh = obj.data
+    if mesh.users - mesh.use_fake_user < 2:
+        return None
+    last = bpy.data.objects.get(_last_sharer)
+    others = (last,) if last is not None and last.data == mesh and last != obj else bpy.data.objects
+    _last_sharer = next((str(other.name) for other in others if other.data == mesh and other != obj), "")
+    return _last_sharer or None
 
 
 def reason(obj: Object | None, *, writing: bool = True, make_single_user: bool = False) -> str | None:

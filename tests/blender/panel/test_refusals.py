@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 from risorius.errors import FormatError, SceneError
 from risorius.face.mesh.point_files import read_point_file
-from risorius.scene import faces
+from risorius.scene import faces, refusals
 from risorius.scene.bake import baking as bake
 from risorius.scene.bake import shape_keys
 from risorius.scene.bake.remarks import remarks
@@ -126,6 +127,37 @@ def test_a_shared_mesh_is_refused_or_made_single_user(head: Any) -> None:
     bake_key(head, make_single_user=True)
     assert twin.data.shape_keys is None
     assert shape_keys.has_own(head)
+
+
+class Counted:
+    """All objects of a file; counts how often all of them are gone through."""
+
+    def __init__(self) -> None:
+        self.times = 0
+
+    def get(self, name: str) -> Any:
+        return bpy.data.objects.get(name)
+
+    def __iter__(self) -> Any:
+        self.times += 1
+        return iter(bpy.data.objects)
+
+
+def test_no_button_goes_through_all_objects_of_the_file(head: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    counted = Counted()
+    monkeypatch.setattr(refusals, "bpy", SimpleNamespace(data=SimpleNamespace(objects=counted)))
+    head.data.use_fake_user = True
+    assert refusals.reason(head) is None
+    assert counted.times == 0
+    twins = {f"Twin {number}": bpy.data.objects.new(f"Twin {number}", head.data) for number in (1, 2)}
+    told = {refusals.sharer_of(head) for _ in range(3)}
+    assert counted.times == len(told) == 1
+    twins.pop(str(told.pop())).data = head.data.copy()
+    (other,) = twins
+    assert f"shares its mesh with {other}" in str(refusals.reason(head))
+    bpy.data.objects.remove(twins[other])
+    assert refusals.reason(head) is None
+    assert counted.times == 2
 
 
 def test_absolute_keys(head: Any) -> None:
