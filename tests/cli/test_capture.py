@@ -61,6 +61,7 @@ def test_export_csv_of_a_fap_file_and_of_a_recording(
         np.testing.assert_array_equal(back.mask, api.read_fap(tmp_path / "a.fap").mask)
 
 
+@pytest.mark.slow
 def test_export_shapes_as_arrays(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "own.toml").write_text("[keys.open]\nshapes = { jawOpen = 1 }\n")
     said = run(capsys, "export", "shapes", "--names", tmp_path / "own.toml", "--out", tmp_path / "a.npz")

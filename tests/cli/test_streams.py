@@ -130,6 +130,7 @@ def test_errors_exit_with_1_and_name_the_thing(
     assert named in said.err
 
 
+@pytest.mark.slow
 def test_playing_needs_blender_and_says_so(joy: Path, tmp_path: Path) -> None:
     """In an interpreter where bpy cannot be imported, wherever the tests run."""
     code = "import sys; sys.modules['bpy'] = None; from risorius.cli import main; sys.exit(main(sys.argv[1:]))"

@@ -241,6 +241,7 @@ def test_every_verb_explains_itself(verb: str, capsys: pytest.CaptureFixture[str
     assert f"risorius {verb}" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_module_and_installed_command_are_the_same() -> None:
     module = subprocess.run([sys.executable, "-m", "risorius", "profile", "fear"], capture_output=True, check=True)
     command = Path(sys.executable).parent / "risorius"

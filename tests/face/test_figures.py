@@ -109,6 +109,7 @@ def test_every_section_of_the_tables_is_read_once() -> None:
     assert len(sections()) > 30
 
 
+@pytest.mark.slow
 def test_every_figure_of_the_tables_is_used() -> None:
     code = "\n".join(path.read_text(encoding="utf-8") for path in FACE.rglob("*.py"))
     for name, section in readings():

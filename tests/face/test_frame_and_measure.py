@@ -47,6 +47,7 @@ def copy_of(head: HeadMesh, turn: Rotation, scale: float, shift: np.ndarray) -> 
     return Face.from_arrays(carry(head.vertices), head.polygons, points, head.parts)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drive", ["natural", "exact"])
 def test_a_face_lying_on_its_side_and_a_hundred_times_larger_is_the_same_face(head: HeadMesh, drive: str) -> None:
     """Two turned copies are compared: an upright face is measured along Blender's axes, not along its own points."""

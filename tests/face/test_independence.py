@@ -92,11 +92,13 @@ def assert_same(now: np.ndarray, before: np.ndarray, tolerance: float = SAME) ->
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 
 
+@pytest.mark.slow
 def test_millimetres_with_y_up_change_nothing(given: Given, usual: list[np.ndarray]) -> None:
     other = given.carried(Y_UP, 1000.0, np.array([300.0, -2000.0, 1000.0])).face()
     assert_unchanged(other, usual, lambda displacement: displacement @ Y_UP / 1000.0)
 
 
+@pytest.mark.slow
 def test_a_turned_head_in_inches_is_the_same_where_its_axes_are_told(given: Given, usual: list[np.ndarray]) -> None:
     turn, inch = Rotation.from_euler("xyz", [40.0, -70.0, 120.0], degrees=True).as_matrix(), 0.0254
     left, up, forward = turn @ [1.0, 0.0, 0.0], turn @ [0.0, 0.0, 1.0], turn @ [0.0, -1.0, 0.0]
@@ -105,6 +107,7 @@ def test_a_turned_head_in_inches_is_the_same_where_its_axes_are_told(given: Give
     assert_unchanged(told, usual, lambda displacement: displacement @ turn * inch)
 
 
+@pytest.mark.slow
 def test_a_turned_head_whose_axes_are_not_told_is_nearly_the_same(face: Face, given: Given) -> None:
     """Its points alone then tell what is upright: on the default head 0.2 degrees beside what its maker took for it."""
     turn = Rotation.from_euler("xyz", [-100.0, 25.0, 60.0], degrees=True).as_matrix()
@@ -129,6 +132,7 @@ def numbered_anew(given: Given, rng: np.random.Generator) -> tuple[Given, np.nda
     return Given(given.vertices[order], polygons, points, given.parts[order]), order
 
 
+@pytest.mark.slow
 def test_numbering_winding_and_first_corners_change_nothing(given: Given, usual: list[np.ndarray]) -> None:
     rng = np.random.default_rng(1)
     other, order = numbered_anew(given, rng)
@@ -247,6 +251,7 @@ def pose_differences(divisions: Divisions, other: Face) -> tuple[np.ndarray, np.
     return rms, largest
 
 
+@pytest.mark.slow
 def test_four_times_the_vertices_move_alike(divisions: Divisions) -> None:
     for differences in (pose_differences, muscle_differences):
         rms, largest = differences(divisions, divisions.fourfold)
@@ -254,6 +259,7 @@ def test_four_times_the_vertices_move_alike(divisions: Divisions) -> None:
         assert largest.max() < 0.05
 
 
+@pytest.mark.slow
 def test_a_quarter_of_the_vertices_moves_alike(divisions: Divisions) -> None:
     """One vertex per centimetre is solved on a finer skin.
 

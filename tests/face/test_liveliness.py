@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import risorius.api as api
 from risorius.face.face import Face
 
 
+@pytest.mark.slow
 def test_a_blink_over_a_smile_shuts_the_lids_and_leaves_the_mouth(face: Face) -> None:
     cue = api.Cue(api.expression("joy"), onset=0.12, apex=0.24, offset=0.12)
     lively = api.Liveliness(blinks=api.Drawn(60.0, 2), head=api.Drawn(2.0, 1))

@@ -39,7 +39,8 @@ def sudden(face: Face, word: str, frames: int, **options: Any) -> np.ndarray:
 
 @pytest.mark.parametrize(
     ("head", "word", "drive"),
-    [("default", "surprise", "natural"), ("default", "fear", "exact"), ("ict", "joy", "natural"),
+    [("default", "surprise", "natural"), ("default", "fear", "exact"),
+     pytest.param("ict", "joy", "natural", marks=pytest.mark.slow),
      ("makehuman", "anger", "natural"), ("makehuman", "surprise", "exact")],
 )  # fmt: skip
 def test_a_held_frame_settles_on_its_pose(head: str, word: str, drive: str, any_face: Callable[[str], Face]) -> None:
@@ -54,6 +55,7 @@ def test_a_held_frame_settles_on_its_pose(head: str, word: str, drive: str, any_
     assert away[10:].max() < 0.01 * largest
 
 
+@pytest.mark.slow
 def test_folds_are_those_of_the_moving_skin(any_face: Callable[[str], Face]) -> None:
     """In every frame the fold that the skin has there, not the one that the request would have."""
     face = any_face("ict")
@@ -99,6 +101,7 @@ def test_loose_tissue_alone_makes_the_cheek_overshoot(face: Face) -> None:
     assert overshoot(sudden(face, "joy", 12, tissue="stiff"), face.points["5.1"].vertices[0]) < 0.005
 
 
+@pytest.mark.slow
 def test_nothing_jitters(face: Face) -> None:
     """Of every path of an expression, less than 0.1 mm is faster than a third of the frame rate."""
     cue = api.Cue(api.expression("joy"), onset=0.3, apex=0.2, offset=0.4)
@@ -128,6 +131,7 @@ def test_the_emotion_word_matters_to_a_stream(face: Face) -> None:
     assert face.measure(known)[11] < face.measure(other)[11] - 50.0
 
 
+@pytest.mark.slow
 def test_finer_steps_converge(small: Face) -> None:
     """Loads, jaw, lids and contact included: 1 % of the motion at two steps a frame, and little order is lost.
 
@@ -143,6 +147,7 @@ def test_finer_steps_converge(small: Face) -> None:
     assert fine < 0.4 * medium
 
 
+@pytest.mark.slow
 def test_the_papers_integrator_moves_the_face_alike(small: Face) -> None:
     """Seeing to contact as often, within 1 % of the motion; a skin that does not bend lets it take long steps."""
     limp, frames = small.without("bending"), clip_of([0.0, 0.5, 1.0])
@@ -161,6 +166,7 @@ def test_softer_tissue_lags_more_than_stiff_tissue(small: Face) -> None:
     assert away["stiff"] < away["default"]
 
 
+@pytest.mark.slow
 def test_a_performance_holds_the_pose_of_its_profile_at_the_apex(face: Face) -> None:
     """Between its neighbours too: what the face adds to fear is not contradicted by joy before it."""
     fear = api.archetype("fear", 8)

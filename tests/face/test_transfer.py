@@ -75,7 +75,10 @@ def left_muscles(face: Face) -> dict[str, np.ndarray]:
     return {muscle.row.name: field for muscle, field in pairs if muscle.side > 0}
 
 
-@pytest.mark.parametrize("name", HEADS)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow if name in ("ict", "another identity") else ()) for name in HEADS],
+)
 def test_each_muscle_does_what_anatomy_says_on_every_head(heads: Mapping[str, Face], name: str) -> None:
     face = heads[name]
     silent = np.full(68, np.nan)

@@ -50,6 +50,7 @@ CRASH = "import os\ndef test_a(): pass\ndef test_b(): os._exit(3)"
 HANG = "import time\ndef test_a(): time.sleep(60)\ndef test_b(): pass"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "processes", "expected"),
     [
@@ -207,6 +208,7 @@ def shared_blender(folder: Path, *, missing: str = "nothing") -> Path:
     return folder / "shared.py"
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_python")
 def test_without_its_python_the_shared_blender_runs_the_newest(
     runner: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path

@@ -19,6 +19,7 @@ def explained(shared: Path) -> Iterator[Callable[[str], dict[str, float]]]:
         yield cache(scans_explained)
 
 
+@pytest.mark.slow
 def test_scanned_expressions_come_back_from_their_faps(explained: Callable[[str], dict[str, float]]) -> None:
     shares = explained("ict")
     assert len(shares) == 15
@@ -26,6 +27,7 @@ def test_scanned_expressions_come_back_from_their_faps(explained: Callable[[str]
     assert min(shares.values()) >= 0.6, shares
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("identity", ["identity-0", "identity-3"])
 def test_other_people_make_the_same_faces(explained: Callable[[str], dict[str, float]], identity: str) -> None:
     scanned, other = explained("ict"), explained(identity)

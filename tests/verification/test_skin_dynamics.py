@@ -207,7 +207,7 @@ def test_skin_at_rest_stays_at_rest(solver: Any) -> None:
 # ---- the solvers against each other ---------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("bending", [0.0, None])
+@pytest.mark.parametrize("bending", [0.0, pytest.param(None, marks=pytest.mark.slow)])
 def test_implicit_agrees_with_fine_rk2_on_a_face_within_a_percent(shared: Path, bending: float | None) -> None:
     vertices, polygons = head(shared, "mediapipe")
     skin, load = Skin.from_mesh(vertices, polygons, tissue(), bending=bending), smooth_load(vertices, polygons)
@@ -271,6 +271,7 @@ def test_motion_settles_in_the_equilibrium(shared: Path) -> None:
     assert np.linalg.norm(state.positions - equilibrium(skin, load), axis=1).max() < 5e-5
 
 
+@pytest.mark.slow
 def test_a_muscle_of_equation_9_moves_skin_alike_in_both(shared: Path) -> None:
     vertices, polygons = head(shared, "mediapipe")
     skin = Skin.from_mesh(vertices, polygons, tissue())
@@ -295,7 +296,7 @@ def test_a_muscle_of_equation_9_moves_skin_alike_in_both(shared: Path) -> None:
 # ---- equilibrium ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["mediapipe", "ict_narrow"])
+@pytest.mark.parametrize("name", ["mediapipe", pytest.param("ict_narrow", marks=pytest.mark.slow)])
 def test_equilibrium_balances_every_force(shared: Path, name: str) -> None:
     vertices, polygons = head(shared, name)
     skin, load = Skin.from_mesh(vertices, polygons, tissue()), smooth_load(vertices, polygons, millimetres=20)
@@ -306,7 +307,7 @@ def test_equilibrium_balances_every_force(shared: Path, name: str) -> None:
     assert found.residual <= 1e-8
 
 
-@pytest.mark.parametrize("name", ["mediapipe", "ict_narrow"])
+@pytest.mark.parametrize("name", ["mediapipe", pytest.param("ict_narrow", marks=pytest.mark.slow)])
 def test_two_densities_of_one_face_agree(shared: Path, name: str) -> None:
     """The same load per area on a face and on its subdivision."""
     vertices, polygons = head(shared, name)

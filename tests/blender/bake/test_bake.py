@@ -82,6 +82,7 @@ def split(head: Any) -> dict[str, Any]:
     return made
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_the_operators_key_is_the_apis_pose(head: Any) -> None:
     choose(head, "fear")
@@ -96,6 +97,7 @@ def test_the_operators_key_is_the_apis_pose(head: Any) -> None:
     np.testing.assert_allclose(key(head, "Basis"), built.vertices, atol=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_keyframes_follow_onset_apex_offset(head: Any) -> None:
     bpy.context.scene.render.fps = 30
@@ -111,6 +113,7 @@ def test_keyframes_follow_onset_apex_offset(head: Any) -> None:
     assert 0.2 < values[86] < 0.8
 
 
+@pytest.mark.slow
 def test_seed_and_variant_reach_the_solver(head: Any) -> None:
     choose(head, "joy")
     shapes = []
@@ -134,6 +137,7 @@ def test_one_undo_takes_a_bake_back(head: Any) -> None:
     assert snapshot() == before
 
 
+@pytest.mark.slow
 def test_a_scaled_and_turned_head_gets_the_same_expression(head: Any) -> None:
     bpy.ops.risorius.bake_expression()
     straight = key(head, "joy") - key(head, "Basis")
@@ -146,6 +150,7 @@ def test_a_scaled_and_turned_head_gets_the_same_expression(head: Any) -> None:
     np.testing.assert_allclose(key(head, "joy") - key(head, "Basis"), 100.0 * straight, atol=100 * 2e-6)
 
 
+@pytest.mark.slow
 def test_a_head_squashed_in_its_mesh_and_stretched_in_its_object_is_the_same_face(head: Any) -> None:
     bpy.ops.risorius.bake_expression()
     straight = key(head, "joy") - key(head, "Basis")
@@ -159,6 +164,7 @@ def test_a_head_squashed_in_its_mesh_and_stretched_in_its_object_is_the_same_fac
     np.testing.assert_allclose(key(head, "joy") - key(head, "Basis"), squash * straight, atol=2e-6)
 
 
+@pytest.mark.slow
 def test_eyes_teeth_and_tongue_in_other_objects_follow(head: Any) -> None:
     choose(head, "surprise")
     bpy.ops.risorius.bake_expression()
@@ -179,6 +185,7 @@ def test_eyes_teeth_and_tongue_in_other_objects_follow(head: Any) -> None:
     assert "Head surprise" not in bpy.data.actions
 
 
+@pytest.mark.slow
 def test_a_copy_of_a_baked_head_is_a_face_of_its_own(head: Any) -> None:
     bpy.ops.risorius.bake_expression()
     action = head.data.shape_keys.animation_data.action
@@ -197,6 +204,7 @@ def test_a_copy_of_a_baked_head_is_a_face_of_its_own(head: Any) -> None:
     assert action.name in bpy.data.actions
 
 
+@pytest.mark.slow
 def test_clearing_leaves_the_file_as_found(head: Any) -> None:
     before = snapshot()
     bpy.ops.risorius.bake_expression()
@@ -221,6 +229,7 @@ def test_an_error_of_the_solver_is_reported_and_changes_nothing(head: Any, monke
     assert snapshot() == before
 
 
+@pytest.mark.slow
 def test_a_cancelled_bake_changes_nothing_at_any_step(head: Any) -> None:
     before = snapshot()
     profile = api.expression("joy")
@@ -246,6 +255,7 @@ def test_a_cancelled_bake_changes_nothing_at_any_step(head: Any) -> None:
         bake.clear(bake.Target(head))
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_a_motion_is_baked_within_a_tenth_of_a_millimetre(head: Any) -> None:
     choose(head, "surprise", onset=0.2, apex=0.1, offset=0.2, start=5)
@@ -267,6 +277,7 @@ def test_a_motion_is_baked_within_a_tenth_of_a_millimetre(head: Any) -> None:
     print(f"{count} shape keys for {len(moving)} frames, {worst * 1000:.3f} mm")
 
 
+@pytest.mark.slow
 def test_a_motion_baked_again_replaces_only_itself(head: Any) -> None:
     choose(head, "joy", onset=0.1, apex=0.04, offset=0.1)
     mine = head.shape_key_add(name="Basis") and head.shape_key_add(name="mine", from_mix=False)

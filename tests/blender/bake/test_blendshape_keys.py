@@ -37,6 +37,7 @@ def key_names(obj: Any) -> list[str]:
     return [] if obj.data.shape_keys is None else [block.name for block in obj.data.shape_keys.key_blocks]
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_keys_are_the_shapes_of_the_api(head: Any, few: Path) -> None:
     written = run(write_blendshapes(bake.Target(head), few))
@@ -51,6 +52,7 @@ def test_keys_are_the_shapes_of_the_api(head: Any, few: Path) -> None:
         assert (blocks[name].value, blocks[name].slider_min, blocks[name].slider_max) == (0.0, 0.0, 1.0)
 
 
+@pytest.mark.slow
 def test_they_are_the_users_own(head: Any, few: Path) -> None:
     """A bake beside them, and clearing it, leaves them."""
     run(write_blendshapes(bake.Target(head), few))
@@ -118,6 +120,7 @@ def test_gltf_keeps_names_and_shapes(few: Path, tmp_path: Path) -> None:
         assert max(moved) == pytest.approx(distance, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_button_makes_the_keys_of_the_chosen_names(head: Any) -> None:
     chosen = bpy.context.scene.risorius.shapes
     chosen.names = "oculus_visemes"

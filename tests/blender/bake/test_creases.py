@@ -80,6 +80,7 @@ def plain(head: Any) -> Any:
     return obj
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_the_nodes_say_what_the_model_says(head: Any) -> None:
     head.risorius.emotion.word = "disgust"
@@ -98,6 +99,7 @@ def test_the_nodes_say_what_the_model_says(head: Any) -> None:
     np.testing.assert_allclose(strain[:, 0], model.strain(posed), atol=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_creases_follow_the_keys_and_rest_without_them(head: Any) -> None:
     for word in ("surprise", "anger"):
@@ -114,6 +116,7 @@ def test_creases_follow_the_keys_and_rest_without_them(head: Any) -> None:
     assert max(full.max() for full in fullness(head).values()) == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_a_saved_file_creases_without_the_extension(head: Any, tmp_path: Path) -> None:
     head.risorius.emotion.word = "anger"
@@ -136,6 +139,7 @@ def test_users_heads_have_none_unless_asked(plain: Any) -> None:
     assert not creases.has(plain)
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_off_leaves_no_trace_and_the_users_things_stay(plain: Any) -> None:
     nodes = {node.name for node in plain.data.materials[0].node_tree.nodes}
@@ -159,6 +163,7 @@ def test_off_leaves_no_trace_and_the_users_things_stay(plain: Any) -> None:
     assert plain.data.attributes["risorius_mine"].data[0].value == 0.5
 
 
+@pytest.mark.slow
 def test_clearing_everything_takes_the_creases_too(plain: Any) -> None:
     plain.risorius.bake.creases = True
     plain.add_rest_position_attribute = True
@@ -191,6 +196,7 @@ def test_a_failed_bake_writes_no_creases(plain: Any, monkeypatch: pytest.MonkeyP
     assert plain.data.shape_keys is None
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_a_moving_face_creases_as_its_motion_does(head: Any) -> None:
     from risorius.progress import run
@@ -208,6 +214,7 @@ def test_a_moving_face_creases_as_its_motion_does(head: Any) -> None:
         np.testing.assert_allclose(full, expected[name], atol=2e-3, err_msg=name)
 
 
+@pytest.mark.slow
 def test_gltf_keeps_the_skins_colour(head: Any, tmp_path: Path) -> None:
     if not hasattr(bpy.ops.export_scene, "gltf"):
         pytest.skip("this Blender has no glTF exporter")

@@ -250,6 +250,7 @@ def test_a_face_that_takes_long_to_read_is_read_less_often() -> None:
     assert live._wait(now=100.5) == pytest.approx(0.5 * live.SHARE - 0.5)
 
 
+@pytest.mark.slow
 def test_the_animation_becomes_curves_a_plot_and_files(smiling: Any, tmp_path: Path) -> None:
     scene = bpy.context.scene
     smiling.location.x = 0.5

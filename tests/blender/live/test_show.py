@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+import pytest
 import risorius.api as api
 from risorius.operators.active import target_of
 from risorius.operators.emotion.profile import wanted_of
@@ -32,6 +33,7 @@ def test_time_goes_from_blue_to_red_and_contraction_too() -> None:
     np.testing.assert_allclose(colours.of_contraction(2.0), colours.CONTRACTED)
 
 
+@pytest.mark.slow
 def test_a_live_face_traces_paths_and_moves_strands_in_the_meshs_own_coordinates(head: Any) -> None:
     head.scale = (2.0, 2.0, 2.0)
     head.location = (1.0, 2.0, 3.0)

@@ -102,6 +102,7 @@ def test_saving_a_timeline_without_clips_is_refused(head: Any, folder: Path) -> 
     assert not list(folder.iterdir())
 
 
+@pytest.mark.slow
 def test_a_fap_file_is_baked_from_the_current_frame_on(head: Any, tmp_path: Path) -> None:
     frames = np.full((5, 68), np.nan)
     frames[:, 2] = [0.0, 200.0, 400.0, 200.0, 0.0]

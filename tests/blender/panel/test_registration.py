@@ -142,6 +142,7 @@ def test_every_class_has_a_name_and_a_tooltip(properties_of: Callable[[type], An
                 assert is_group or prop.description, f"{cls.__name__}.{prop.identifier} has no tooltip"
 
 
+@pytest.mark.slow
 def test_registers_without_scipy_and_says_so() -> None:
     code = """
         import sys

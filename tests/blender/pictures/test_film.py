@@ -135,6 +135,7 @@ def test_the_scenes_own_camera_shows_the_whole_scene(nodding: Any, tmp_path: Pat
     assert {**counted(), "objects": 0, "meshes": 0} == {**before, "objects": 0, "meshes": 0}
 
 
+@pytest.mark.slow
 def test_a_face_that_nothing_moves_is_baked_before_it_is_filmed(head: Any, tmp_path: Path) -> None:
     chosen = bpy.context.scene.risorius.film
     chosen.path, chosen.width, chosen.height = str(tmp_path / "film.mp4"), 64, 64
@@ -145,6 +146,7 @@ def test_a_face_that_nothing_moves_is_baked_before_it_is_filmed(head: Any, tmp_p
     assert movie.frame_duration == 9
 
 
+@pytest.mark.slow
 def test_a_cancelled_film_takes_its_bake_away_again(head: Any, tmp_path: Path) -> None:
     from risorius.operators.film.ops import RISORIUS_OT_render_film
 
@@ -160,6 +162,7 @@ def test_a_cancelled_film_takes_its_bake_away_again(head: Any, tmp_path: Path) -
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_unwritable_output_is_refused_before_rendering(
     head: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

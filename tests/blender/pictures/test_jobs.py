@@ -50,6 +50,7 @@ def played(blend: Path, frames: list[int]) -> np.ndarray:
     return np.load(out).reshape(len(frames), -1, 3)
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_a_baked_file_plays_without_risorius(tmp_path: Path) -> None:
     blend = tmp_path / "faces.blend"
@@ -66,6 +67,7 @@ def test_a_baked_file_plays_without_risorius(tmp_path: Path) -> None:
         np.testing.assert_allclose(positions, pose.positions, atol=2e-6)
 
 
+@pytest.mark.slow
 def test_a_baked_motion_plays_without_risorius(tmp_path: Path) -> None:
     blend = tmp_path / "motion.blend"
     made = dict(words.bake_file(blend, words=["anger"], fps=12.0, dynamic=True))
@@ -78,6 +80,7 @@ def test_a_baked_motion_plays_without_risorius(tmp_path: Path) -> None:
     assert np.linalg.norm(shown - clip.positions[numbers], axis=2).max() <= 1.01e-4
 
 
+@pytest.mark.slow
 def test_the_demo_leaves_film_file_and_sheet(tmp_path: Path) -> None:
     steps: list[Any] = []
     look = Look(Engine.WORKBENCH, 64, 64)
@@ -88,6 +91,7 @@ def test_the_demo_leaves_film_file_and_sheet(tmp_path: Path) -> None:
     assert fractions == sorted(fractions)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ict", "makehuman"])
 def test_other_heads_from_files(shared: Path, tmp_path: Path, name: str) -> None:
     mesh, points = shared / "heads" / f"{name}.npz", shared / "heads" / f"{name}.fp.json"
@@ -122,6 +126,7 @@ def test_wrong_requests_are_refused_and_nothing_is_written(tmp_path: Path) -> No
         words.render_film(tmp_path, words=["joy"])
 
 
+@pytest.mark.slow
 def test_a_mesh_without_points_and_without_a_face_is_refused(tmp_path: Path) -> None:
     obj = tmp_path / "triangle.obj"
     obj.write_text("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n")
@@ -129,6 +134,7 @@ def test_a_mesh_without_points_and_without_a_face_is_refused(tmp_path: Path) -> 
         subject(obj)
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_the_command_line_bakes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "faces.blend"

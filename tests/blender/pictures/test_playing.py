@@ -24,6 +24,7 @@ def stream() -> api.FapStream:
     return api.FapStream(frames, fps=12.0, name="a test", visemes={4: api.VisemeField(10)})
 
 
+@pytest.mark.slow
 def test_a_stream_is_baked_as_the_api_simulates_it(stream: api.FapStream, tmp_path: Path) -> None:
     made = play_stream(tmp_path / "face.blend", stream)
     bpy.ops.wm.open_mainfile(filepath=str(made.blend))
@@ -39,6 +40,7 @@ def test_a_stream_is_baked_as_the_api_simulates_it(stream: api.FapStream, tmp_pa
     assert np.abs(clip.positions[5] - clip.positions[0]).max() > 1.0e-3
 
 
+@pytest.mark.slow
 def test_the_verb_plays_a_bitstream(stream: api.FapStream, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     api.write_fba(tmp_path / "a.fba", stream)
     assert cli.main(["fap", "play", str(tmp_path / "a.fba"), str(tmp_path / "a.blend"), "--json"]) == 0

@@ -30,6 +30,7 @@ def questioned(obj: Any, score: float = 1.2) -> Finding:
     return Finding(kept, score, None)
 
 
+@pytest.mark.slow
 def test_six_emotions_stand_one_after_another_on_the_timeline(head: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(performance, "ARCHETYPES", ("joy", "fear"))
     points_kept.forget_points(head)

@@ -59,6 +59,7 @@ def shown(head: Any) -> Any:
     return head
 
 
+@pytest.mark.slow
 def test_the_face_of_a_stranger_is_found_and_bakes_without_a_file(stranger: tuple[Any, dict[str, np.ndarray]]) -> None:
     obj, truth = stranger
     assert bpy.ops.risorius.find_points() == {"FINISHED"}
@@ -71,6 +72,7 @@ def test_the_face_of_a_stranger_is_found_and_bakes_without_a_file(stranger: tupl
     assert obj.data.shape_keys is not None
 
 
+@pytest.mark.slow
 def test_clicks_of_a_script_are_kept_where_they_are(stranger: tuple[Any, dict[str, np.ndarray]]) -> None:
     obj, truth = stranger
     clicks = {name: truth[name].tolist() for name in S6}
@@ -80,6 +82,7 @@ def test_clicks_of_a_script_are_kept_where_they_are(stranger: tuple[Any, dict[st
     assert np.linalg.norm(places(obj)["9.3"] - truth["9.3"]) < 0.05
 
 
+@pytest.mark.slow
 def test_what_is_no_face_is_refused_with_score_and_remedy_and_nothing_is_kept(cube: Any) -> None:
     with pytest.raises(RuntimeError, match=r"Cube: .*score \d.*click its feature points 3\.7, 3\.12"):
         bpy.ops.risorius.find_points()
@@ -88,6 +91,7 @@ def test_what_is_no_face_is_refused_with_score_and_remedy_and_nothing_is_kept(cu
         bpy.ops.risorius.click_points()
 
 
+@pytest.mark.slow
 def test_half_a_face_with_a_mirror_modifier_says_so() -> None:
     bpy.ops.mesh.primitive_plane_add()
     bpy.context.object.modifiers.new("Mirror", "MIRROR")

@@ -40,6 +40,7 @@ def shown(obj: Any, frame: int) -> np.ndarray:
     return there.reshape(-1, 3) - key_vertices(obj.data.shape_keys.key_blocks["Basis"])
 
 
+@pytest.mark.slow
 def test_one_motion_is_the_apis_performance_with_a_marker_per_clip(head: Any) -> None:
     bpy.context.scene.render.fps = 25
     clip(head, "joy", 3)
@@ -60,6 +61,7 @@ def test_one_motion_is_the_apis_performance_with_a_marker_per_clip(head: Any) ->
         np.testing.assert_allclose(shown(head, frame), frames[frame - 3] - face.vertices, atol=2e-4)
 
 
+@pytest.mark.slow
 def test_strips_add_up_to_the_poses_shares_where_clips_overlap(head: Any) -> None:
     bpy.context.scene.render.fps = 25
     clip(head, "joy", 1, apex=0.6)
@@ -80,6 +82,7 @@ def test_strips_add_up_to_the_poses_shares_where_clips_overlap(head: Any) -> Non
     np.testing.assert_allclose(shown(head, 66), posed.positions - api.default_face().vertices, atol=2e-6)
 
 
+@pytest.mark.slow
 def test_strips_of_clips_that_are_gone_go_with_the_next_bake(head: Any) -> None:
     clip(head, "joy", 1)
     clip(head, "anger", 30)
@@ -94,6 +97,7 @@ def test_strips_of_clips_that_are_gone_go_with_the_next_bake(head: Any) -> None:
     assert head.data.shape_keys is None
 
 
+@pytest.mark.slow
 def test_what_is_out_of_date_says_so_until_it_is_baked_again(head: Any) -> None:
     scene = bpy.context.scene
     clip(head, "joy", 1)

@@ -90,6 +90,7 @@ def sunk(face: Face, positions: np.ndarray) -> tuple[float, float]:
     return deepest[0], deepest[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("word", "drive"), [("anger:4", "natural"), ("ecstatic", "exact"), ("ecstatic", "muscles"), ("joy:0", "natural")]
 )
@@ -137,6 +138,7 @@ def test_teeth_hold_lips_that_are_pressed_back_and_the_lower_ones_go_with_the_ja
     np.testing.assert_allclose(there, here, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("head", "word", "drive"),
     [("default", "disgust", "natural"), ("ict", "anger", "natural"), ("makehuman", "surprise", "exact")],
@@ -154,6 +156,7 @@ def test_contact_holds_in_every_frame_of_a_flash(
         assert overlap(face, positions, face.anatomy.skin.mouth) <= 0.2e-3
 
 
+@pytest.mark.slow
 def test_a_blink_closes_the_eyes_and_crosses_nothing(any_face: Callable[[str], Face]) -> None:
     face = any_face("ict")
     frames = np.full((9, 68), np.nan)

@@ -256,6 +256,7 @@ def test_uv_runs_from_the_first_node_to_the_second_and_to_the_fourth(uv: tuple[f
     assert np.allclose(found, figures.nodes[corners[node]], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_positions_that_are_not_vertices_lie_on_the_skin(head: HeadMesh) -> None:
     skin = head.vertices[head.parts == Part.SKIN]
     loose = [n for n, point in head.points.items() if not isinstance(point, int) and n != "7.1"]

@@ -26,6 +26,7 @@ def test_a_muscle_set_by_hand_is_not_corrected_away(face: api.Face) -> None:
     assert raised(face, "frontalis_med_l") > 0.7 * uncorrected
 
 
+@pytest.mark.slow
 def test_contractions_come_and_go_with_their_cue(face: api.Face) -> None:
     joy = api.expression("joy")
     cue = api.Cue(joy, onset=0.2, apex=0.8, offset=0.2)
@@ -55,6 +56,7 @@ def test_a_sketch_is_the_pose_within_a_tenth_of_a_millimetre(face: api.Face, dri
         assert sketched.contractions == pytest.approx(dict(posed.contractions))
 
 
+@pytest.mark.slow
 def test_preparing_a_face_says_how_far_it_is_and_leaves_nothing_to_work_out() -> None:
     head = api.build_default_head()
     fresh = api.Face.from_arrays(head.vertices, head.polygons, head.points, head.parts)
@@ -68,6 +70,7 @@ def test_preparing_a_face_says_how_far_it_is_and_leaves_nothing_to_work_out() ->
     assert {"skin", "actuators", "inverse"} <= set(vars(fresh.anatomy))
 
 
+@pytest.mark.slow
 def test_a_tissue_of_its_own_moves_like_the_bundled_one_of_the_same_figures(face: api.Face) -> None:
     from risorius.physics.tissue import tissue
 

@@ -124,6 +124,7 @@ def test_a_fap_asked_for_exactly_is_shown(
     assert pose.achieved[number - 1] == pytest.approx(asked, rel=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HEADS)
 def test_heads_of_plain_meshes_have_the_organs_too(any_face: Callable[[str], Face], name: str) -> None:
     """Parts derived from nothing but mesh and feature points: no FAP is lost for want of labels."""

@@ -13,7 +13,7 @@ from risorius.mpeg4 import VARIANTS
 PROFILES = [api.archetype(word, variant) for word in api.ARCHETYPES for variant in VARIANTS[word]]
 
 
-@pytest.mark.parametrize("name", ["default", "ict", "makehuman"])
+@pytest.mark.parametrize("name", ["default", pytest.param("ict", marks=pytest.mark.slow), "makehuman"])
 def test_all_profiles_of_the_paper_are_met(any_face: Callable[[str], Face], name: str) -> None:
     """Error as a share of the request, or of 100 units where less is asked."""
     assert len(PROFILES) == 25

@@ -45,6 +45,7 @@ def core(errors: Mapping[str, float]) -> np.ndarray:
     return np.array([error for name, error in errors.items() if not name.startswith(EARS_AND_SKULL)])
 
 
+@pytest.mark.slow
 def test_points_of_a_head_in_any_pose_and_unit(shared_head: Callable) -> None:
     head, rotation, size = shared_head("makehuman"), turned(-90.0, 25.0, 170.0), 100.0
     move = np.array([3.0, -40.0, 7.0]) * size
@@ -68,6 +69,7 @@ def in_order(points: Mapping[str, np.ndarray]) -> None:
         assert points[left][0] > points[right][0], (left, right)
 
 
+@pytest.mark.slow
 def test_an_open_mouth_is_found_open(shared: Path, shared_head: Callable) -> None:
     head = shared_head("ict_narrow")
     shapes = np.load(shared / "heads" / "ict_expressions.npz")
@@ -81,6 +83,7 @@ def test_an_open_mouth_is_found_open(shared: Path, shared_head: Callable) -> Non
     assert np.median(core(errors)) < 2.0
 
 
+@pytest.mark.slow
 def test_a_whole_body_y_up_in_centimetres_becomes_a_face(shared: Path, shared_head: Callable) -> None:
     data = np.load(shared / "heads" / "makehuman_body.npz")
     polygons = np.split(data["loops"].astype(np.int64), np.cumsum(data["face_sizes"])[:-1])
@@ -96,6 +99,7 @@ def test_a_whole_body_y_up_in_centimetres_becomes_a_face(shared: Path, shared_he
     assert 50.0 < 10.0 * face.units.es0 < 70.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cube", "symmetric rock", "half a face"])
 def test_what_is_no_face_is_refused(name: str) -> None:
     vertices, polygons = shapes.NON_FACES[name]()
@@ -104,6 +108,7 @@ def test_what_is_no_face_is_refused(name: str) -> None:
     assert "score" in str(refused.value) or "no face found" in str(refused.value)
 
 
+@pytest.mark.slow
 def test_clicks_place_a_face_that_is_refused(shared_head: Callable) -> None:
     monkey = shared_head("suzanne")
     with pytest.raises(ModelError, match="score"):
@@ -182,6 +187,7 @@ def test_shipped_topologies_name_their_source_and_licence() -> None:
         assert set(topology.points) >= set(api.REQUIRED_POINTS), path.name
 
 
+@pytest.mark.slow
 def test_progress_rises_and_the_work_can_be_cancelled(head: HeadMesh) -> None:
     steps = api.find_points_steps(head.vertices, head.polygons, topologies=())
     shown = [next(steps) for _ in range(4)]

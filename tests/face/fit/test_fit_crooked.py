@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import risorius.api as api
 from fit import heads
 from risorius.face.fit.locating.crooked import FAR, NEAR, pose_of
@@ -55,6 +56,7 @@ def test_a_pose_is_made_of_places() -> None:
     np.testing.assert_allclose(found.origin, true.origin, atol=0.2)
 
 
+@pytest.mark.slow
 def test_points_of_a_head_that_is_bent_by_centimetres() -> None:
     head = heads.bent_default_head(23)
     found = api.find_points(head.vertices, head.polygons, topologies=())

@@ -64,16 +64,19 @@ def errors_mm(shared: Path, head: object, expression: str | None, names: tuple[s
     return {name: 1000.0 * float(np.linalg.norm(found.positions[name] - truth[name])) for name in names}
 
 
+@pytest.mark.slow
 def test_shut_eyes_with_lashes_end_at_their_corners(shared: Path, shared_head: Callable) -> None:
     errors = errors_mm(shared, shared_head("ict"), "eyeBlink", ("3.7", "3.12", "3.11", "3.8", "3.1", "3.2"))
     assert max(errors.values()) < 3.5, errors
 
 
+@pytest.mark.slow
 def test_a_smile_takes_the_lips_corners_along(shared: Path, shared_head: Callable) -> None:
     errors = errors_mm(shared, shared_head("ict_narrow"), "mouthSmile", ("8.3", "8.4", "2.4", "2.5"))
     assert max(errors.values()) < 4.0, errors
 
 
+@pytest.mark.slow
 def test_lids_and_lips_meet_where_their_rims_lie_deepest(shared: Path, shared_head: Callable) -> None:
     errors = errors_mm(shared, shared_head("ict_narrow"), None, ("3.7", "3.12", "2.4", "2.5"))
     assert max(errors.values()) < 1.0, errors

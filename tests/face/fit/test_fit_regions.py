@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 import risorius.api as api
 from risorius.face.fit.find import locate_points
 from risorius.face.fit.locating.regions import ends, middle_and_radius
@@ -37,6 +38,7 @@ def turned_head(vertices: np.ndarray, chin: np.ndarray) -> np.ndarray:
     return np.asarray(twist.apply(vertices - pivot) + pivot)
 
 
+@pytest.mark.slow
 def test_the_head_of_a_body_may_be_turned(shared: Path) -> None:
     data = np.load(shared / "heads" / "makehuman_body.npz")
     polygons = np.split(data["loops"].astype(np.int64), np.cumsum(data["face_sizes"])[:-1])

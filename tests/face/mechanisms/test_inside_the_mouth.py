@@ -40,6 +40,7 @@ def comes_through(face: Face, frame: np.ndarray) -> float:
 PURSED = asked(F6=-170, F7=-170, F16=498, F17=464, F51=-126, F52=-223, F53=-173, F54=-173)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("flesh", [True, False])
 def test_the_mouth_bag_stays_behind_pursed_lips(
     shared_head: Callable[[str], Any], monkeypatch: pytest.MonkeyPatch, flesh: bool

@@ -28,6 +28,7 @@ def into_the_skin(face: Face, name: str) -> float:
     return float(np.abs((pull * skin.normals).sum(axis=1)).sum() / np.linalg.norm(pull, axis=1).sum())
 
 
+@pytest.mark.slow
 def test_a_frowning_brow_slides_over_the_lid(face: Face) -> None:
     """Scanned frowns hardly take the edge along; without its plate the edge goes a third farther."""
     held, loose = lid_goes_along(face), lid_goes_along(face.without("firmness"))

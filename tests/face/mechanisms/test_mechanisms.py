@@ -389,7 +389,11 @@ def less(any_face: Callable[[str], Face]) -> Callable[[str, Mechanism], Face]:
     return build
 
 
-@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: f"{claim.mechanism}-{claim.figure.__name__}")
+@pytest.mark.parametrize(
+    "claim",
+    [pytest.param(claim, marks=() if claim.head == "default" else pytest.mark.slow) for claim in CLAIMS],
+    ids=lambda claim: f"{claim.mechanism}-{claim.figure.__name__}",
+)
 def test_it_holds_with_the_mechanism_and_not_without(
     claim: Claim, any_face: Callable[[str], Face], less: Callable[[str, Mechanism], Face]
 ) -> None:

@@ -31,6 +31,7 @@ def test_additions_and_groups_and_the_papers_own_are_all_there_is() -> None:
     assert not set(api.ADDITIONS) & set(api.MUSCLE_GROUPS)
 
 
+@pytest.mark.slow
 def test_the_papers_bare_model_poses(face: Face) -> None:
     bare = face.without(*api.ADDITIONS)
     assert {muscle.row.kind for muscle in bare.muscles.values()} == {"linear", "sheet", "sphincter"}

@@ -8,6 +8,7 @@ import risorius.api as api
 from risorius.face.mesh.points import BoundPoint
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "other"), [("2.3", "2.2"), ("2.2", "2.3"), ("2.8", "2.6"), ("2.7", "2.9")])
 def test_a_point_given_on_the_other_lip_goes_with_its_own(name: str, other: str) -> None:
     head = api.build_default_head()

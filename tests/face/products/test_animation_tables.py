@@ -58,6 +58,7 @@ def test_a_value_walks_up_or_down_from_zero(
     np.testing.assert_allclose(played, [of_zero, (0, 0, 0), of_two], atol=1e-15)
 
 
+@pytest.mark.slow
 def test_borders_are_the_full_solution(face: Face, tables: AnimationTables) -> None:
     """At a border, with the other FAPs held, a played FAP is the posed one."""
     for number in (12, 19, 31, 51):
@@ -71,6 +72,7 @@ def test_borders_are_the_full_solution(face: Face, tables: AnimationTables) -> N
         assert apart.largest < 1.01e-4 * face.units.es0  # what is left out because it hardly moves
 
 
+@pytest.mark.slow
 def test_a_played_frame_shows_the_faps_that_it_states(face: Face, tables: AnimationTables) -> None:
     """Tables add up: no FAP moves another one's point."""
     frame = frame_of(f3=250.0, f5=-180.0, f10=-150.0, f11=-150.0, f12=120.0, f13=90.0, f19=-100.0, f31=80.0)
@@ -80,6 +82,7 @@ def test_a_played_frame_shows_the_faps_that_it_states(face: Face, tables: Animat
     np.testing.assert_allclose(seen[stated], frame[stated], atol=6.0)
 
 
+@pytest.mark.slow
 def test_the_error_between_borders_is_small_and_reported(tables: AnimationTables) -> None:
     for number, table in tables.tables.items():
         assert table.error is not None
@@ -96,12 +99,14 @@ def test_finer_steps_leave_less_error(face: Face) -> None:
     assert fine.rms == pytest.approx(coarse.rms / 4.0, rel=0.1)  # a chord's error goes with the square of its length
 
 
+@pytest.mark.slow
 def test_lower_teeth_move_with_the_jaw_only(face: Face, tables: AnimationTables) -> None:
     teeth = np.flatnonzero(face.parts == api.Part.TEETH_LOWER)
     assert np.isin(teeth, tables.tables[3].vertices).all()
     assert not np.isin(teeth, tables.tables[5].vertices).any()
 
 
+@pytest.mark.slow
 def test_points_of_other_faps_stay_or_follow(face: Face) -> None:
     still, free = (api.face_animation_tables(face, faps=[3, 5], steps=2, others=others) for others in ("still", "free"))
     seen = [face.measure(tables.play(frame_of(f3=500.0))) for tables in (still, free)]
@@ -109,6 +114,7 @@ def test_points_of_other_faps_stay_or_follow(face: Face) -> None:
     assert seen[1][4] < -250.0
 
 
+@pytest.mark.slow
 def test_an_opening_jaw_with_its_lips_leaves_no_spikes(face: Face, tables: AnimationTables) -> None:
     """Fear opens the mouth: what is measured and played again is the pose."""
     pose = face.pose(api.expression("fear").frame())
@@ -129,6 +135,7 @@ def frame_error(face: Face, tables: AnimationTables, frame: np.ndarray) -> Table
     return distance(played[moving], pose.positions[moving])
 
 
+@pytest.mark.slow
 def test_the_error_of_a_whole_frame(face: Face, tables: AnimationTables) -> None:
     same = frame_error(face, tables, frame_of(f48=20000.0))
     assert same.rms < 1e-4
@@ -169,6 +176,7 @@ def test_wrong_requests_are_refused(face: Face) -> None:
         AnimationTables(np.zeros((1, 3)), small().tables)
 
 
+@pytest.mark.slow
 def test_json_survives_a_round_trip(tables: AnimationTables, tmp_path: Path) -> None:
     path = tmp_path / "face.json"
     api.write_animation_tables(path, tables)

@@ -130,6 +130,7 @@ def _scanned_name(name: str) -> str:
     )
 
 
+@pytest.mark.slow
 def test_shapes_are_those_of_the_scanned_head(shared: Path, shared_face: Callable[[str], Face]) -> None:
     """Share of each scanned shape's motion that ours explains, on the head that it belongs to."""
     data = np.load(shared / "heads" / "ict_expressions.npz")

@@ -72,6 +72,7 @@ def test_half_an_expression_creases_one_side(face: Face, creases: Creases) -> No
     assert one["bunny_r"] < 0.05
 
 
+@pytest.mark.slow
 def test_units_and_orientation_change_nothing(face: Face, creases: Creases) -> None:
     turn = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
@@ -110,7 +111,7 @@ def test_places_lie_on_the_skin_about_their_lines(face: Face, creases: Creases) 
     assert np.corrcoef(forehead[on, 0], positions[on, 1])[0, 1] > 0.95
 
 
-@pytest.mark.parametrize("head", ["ict", "makehuman"])
+@pytest.mark.parametrize("head", [pytest.param("ict", marks=pytest.mark.slow), "makehuman"])
 def test_other_heads_crease_in_the_same_places(head: str, any_face: Callable[[str], Face]) -> None:
     face = any_face(head)
     creases = Creases(face)

@@ -233,6 +233,7 @@ streams = st.builds(
 )
 
 
+@pytest.mark.slow
 @given(streams)
 def test_any_stream_of_whole_numbers_survives_a_round_trip(
     tmp_path_factory: pytest.TempPathFactory, stream: FapStream

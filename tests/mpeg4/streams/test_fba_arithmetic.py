@@ -43,6 +43,7 @@ def decoded(data: bytes, rows: list[list[tuple[int, int]]]) -> list[tuple[list[i
     return out
 
 
+@pytest.mark.slow
 @given(segments, st.sampled_from([0b000, 0b101, 0b111]))
 def test_segments_survive_with_the_bits_between_them(rows: list[list[tuple[int, int]]], fixed: int) -> None:
     out = decoded(coded(rows, fixed=fixed), rows)

@@ -21,6 +21,7 @@ def heads(shared: Path) -> SharedHeads:
     return SharedHeads(shared / "heads")
 
 
+@pytest.mark.slow
 def test_the_reserved_heads_are_no_heads_of_the_other_sets(heads: SharedHeads) -> None:
     reserved = list(heads.reserved())
     assert len(reserved) == 15
@@ -38,6 +39,7 @@ def test_their_points_lie_on_their_skin(heads: SharedHeads) -> None:
             assert nearest < 4e-3, (head.name, name)
 
 
+@pytest.mark.slow
 def test_hard_heads_keep_their_points_on_their_skin(heads: SharedHeads) -> None:
     names = set()
     for head in hard_heads(heads):

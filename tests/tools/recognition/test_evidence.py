@@ -149,6 +149,7 @@ def test_of_two_units_on_one_scan_the_stronger_counts() -> None:
     assert str(both) == "23*0.5+24*0.8+7+25+26"
 
 
+@pytest.mark.slow
 def test_scans_are_named_as_they_are(shared: Path) -> None:
     displacements = scans._displacements(shared / "heads")
     assert len(displacements) == len(scans.shown())
@@ -206,6 +207,7 @@ def cells(page: str, *first: str) -> list[str]:
     return [cell.strip() for cell in line.strip("|").split("|")][len(first) :]
 
 
+@pytest.mark.slow
 def test_the_page_says_what_was_measured(monkeypatch: Any) -> None:
     monkeypatch.setattr(shapes, "CHOICES", page_of.CHOICES[::9])
     monkeypatch.setattr(page_of, "best_of", lambda measured, choices: (choices[0], page_of.score(measured, choices[0])))

@@ -17,6 +17,8 @@ import pytest
 from release.python_package import build_python_package
 from release.sources import VERSION
 
+pytestmark = pytest.mark.slow
+
 POSE = """
 import json, sys
 import risorius, risorius.api as api

@@ -218,6 +218,7 @@ def test_an_open_jaw_and_a_mouth_drawn_aside_are_met_as_scans_have_them() -> Non
     assert planned(asked(F6=-300.0, F7=-300.0)).limited[5] > -200.0
 
 
+@pytest.mark.slow
 def test_each_fap_asked_for_alone_is_met(face: Face) -> None:
     errors = {}
     for number in DATA.numbers.tolist():
