@@ -6,11 +6,12 @@ from typing import Any
 
 from ..face.mesh.parts import Part
 from ..scene import refusals
-from ..scene.bake.baking import Target
+from ..scene.bake.target import Target
+from ..scene.companions import Companion
 from ..scene.points.kept import has_points
 
 
-def companions_of(obj: Any) -> dict[Part, Any]:
+def companions_of(obj: Any) -> tuple[Companion, ...]:
     """Objects that the user has named as eyes, teeth and tongue of `obj`."""
     named = obj.risorius.face
     found = {
@@ -20,7 +21,7 @@ def companions_of(obj: Any) -> dict[Part, Any]:
         Part.TEETH_LOWER: named.teeth_lower,
         Part.TONGUE: named.tongue,
     }
-    return {part: other for part, other in found.items() if other is not None}
+    return tuple(Companion(other, part) for part, other in found.items() if other is not None)
 
 
 def target_of(obj: Any) -> Target:

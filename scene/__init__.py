@@ -7,7 +7,9 @@ so that an error or a cancelled bake leaves the scene as it was.
 blender_types         what is used of Blender's types, for mypy
 attributes            one figure of all items at once, to arrays and back
 fcurves               the F-curves of an action, whatever Blender keeps them in
-mesh, head, faces     meshes to arrays and back; the default head; from objects to a face
+mesh, head            meshes to arrays and back; the default head
+faces, companions     from objects to a face: the head, and what belongs to it
+fingerprint           which object it is, and which face
 parts_found           parts of a face's mesh, told and corrected
 refusals              what Risorius refuses to touch, and the remedy
 node_graph            node groups built in a few words

@@ -11,7 +11,8 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import SceneError
 from ..progress import Progress, Work, part_of
-from .bake.baking import STILL, Target
+from .bake.target import Target
+from .bake.writing import STILL
 from .blender_types import Object
 from .faces import FaceSource, face_of
 from .mesh import keys_of, write_key_vertices
@@ -52,8 +53,9 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
         problem = f"already has shape keys with these names ({some}): remove them, or turn on Replace (--replace)"
         raise SceneError(source.head.name, problem)
     yield Progress(0.0, "Reading the face")
-    posed = yield from part_of(arkit_shape_steps(face_of(source), wanted), 0.0, 0.97)
-    shapes = {name: positions - source.vertices for name, positions in posed.items()}
+    face = face_of(source)
+    posed = yield from part_of(arkit_shape_steps(face, wanted), 0.0, 0.97)
+    shapes = {name: positions - face.vertices for name, positions in posed.items()}
     yield Progress(0.97, "Writing the shape keys")
     if target.make_single_user:
         for obj in source.objects:

@@ -1,37 +1,32 @@
 """From objects to a face: one mesh, or a head with eyes, teeth and tongue as objects of their own.
 
-The feature points are kept with the mesh (`points_kept`). Building a face takes a moment, so the last few are kept,
-found again by a fingerprint of all they are made of.
+Building a face takes a moment, so the last few are kept, found again by the fingerprint of all they are made of.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections import OrderedDict
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..errors import SceneError
 from ..face.mesh.parts import Part
 from ..face.mesh.point_files import PointTable
 from . import mesh as meshes
 from .blender_types import Mesh, Object, Scene
-from .points.bound import bind, followed, table_of
-from .points.kept import Origin, read_kept, write_kept
-from .points.kept import forget_points as forget_points
-from .points.kept import has_points as has_points
+from .companions import Companion, placements, refuse_twice
+from .fingerprint import Fingerprint, fingerprint
+from .points.stored import stored_points
 from .refusals import refuse_broken_vertices, refuse_unreadable
 
 if TYPE_CHECKING:
     from ..api import Face
 
 KEPT_FACES = 3
-_faces: OrderedDict[str, Face] = OrderedDict()
+#: Those that were asked for last, the last one at the end.
+_faces: list[tuple[Fingerprint, Face]] = []
 
 
 @dataclass(frozen=True)
@@ -48,6 +43,12 @@ class Piece:
     first: int
     rest: Floats
     to_metres: Floats
+
+    @property
+    def metric(self) -> Floats:
+        """(V, 3) resting vertices in the joined arrays' metres."""
+        vertices: Floats = self.rest @ self.to_metres[:3, :3].T + self.to_metres[:3, 3]
+        return vertices
 
     @property
     def slice(self) -> slice[int, int, None]:
@@ -79,7 +80,7 @@ class FaceSource:
     polygons: list[tuple[int, ...]]
     points: Mapping[str, int | Floats]
     parts: Ints | None
-    fingerprint: str
+    fingerprint: Fingerprint
 
     @property
     def head(self) -> Object:
@@ -92,45 +93,10 @@ class FaceSource:
         return tuple(piece.obj for piece in self.pieces)
 
 
-def store_points(obj: Object, points: PointTable, *, origin: Origin = Origin.FILE) -> None:
-    """Keep feature points with the mesh of `obj`: name -> vertex index, or position (3,) in the mesh's own coordinates.
-
-    Raises
-    ------
-    SceneError : an index beyond the mesh's vertices; a mesh of another file.
-    """
-    count = len(obj.data.vertices)
-    for name, point in points.items():
-        if isinstance(point, int) and point >= count:
-            raise SceneError(
-                obj.name,
-                f"has {count} vertices, but feature point {name} uses vertex {point}: wrong file for the mesh?",
-            )
-    write_kept(obj, bind(obj.data, points, origins=origin), as_given=True)
-
-
-def stored_points(obj: Object) -> dict[str, int | tuple[float, float, float]]:
-    """Feature points kept with the mesh of `obj`, where they are on it now.
-
-    Raises
-    ------
-    SceneError : none there, unreadable, or the mesh was edited so that points that every face needs are lost.
-    """
-    from ..face.mesh.points import REQUIRED
-
-    now = followed(read_kept(obj), obj.data)
-    needed = sorted(set(now.lost) & set(REQUIRED))
-    if needed:
-        raise SceneError(
-            obj.name, f"was edited, and its feature points {', '.join(needed)} were lost: find or import them again"
-        )
-    return table_of(now.kept, meshes.rest_vertices(obj.data))
-
-
 def read_face(
     obj: Object,
     *,
-    companions: Mapping[Part, Object] | None = None,
+    companions: Sequence[Companion] = (),
     points: PointTable | None = None,
     scene: Scene | None = None,
 ) -> FaceSource:
@@ -139,7 +105,7 @@ def read_face(
     Parameters
     ----------
     obj : the head's object.
-    companions : part -> its object, for parts that are objects of their own.
+    companions : parts that are objects of their own.
     points : feature points in the mesh's own coordinates; by default those stored with `obj`.
     scene : whose unit scale counts; by default the current one.
 
@@ -148,36 +114,29 @@ def read_face(
     SceneError : see `refusals`; an object named twice; missing feature points.
     """
     refuse_unreadable(obj)
-    others = [(part, other) for part, other in (companions or {}).items() if other is not None]
-    _refuse_twice(obj, [other for _, other in others])
+    refuse_twice(obj, companions)
     table = points if points is not None else stored_points(obj)
-    stretch = np.eye(4)
-    stretch[:3, :3] = meshes.metres_matrix(obj, scene)
-    pieces, polygons, parts = [], [], []
+    members = [obj, *(companion.obj for companion in companions)]
+    pieces, polygons = [], []
     first = 0
-    for part, member in [(None, obj), *others]:
+    for member, to_metres in zip(members, placements(obj, companions, scene), strict=True):
         refuse_unreadable(member)
         refuse_broken_vertices(member)
-        rest = meshes.rest_vertices(member.data)
-        to_metres = stretch if part is None else stretch @ meshes.relative_matrix(obj, member)
-        pieces.append(Piece(member, first, rest, to_metres))
+        pieces.append(Piece(member, first, meshes.rest_vertices(member.data), to_metres))
         polygons += meshes.polygon_sequence(*meshes.polygon_arrays(member.data), first_vertex=first)
-        parts.append(_parts_of(member.data, part))
-        first += len(rest)
-    vertices = np.concatenate([p.rest @ p.to_metres[:3, :3].T + p.to_metres[:3, 3] for p in pieces])
-    metric = {n: p if isinstance(p, int) else stretch[:3, :3] @ np.asarray(p, float) for n, p in table.items()}
-    joined = np.concatenate(parts)
-    known = None if (joined < 0).all() else joined
-    return FaceSource(tuple(pieces), vertices, polygons, metric, known, _fingerprint(vertices, polygons, table, joined))
-
-
-def _refuse_twice(obj: Object, others: Iterable[Object]) -> None:
-    """Refuse an object that stands for two parts."""
-    seen = {obj}
-    for other in others:
-        if other in seen:
-            raise SceneError(other.name, "is used for two parts of the face: choose it for one of them")
-        seen.add(other)
+        first = pieces[-1].slice.stop
+    stretch = pieces[0].to_metres[:3, :3]
+    metric = {n: p if isinstance(p, int) else stretch @ np.asarray(p, float) for n, p in table.items()}
+    named = [None, *(companion.part for companion in companions)]
+    parts = np.concatenate([_parts_of(member.data, part) for member, part in zip(members, named, strict=True)])
+    return FaceSource(
+        tuple(pieces),
+        np.concatenate([piece.metric for piece in pieces]),
+        polygons,
+        metric,
+        None if (parts < 0).all() else parts,
+        fingerprint(obj, companions, points=points, scene=scene),
+    )
 
 
 def _parts_of(mesh: Mesh, part: Part | None) -> Ints:
@@ -189,15 +148,6 @@ def _parts_of(mesh: Mesh, part: Part | None) -> Ints:
     return stored if stored is not None else np.full(count, -1, dtype=np.int64)
 
 
-def _fingerprint(vertices: Floats, polygons: list[tuple[int, ...]], points: PointTable, parts: Ints) -> str:
-    """A name for exactly this face."""
-    digest = hashlib.blake2b(vertices.tobytes(), digest_size=16)
-    digest.update(np.fromiter((i for polygon in polygons for i in (len(polygon), *polygon)), dtype=np.int64).tobytes())
-    digest.update(json.dumps(points, sort_keys=True).encode())
-    digest.update(parts.tobytes())
-    return digest.hexdigest()
-
-
 def face_of(source: FaceSource) -> Face:
     """The face of `source`; the last few are kept.
 
@@ -205,19 +155,24 @@ def face_of(source: FaceSource) -> Face:
     ------
     ModelError : what the face lacks.
     """
+    kept = next((kept for kept in _faces if kept[0].matches(source.fingerprint)), None)
+    if kept is None:
+        kept = source.fingerprint, _built(source)
+    else:
+        _faces.remove(kept)
+    _faces.append(kept)
+    del _faces[:-KEPT_FACES]
+    return kept[1]
+
+
+def _built(source: FaceSource) -> Face:
+    """A new face."""
     from .. import api
 
-    face = _faces.pop(source.fingerprint, None)
-    if face is None:
-        parts = source.parts
-        if parts is not None and (parts < 0).any():
-            derived = _derived_head_parts(source)
-            parts = np.where(parts < 0, derived, parts)
-        face = api.Face.from_arrays(source.vertices, source.polygons, dict(source.points), parts=parts)
-    _faces[source.fingerprint] = face
-    while len(_faces) > KEPT_FACES:
-        _faces.popitem(last=False)
-    return face
+    parts = source.parts
+    if parts is not None and (parts < 0).any():
+        parts = np.where(parts < 0, _derived_head_parts(source), parts)
+    return api.Face.from_arrays(source.vertices, source.polygons, dict(source.points), parts=parts)
 
 
 def _derived_head_parts(source: FaceSource) -> Ints:

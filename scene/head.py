@@ -12,9 +12,9 @@ from ..face.default_head import Material as HeadMaterial
 from . import mesh as meshes
 from .blender_types import Context, Material, Object
 from .creases.marks import draw_in
-from .faces import store_points
 from .materials import new_material
 from .points.kept import Origin
+from .points.stored import store_points
 
 NAME = "Risorius Head"
 

@@ -74,7 +74,10 @@ def evaluated_vertices(obj: Object, depsgraph: Depsgraph | None = None) -> Float
 
 def polygon_arrays(mesh: Mesh) -> tuple[Ints, Ints]:
     """Corner vertices of all polygons one after another (L,), and corners of each polygon (F,)."""
-    return read_ints(mesh.loops, "vertex_index"), read_ints(mesh.polygons, "loop_total")
+    # Blender's own attribute of the corners is read thirty times as fast as the corners themselves.
+    attribute = mesh.attributes.get(".corner_vert")
+    corners = read_ints(mesh.loops, "vertex_index") if attribute is None else read_ints(attribute.data, "value")
+    return corners, np.diff(read_ints(mesh.polygons, "loop_start"), append=len(corners))
 
 
 def triangle_corners(mesh: Mesh) -> Ints:

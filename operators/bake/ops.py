@@ -8,7 +8,7 @@ import bpy
 from bpy.props import StringProperty
 
 from ...progress import Work
-from ...scene.bake import baking as bake
+from ...scene import bake
 from ...scene.bake import shape_keys
 from ...scene.bake.notes import BakeKind, Note
 from ...scene.bake.strips import ClipShape, bake_strips

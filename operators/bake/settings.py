@@ -10,9 +10,9 @@ import numpy as np
 
 from ...scene.bake import shape_keys
 from ...scene.bake.action import Curve
-from ...scene.bake.baking import ClipTiming, scene_fps
 from ...scene.bake.motion import CueMotion
 from ...scene.bake.notes import BakeKind, read_notes
+from ...scene.bake.timing import ClipTiming, scene_fps
 from ..emotion.performance import Performance, performance_of
 from ..emotion.profile import Wanted, title_of, wanted_of
 from ..tissue.props import tissue_of

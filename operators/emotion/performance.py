@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...mpeg4 import Cue, Drawn, Liveliness, Ramp, drawn_within
-from ...scene.bake.baking import scene_fps
+from ...scene.bake.timing import scene_fps
 from ..timeline.props import sounding
 from ..timeline.titles import clip_title
 from .profile import Wanted, title_of, wanted_of

@@ -9,8 +9,9 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ...face.mesh.point_files import read_point_file
-from ...scene import faces, refusals
+from ...scene import refusals
 from ...scene.points.kept import forget_points, has_points
+from ...scene.points.stored import store_points
 from ..base import RisoriusOperator
 from ..preview import live
 
@@ -62,7 +63,7 @@ index"""
     def run(self, context: Any) -> str:
         """Read, check against the standard and the mesh, store."""
         points = read_point_file(self.filepath)
-        faces.store_points(context.object, points)
+        store_points(context.object, points)
         return f"{context.object.name} has {len(points)} feature points"
 
 

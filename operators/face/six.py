@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 from ...progress import Work
-from ...scene.bake import baking as bake
+from ...scene import bake
 from ...scene.bake import performance, shape_keys
 from ...scene.points.found import Finding
 from ...scene.points.kept import read_kept

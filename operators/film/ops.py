@@ -9,9 +9,8 @@ import bpy
 
 from ...errors import SceneError
 from ...progress import Work, part_of
-from ...scene import gltf, refusals
+from ...scene import bake, gltf, refusals
 from ...scene.bake import action, shape_keys
-from ...scene.bake import baking as bake
 from ...scene.pictures import film
 from ...scene.pictures.look import Camera, Engine, Look
 from ...scene.points.found import Finding

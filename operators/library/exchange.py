@@ -12,7 +12,7 @@ from ...errors import ParameterError
 from ...mpeg4.preset_file import VARIATIONS, Choice, Clip, Preset, PresetKind
 from ...mpeg4.timing import Ramp
 from ...resources import PRESETS
-from ...scene.bake.baking import scene_fps
+from ...scene.bake.timing import scene_fps
 from ..changes import changed, retimed
 from ..emotion.props import DEFAULT_VARIANT
 from ..muscles.props import by_hand_of

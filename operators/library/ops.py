@@ -14,8 +14,9 @@ from ...errors import FormatError, SceneError
 from ...mpeg4.preset_file import PresetKind, read_preset, write_preset
 from ...mpeg4.streams.fap_file import read_fap
 from ...progress import Work
-from ...scene.bake.baking import BakeResult, bake_motion, scene_fps
+from ...scene.bake.baking import BakeResult, bake_motion
 from ...scene.bake.motion import FapMotion, at_rate
+from ...scene.bake.timing import scene_fps
 from ..active import face_reason, target_of
 from ..bake.ops import BakeOperator
 from ..bake.settings import creases_wanted

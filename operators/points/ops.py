@@ -16,12 +16,12 @@ from ...errors import RisoriusError, SceneError
 from ...files import write_whole
 from ...mpeg4 import FAPS, FEATURE_POINTS
 from ...progress import Work
-from ...scene.faces import stored_points
 from ...scene.mesh import world_matrix
 from ...scene.points.bound import followed
 from ...scene.points.found import Finding, find_points
 from ...scene.points.kept import KeptPoint, has_points, mesh_counts, read_kept, write_kept
 from ...scene.points.seen import Visible
+from ...scene.points.stored import stored_points
 from ..base import RisoriusOperator, WorkOperator
 from .props import mark
 from .reasons import no_points_reason, points_reason

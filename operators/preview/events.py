@@ -8,8 +8,8 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
+from ...scene.fingerprint import uid_of
 from ...scene.live import preview
-from ...scene.live.live_face import uid_of
 from ..changes import listen, listen_to_time
 from ..session import begin_session, session
 from . import live

@@ -14,9 +14,10 @@ import numpy as np
 
 from ...errors import RisoriusError
 from ...scene.bake import shape_keys
+from ...scene.fingerprint import uid_of
 from ...scene.live import preview
 from ...scene.live.held_faces import REST
-from ...scene.live.live_face import LiveFace, uid_of
+from ...scene.live.live_face import LiveFace
 from ...scene.points.kept import has_points
 from ..active import ready_reason, target_of
 from ..emotion.performance import performance_of

@@ -14,7 +14,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ...errors import RisoriusError
-from ...scene.live.live_face import uid_of
+from ...scene.fingerprint import uid_of
 from ...scene.live.reading import FaceReader, Reading
 from ..active import reading_reason
 from ..session import session

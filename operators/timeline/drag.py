@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from ...scene.bake.baking import scene_fps
+from ...scene.bake.timing import scene_fps
 from .bars import TOUCH, Bar, Grip, dragged
 from .drawing import bars_of, redraw
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from ...scene.bake.baking import scene_fps
+from ...scene.bake.timing import scene_fps
 from ..changes import listen, listen_to_time
 from ..points.canvas import Canvas, Colour, text_width
 from .bars import Bar, lay_out

@@ -83,7 +83,7 @@ class RISORIUS_OT_duplicate_clip(_ClipOperator, bpy.types.Operator):
 
     def run(self, context: Any) -> str:
         """Copy it."""
-        from ...scene.bake.baking import scene_fps
+        from ...scene.bake.timing import scene_fps
 
         timeline = context.object.risorius.timeline
         place = timeline.active

@@ -1,6 +1,8 @@
 """What a face's poses and motions become in Blender: shape keys, actions and strips.
 
 baking                      the way in: one expression or a motion
+target, timing              where a bake goes, and when it happens
+writing                     shape keys and a clip written on all objects of a face, and taken away
 performance, strips         several expressions; a timeline
 motion                      what a motion bake simulates
 compress                    a motion as few shapes times weights
@@ -8,6 +10,9 @@ shape_keys, action, notes   Risorius' own keys; clips as actions; what a bake no
 remarks                     what an animator should know about a bake
 """
 
-from .baking import BakeResult, ClipTiming, Target, bake_expression, bake_motion, clear
+from .baking import BakeResult, bake_expression, bake_motion
+from .target import Target
+from .timing import ClipTiming, scene_fps
+from .writing import clear
 
-__all__ = ["BakeResult", "ClipTiming", "Target", "bake_expression", "bake_motion", "clear"]
+__all__ = ["BakeResult", "ClipTiming", "Target", "bake_expression", "bake_motion", "clear", "scene_fps"]

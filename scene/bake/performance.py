@@ -11,7 +11,9 @@ import numpy as np
 from ...errors import ParameterError
 from ...progress import Work, part_of
 from . import action as actions
-from . import baking as bake
+from .baking import BakeResult, bake_expression
+from .target import Target
+from .timing import ClipTiming
 
 if TYPE_CHECKING:
     from ...api import Cue
@@ -39,14 +41,14 @@ def cues_of(words: Sequence[str]) -> list[Cue]:
     return cues
 
 
-def pose_all(target: bake.Target, cues: Sequence[Cue], fps: float, creases: bool | None) -> Work[list[bake.BakeResult]]:
+def pose_all(target: Target, cues: Sequence[Cue], fps: float, creases: bool | None) -> Work[list[BakeResult]]:
     """One shape key per cue, each clip at its cue's time."""
     results = []
     for index, cue in enumerate(cues):
-        timing = bake.ClipTiming(
+        timing = ClipTiming(
             start=FIRST_FRAME + cue.start * fps, onset=cue.onset, apex=cue.apex, offset=cue.offset, fps=fps
         )
-        work = bake.bake_expression(
+        work = bake_expression(
             target,
             cue.profile.frame(),
             clip=str(cue.profile.word),
@@ -59,7 +61,7 @@ def pose_all(target: bake.Target, cues: Sequence[Cue], fps: float, creases: bool
     return results
 
 
-def line_up(target: bake.Target, results: Sequence[bake.BakeResult]) -> int:
+def line_up(target: Target, results: Sequence[BakeResult]) -> int:
     """Put the clips one after another on an NLA track of every mesh of the face; returns the last frame.
 
     What the track held before goes; an action of the user's own stays as it is, on top.

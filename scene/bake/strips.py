@@ -19,9 +19,11 @@ from ..creases import marks as crease_marks
 from ..faces import face_of
 from . import action as actions
 from . import shape_keys
-from .baking import BakeResult, Target, clear, write_baked
+from .baking import BakeResult
 from .notes import BakeKind, Note, read_notes
 from .remarks import remarks
+from .target import Target
+from .writing import clear, write_baked
 
 if TYPE_CHECKING:
     from ...api import EmotionShares
@@ -64,7 +66,7 @@ def bake_strips(
     for number, shape in enumerate(shapes):
         yield Progress(0.2 + 0.75 * number / len(shapes), f"Solving the skin for {shape.clip}")
         pose = face.pose(shape.frame, drive=drive, emotion=shape.emotion, contractions=shape.contractions)
-        moved.append((np.asarray(pose.positions) - source.vertices)[None])
+        moved.append((np.asarray(pose.positions) - face.vertices)[None])
     marks = crease_marks.prepare(source, creases)
     yield Progress(0.95, "Writing the shape keys")
     written: list[Action] = []
@@ -72,7 +74,7 @@ def bake_strips(
     said: set[str] = set(remarks(source.head))
     for shape, displacement in zip(shapes, moved, strict=True):
         note = Note(BakeKind.STRIP, shape.settings, ((shape.clip, float(shape.curve.frames[0])),))
-        action, names, remark = write_baked(
+        baked = write_baked(
             target,
             source,
             shape.clip,
@@ -83,9 +85,9 @@ def bake_strips(
             creases=marks,
             note=note,
         )
-        written.append(action)
-        keys += names
-        said |= set(remark)
+        written.append(baked.action)
+        keys += baked.keys
+        said |= set(baked.remarks)
     _remove_gone(target, [shape.clip for shape in shapes])
     for datablock in _datablocks(target):
         line_up(datablock, written)

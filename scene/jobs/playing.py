@@ -9,7 +9,7 @@ import bpy
 
 from ...errors import ParameterError
 from ...progress import Progress, Report, Work, part_of, run
-from ..bake import baking as bake
+from .. import bake
 from ..bake.motion import FapMotion
 from ..bake.performance import FIRST_FRAME
 from ..pictures import film

@@ -8,7 +8,7 @@ import bpy
 
 from ...errors import ParameterError, SceneError
 from ...progress import Report, run
-from ..bake.baking import Target
+from ..bake.target import Target
 from ..blendshape_keys import WrittenKeys, write_blendshapes
 from ..pictures.film import refuse_unwritable_output
 from .files import empty_file, save

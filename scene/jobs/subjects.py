@@ -16,12 +16,13 @@ from ...progress import run
 from .. import mesh as meshes
 from ..blender_types import Object
 from ..creases.marks import draw_in
-from ..faces import face_of, read_face, store_points
+from ..faces import face_of, read_face
 from ..head import add_default_head, select_only
 from ..materials import new_material
 from ..pictures.irises import iris_polygons, lay_irises
 from ..points.found import find_points
 from ..points.kept import has_points
+from ..points.stored import store_points
 
 if TYPE_CHECKING:
     from ...face.face import Face

@@ -12,7 +12,7 @@ import bpy
 
 from ...errors import ParameterError
 from ...progress import Progress, Report, Work, part_of, run
-from ..bake import baking as bake
+from .. import bake
 from ..bake.motion import CueMotion
 from ..bake.performance import ARCHETYPES, FIRST_FRAME, PAUSE, cues_of, line_up, pose_all
 from ..blender_types import Object

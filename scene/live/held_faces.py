@@ -6,8 +6,9 @@ from collections import OrderedDict
 from dataclasses import dataclass, field
 
 from ...progress import Progress, Work
-from ..bake.baking import Target
-from .live_face import LiveFace, uid_of
+from ..bake.target import Target
+from ..fingerprint import uid_of
+from .live_face import LiveFace
 
 #: Faces that are held ready.
 KEPT = 3

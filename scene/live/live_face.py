@@ -6,18 +6,15 @@ from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...arrays import Floats, Ints
 from ...progress import Work
-from ..bake.baking import Target
-from ..blender_types import Object
+from ..bake.target import Target
 from ..faces import face_of
-from ..mesh import rest_vertices, world_matrix
-from ..points.kept import POINTS
+from ..fingerprint import fingerprint, uid_of
 from . import preview
 
 if TYPE_CHECKING:
@@ -38,22 +35,6 @@ class LivePose:
     contractions: Mapping[str, float]
 
 
-def uid_of(obj: Object) -> int:
-    """A number that an object keeps while Blender runs, through renaming and undo."""
-    return int(obj.session_uid)
-
-
-def print_of(target: Target) -> str:
-    """A fingerprint of all that a face is read from; cheap."""
-    digest = blake2b(digest_size=16)
-    for obj in target.objects():
-        digest.update(f"{uid_of(obj)} {len(obj.data.polygons)}".encode())
-        digest.update(world_matrix(obj)[:3, :3].tobytes())
-        digest.update(rest_vertices(obj.data).tobytes())
-    digest.update(str(target.obj.data.get(POINTS, "")).encode())
-    return digest.hexdigest()
-
-
 class LiveFace:
     """A face that shows itself on its own objects without changing them; see `preview`."""
 
@@ -64,7 +45,7 @@ class LiveFace:
         ------
         SceneError, ModelError : as for a bake.
         """
-        self.uid, self.print = uid_of(target.obj), print_of(target)
+        self.uid = uid_of(target.obj)
         self._source = target.source()
         self._face = face_of(self._source)
         self._sketcher = self._face.sketcher()
@@ -72,7 +53,7 @@ class LiveFace:
 
     def is_of(self, target: Target) -> bool:
         """Whether the face is still as it was read."""
-        return print_of(target) == self.print
+        return fingerprint(target.obj, target.companions).matches(self._source.fingerprint)
 
     def prepare(self) -> Work[None]:
         """Work out what the first sketch needs."""
@@ -90,7 +71,7 @@ class LiveFace:
         """The face for one frame of FAPs: a sketch (`Face.sketcher`), or in balance as a bake is."""
         show = self._face.pose if exact else self._sketcher.sketch
         shown = show(frame, drive=drive, emotion=emotion, contractions=contractions)
-        return LivePose(shown.positions - self._source.vertices, shown.contractions)
+        return LivePose(shown.positions - self._face.vertices, shown.contractions)
 
     def apex(
         self,

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 import bpy
@@ -20,10 +19,9 @@ from ...errors import ModelError, ParameterError, SceneError
 from ...progress import Progress, Work
 from ..blender_types import Depsgraph, Object, Scene
 from ..faces import face_of, read_face
-from ..mesh import mesh_vertices, metres_matrix, rest_vertices
-from ..points.kept import POINTS
+from ..fingerprint import fingerprint, uid_of
+from ..mesh import mesh_vertices
 from ..points.seen import Visible
-from .live_face import uid_of
 from .shown_rest import shown_rest
 
 if TYPE_CHECKING:
@@ -72,9 +70,8 @@ class FaceReader:
         SceneError, ModelError : no face, no feature points; says what to do.
         """
         self.obj, self.uid = obj, uid_of(obj)
-        self.print = print_of(obj)
         source = read_face(obj)
-        self._face = face_of(source)
+        self._face, self._fingerprint = face_of(source), source.fingerprint
         self._to_metres = source.pieces[0].to_metres[:3, :3]
         self._rest = source.pieces[0].rest
         self._shown_rest: Floats | None = None
@@ -84,7 +81,7 @@ class FaceReader:
 
     def is_of(self, obj: Object) -> bool:
         """Whether `obj` still is the face that was read."""
-        return uid_of(obj) == self.uid and print_of(obj) == self.print
+        return uid_of(obj) == self.uid and fingerprint(obj).matches(self._fingerprint)
 
     def positions(self, depsgraph: Depsgraph) -> Floats:
         """(V, 3) vertices of the mesh in metres as they show.
@@ -146,14 +143,6 @@ class FaceReader:
         profile = beliefs.best_profile
         strength = 0.0 if profile is None else api.shown_strength(frame, profile)
         return Reading(frame, features, beliefs, api.recognise_words(frame, words), strength)
-
-
-def print_of(obj: Object) -> bytes:
-    """A fingerprint of all that a resting face is read from; cheap."""
-    digest = blake2b(rest_vertices(obj.data).tobytes(), digest_size=16)
-    digest.update(metres_matrix(obj).round(6).tobytes())
-    digest.update(f"{len(obj.data.polygons)} {obj.data.get(POINTS, '')}".encode())
-    return digest.digest()
 
 
 def _steadied(positions: Floats, rest: Floats, reader: Sparse) -> Floats:

@@ -9,8 +9,8 @@ import numpy as np
 from ...arrays import Floats
 from .. import mesh as meshes
 from ..blender_types import Object
-from ..faces import stored_points
 from ..points.kept import has_points
+from ..points.stored import stored_points
 
 #: Feature points that tell where the face is: pupils or eye corners, mouth corners, chin.
 EYES_LEFT, EYES_RIGHT, CHIN = ("3.7", "3.11"), ("3.8", "3.12"), "2.1"

@@ -2,6 +2,7 @@
 
 found, presets        found from the shape alone; topologies that a user saved
 kept, bound           kept with the mesh; bound to its vertices
+stored                given to an object, and read where they are now
 carried, seen         where they are under modifiers; which show
 joined, mirrored      after a join; on the other side
 """

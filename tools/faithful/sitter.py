@@ -15,13 +15,13 @@ import risorius.api as api
 from risorius.api import Face
 from risorius.arrays import Floats
 from risorius.scene import mesh as meshes
-from risorius.scene.faces import store_points
 from risorius.scene.head import head_object
 from risorius.scene.jobs.subjects import paint_parts
 from risorius.scene.pictures.framing import Framing, framing_of
 from risorius.scene.pictures.lettering import read_picture
 from risorius.scene.pictures.look import Look
 from risorius.scene.pictures.studio import render_frame, studio
+from risorius.scene.points.stored import store_points
 
 from .heads import lash_vertices
 

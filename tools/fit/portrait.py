@@ -17,9 +17,10 @@ from risorius.arrays import Floats
 from risorius.errors import RisoriusError
 from risorius.face.fit.doubt import DOUBTFUL
 from risorius.scene import mesh as meshes
-from risorius.scene.faces import face_of, read_face, store_points
+from risorius.scene.faces import face_of, read_face
 from risorius.scene.jobs.subjects import paint_parts
 from risorius.scene.pictures.framing import Framing, framing_of
+from risorius.scene.points.stored import store_points
 
 from .heads import TrueHead
 from .sheet import Strip

@@ -19,7 +19,7 @@ import risorius.api as api
 from places import shared_folder
 from risorius.progress import run
 from risorius.scene import mesh as meshes
-from risorius.scene.bake.baking import Target
+from risorius.scene.bake.target import Target
 from risorius.scene.jobs.subjects import subject
 from risorius.scene.live.live_face import LiveFace
 

@@ -13,12 +13,13 @@ from risorius.errors import SolverError
 from risorius.face.face import Face
 from risorius.face.mesh.parts import Part
 from risorius.mpeg4 import VARIANTS, default_variant
-from risorius.scene import faces
+from risorius.scene import bake, faces
 from risorius.scene import mesh as meshes
-from risorius.scene.bake import baking as bake
 from risorius.scene.bake import shape_keys
+from risorius.scene.bake.action import data_path
 from risorius.scene.bake.motion import FapMotion
 from risorius.scene.fcurves import key_curves
+from risorius.scene.points.stored import store_points
 
 
 def key(obj: Any, name: str) -> np.ndarray:
@@ -66,7 +67,7 @@ def split(head: Any) -> dict[str, Any]:
             meshes.write_parts(mesh, parts[kept])
             here = {n for n, p in whole.points.items() if isinstance(p, int) and kept[p]}
             points = {n: int(number[p]) if n in here else tuple(whole.position(n)) for n, p in whole.points.items()}
-            faces.store_points(obj, points)
+            store_points(obj, points)
     head_object = made["Head"]
     head_object.risorius.face.eyeball_l = made["EYEBALL_L"]
     head_object.risorius.face.eyeball_r = made["EYEBALL_R"]
@@ -197,7 +198,7 @@ def test_a_copy_of_a_baked_head_is_a_face_of_its_own(head: Any) -> None:
     bpy.ops.risorius.bake_expression()
     assert key_names(head) == ["Basis", "joy"]
     assert head.data.shape_keys.animation_data.action == action
-    assert [c.data_path for c in key_curves(action)] == [bake.actions.data_path("joy")]
+    assert [c.data_path for c in key_curves(action)] == [data_path("joy")]
     bpy.ops.risorius.clear()
     assert key_names(head) == ["Basis", "joy"]
     assert twin.data.shape_keys is None

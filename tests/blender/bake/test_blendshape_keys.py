@@ -12,7 +12,7 @@ import pytest
 import risorius.api as api
 from risorius.errors import ParameterError, SceneError
 from risorius.progress import run
-from risorius.scene.bake import baking as bake
+from risorius.scene import bake
 from risorius.scene.blendshape_keys import write_blendshapes
 from risorius.scene.jobs.shapes import blendshape_file
 from risorius.scene.mesh import key_vertices

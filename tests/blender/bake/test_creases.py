@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.face.face import Face
-from risorius.scene import faces
+from risorius.scene import bake, faces
 from risorius.scene import mesh as meshes
-from risorius.scene.bake import baking as bake
 from risorius.scene.creases import marks as creases
 from risorius.scene.creases import nodes as crease_nodes
 from risorius.scene.head import head_object

@@ -7,10 +7,10 @@ from typing import Any
 import bpy
 import pytest
 from risorius.operators.session import begin_session, session
-from risorius.scene.bake.baking import Target
+from risorius.scene.bake.target import Target
+from risorius.scene.fingerprint import uid_of
 from risorius.scene.head import add_default_head
 from risorius.scene.live.held_faces import KEPT, REST, DueLooks, HeldFaces, Look
-from risorius.scene.live.live_face import uid_of
 
 
 def ready(faces: HeldFaces, target: Target) -> None:

@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 from risorius.errors import FormatError, SceneError
 from risorius.face.mesh.point_files import read_point_file
-from risorius.scene import faces, refusals
-from risorius.scene.bake import baking as bake
+from risorius.scene import bake, refusals
 from risorius.scene.bake import shape_keys
 from risorius.scene.bake.remarks import remarks
+from risorius.scene.points.kept import has_points
+from risorius.scene.points.stored import store_points, stored_points
 
 pytestmark = pytest.mark.smoke
 
@@ -69,8 +70,8 @@ def test_no_feature_points(cube: Any) -> None:
 
 def test_points_for_another_mesh(head: Any, cube: Any) -> None:
     with pytest.raises(SceneError, match="wrong file for the mesh"):
-        faces.store_points(cube, faces.stored_points(head))
-    assert not faces.has_points(cube)
+        store_points(cube, stored_points(head))
+    assert not has_points(cube)
 
 
 def test_points_that_an_edited_mesh_has_no_place_for(head: Any) -> None:
@@ -84,11 +85,11 @@ def test_points_that_an_edited_mesh_has_no_place_for(head: Any) -> None:
 
 
 def test_missing_and_swapped_points(head: Any) -> None:
-    points = faces.stored_points(head)
-    faces.store_points(head, {name: point for name, point in points.items() if name != "8.4"})
+    points = stored_points(head)
+    store_points(head, {name: point for name, point in points.items() if name != "8.4"})
     with pytest.raises(RuntimeError, match=r"8\.4"):
         bpy.ops.risorius.bake_expression()
-    faces.store_points(head, {**points, "8.4": points["8.3"], "8.3": points["8.4"]})
+    store_points(head, {**points, "8.4": points["8.3"], "8.3": points["8.4"]})
     with pytest.raises(RuntimeError, match=r"8\.3 and 8\.4 are swapped"):
         bpy.ops.risorius.bake_expression()
     assert head.data.shape_keys is None
@@ -180,9 +181,10 @@ def test_mirrored_and_flat_objects(head: Any) -> None:
 
 def test_an_object_named_as_two_parts(head: Any, cube: Any) -> None:
     from risorius.face.mesh.parts import Part
+    from risorius.scene.companions import Companion
 
     with pytest.raises(SceneError, match="two parts"):
-        bake_key(head, companions={Part.EYEBALL_L: cube, Part.EYEBALL_R: cube})
+        bake_key(head, companions=(Companion(cube, Part.EYEBALL_L), Companion(cube, Part.EYEBALL_R)))
 
 
 def test_what_is_fine_is_remarked_on(head: Any) -> None:
@@ -214,7 +216,7 @@ def test_a_wrong_file_of_points_names_the_place(tmp_path: Path, cube: Any, text:
         read_point_file(path)
     with pytest.raises(RuntimeError, match=r"points\.json"):
         bpy.ops.risorius.import_points(filepath=str(path))
-    assert not faces.has_points(cube)
+    assert not has_points(cube)
 
 
 def test_points_are_imported_and_saved_with_the_object(tmp_path: Path, cube: Any) -> None:
@@ -225,7 +227,7 @@ def test_points_are_imported_and_saved_with_the_object(tmp_path: Path, cube: Any
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
     cube = bpy.data.objects["Cube"]
-    assert faces.stored_points(cube) == {"8.4": 3, "8.3": 1, "3.5": (0.0, 1.0, 2.5)}
+    assert stored_points(cube) == {"8.4": 3, "8.3": 1, "3.5": (0.0, 1.0, 2.5)}
     bpy.context.view_layer.objects.active = cube
     assert bpy.ops.risorius.forget_points() == {"FINISHED"}
-    assert not faces.has_points(cube)
+    assert not has_points(cube)

@@ -13,9 +13,8 @@ from risorius import api
 from risorius.errors import ModelError
 from risorius.operators.points import first, look, overlay, question
 from risorius.progress import Progress, run
-from risorius.scene import mesh
+from risorius.scene import bake, mesh
 from risorius.scene.bake import action, performance, shape_keys
-from risorius.scene.bake import baking as bake
 from risorius.scene.points import bound as points_bound
 from risorius.scene.points import kept as points_kept
 from risorius.scene.points.found import Finding

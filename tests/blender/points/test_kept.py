@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from risorius.errors import SceneError
-from risorius.scene import faces
 from risorius.scene import mesh as meshes
 from risorius.scene.bake.remarks import remarks
 from risorius.scene.points import bound as points_bound
 from risorius.scene.points import kept as points_kept
+from risorius.scene.points.stored import store_points, stored_points
 
 pytestmark = pytest.mark.smoke
 
@@ -40,7 +40,7 @@ def edit(obj: Any, *steps: Any) -> None:
 
 
 def test_a_position_is_bound_to_the_polygon_it_lies_on(cube: Any) -> None:
-    faces.store_points(cube, {"2.1": (1.0, 0.5, -0.5), "8.4": 3, "3.5": (0.0, 0.0, 4.0)})
+    store_points(cube, {"2.1": (1.0, 0.5, -0.5), "8.4": 3, "3.5": (0.0, 0.0, 4.0)})
     kept = points_kept.read_kept(cube).points
     assert 2 <= len(kept["2.1"].vertices) <= 3
     corners = meshes.rest_vertices(cube.data)[list(kept["2.1"].vertices)]
@@ -86,7 +86,7 @@ def test_saved_and_appended_and_linked(head: Any, tmp_path: Path) -> None:
         (loaded,) = here.objects
         assert_same(places(loaded), before)
     with pytest.raises(SceneError, match="mesh from another file: make it local"):
-        faces.store_points(loaded, {"2.1": 0})
+        store_points(loaded, {"2.1": 0})
 
 
 def test_duplicates_bring_them_and_linked_ones_share_them(head: Any) -> None:
@@ -136,7 +136,7 @@ def test_what_a_deletion_takes_away_is_lost_by_name(head: Any) -> None:
     assert bound <= set(now.lost)
     assert "9.3" in now.kept.points
     with pytest.raises(SceneError, match=r"2\.1.*were lost"):
-        faces.stored_points(head)
+        stored_points(head)
     (said,) = remarks(head)
     assert "was edited" in said
     assert "2.1" in said

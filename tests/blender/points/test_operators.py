@@ -13,13 +13,13 @@ import pytest
 from mathutils import Euler, Matrix, Vector
 from risorius.mpeg4 import FEATURE_POINTS
 from risorius.operators.points import click, diagram, drag, ops, overlay, panel
-from risorius.scene import faces
 from risorius.scene import mesh as meshes
 from risorius.scene.points import bound as points_bound
 from risorius.scene.points import kept as points_kept
 from risorius.scene.points import mirrored as points_mirrored
 from risorius.scene.points import seen as points_seen
 from risorius.scene.points.kept import Origin
+from risorius.scene.points.stored import stored_points
 
 S6 = tuple(click.ASKED)
 
@@ -207,13 +207,13 @@ def test_an_edited_mesh_is_followed_with_a_report(head: Any, tmp_path: Path) -> 
 
 
 def test_exported_points_are_imported_again(head: Any, tmp_path: Path) -> None:
-    path, before = tmp_path / "points.json", faces.stored_points(head)
+    path, before = tmp_path / "points.json", stored_points(head)
     assert bpy.ops.risorius.export_points(filepath=str(path)) == {"FINISHED"}
     table = json.loads(path.read_text())
     assert set(table["confidence"]) == set(table["origin"]) == set(before)
     points_kept.forget_points(head)
     assert bpy.ops.risorius.import_points(filepath=str(path)) == {"FINISHED"}
-    after = faces.stored_points(head)
+    after = stored_points(head)
     assert set(after) == set(before)
     for name, point in before.items():
         np.testing.assert_allclose(after[name], point, atol=1e-6)

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from risorius.face.mesh.parts import Part
 from risorius.operators.parts import overlay
-from risorius.scene.faces import face_of, read_face, store_points, stored_points
+from risorius.scene.faces import face_of, read_face
 from risorius.scene.mesh import PART_ATTRIBUTE, read_parts
+from risorius.scene.points.stored import store_points, stored_points
 
 pytestmark = pytest.mark.smoke
 

@@ -15,7 +15,7 @@ from risorius.operators.emotion.performance import performance_of
 from risorius.operators.preview.live import object_of
 from risorius.scene.bake import shape_keys
 from risorius.scene.bake.notes import BakeKind
-from risorius.scene.live.live_face import uid_of
+from risorius.scene.fingerprint import uid_of
 from risorius.scene.mesh import key_vertices
 
 

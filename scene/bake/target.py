@@ -1,0 +1,36 @@
+"""Where a bake goes, and a preview shows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..blender_types import Object
+from ..companions import Companion
+from ..faces import FaceSource, read_face
+from ..refusals import refuse_unwritable
+
+
+@dataclass(frozen=True)
+class Target:
+    """The objects of a face.
+
+    Attributes
+    ----------
+    obj : the head.
+    companions : its other objects.
+    make_single_user : whether a mesh that other objects share may be made its own.
+    """
+
+    obj: Object
+    companions: tuple[Companion, ...] = ()
+    make_single_user: bool = False
+
+    def objects(self) -> list[Object]:
+        """The head and its other objects."""
+        return [self.obj, *(companion.obj for companion in self.companions)]
+
+    def source(self) -> FaceSource:
+        """Read the face, refusing what must not be written to."""
+        for member in self.objects():
+            refuse_unwritable(member, make_single_user=self.make_single_user)
+        return read_face(self.obj, companions=self.companions)

@@ -1,0 +1,48 @@
+"""Objects that belong to a face besides its head, and where they are in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import SceneError
+from ..face.mesh.parts import Part
+from .blender_types import Object, Scene
+from .mesh import metres_matrix, relative_matrix
+
+
+@dataclass(frozen=True)
+class Companion:
+    """An object of a face besides the head: `part` says what it is, an eye, a row of teeth or the tongue."""
+
+    obj: Object
+    part: Part
+
+
+def refuse_twice(obj: Object, companions: Sequence[Companion]) -> None:
+    """Refuse an object that stands for two parts of a face.
+
+    Raises
+    ------
+    SceneError : names it.
+    """
+    seen = {obj}
+    for companion in companions:
+        if companion.obj in seen:
+            raise SceneError(companion.obj.name, "is used for two parts of the face: choose it for one of them")
+        seen.add(companion.obj)
+
+
+def placements(obj: Object, companions: Sequence[Companion], scene: Scene | None = None) -> list[Floats]:
+    """(4, 4) matrices to metres in the head's axes: from the head's own coordinates, and from each companion's.
+
+    Raises
+    ------
+    SceneError : an object that is scaled to nothing, or a mirrored head.
+    """
+    head = np.eye(4)
+    head[:3, :3] = metres_matrix(obj, scene)
+    return [head, *(head @ relative_matrix(obj, companion.obj) for companion in companions)]
