@@ -119,7 +119,7 @@ def test_a_turned_head_whose_axes_are_not_told_is_nearly_the_same(face: Face, gi
 
 @pytest.mark.parametrize("wrong", [np.eye(2), np.diag([1.0, 1.0, -1.0]), 2.0 * np.eye(3), np.full((3, 3), np.nan)])
 def test_axes_that_are_no_rotation_are_refused(given: Given, wrong: np.ndarray) -> None:
-    with pytest.raises(ModelError, match="right angles"):
+    with pytest.raises(ModelError, match="perpendicular"):
         replace(given, axes=wrong).face()
 
 
