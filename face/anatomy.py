@@ -163,7 +163,7 @@ class Anatomy:
     @cached_property
     def rows(self) -> FapRows:
         """Displacement FAPs whose points lie on the mesh."""
-        return displacement_rows(self.mesh.points, self.mesh.units, self.mesh.frame)
+        return displacement_rows(self.mesh.points, self.mesh.units, self.mesh.head_frame)
 
     @cached_property
     def skin_rows(self) -> FapRows:
@@ -220,7 +220,7 @@ class Anatomy:
 
     def _fap_unit(self, number: int) -> float:
         """One unit of a FAP that is a length, metres of head space."""
-        return unit_length(FAPS[number].unit, self.mesh.units) / self.mesh.frame.scale
+        return unit_length(FAPS[number].unit, self.mesh.units) / self.mesh.head_frame.scale
 
     @cached_property
     def lower_teeth(self) -> Ints:
@@ -239,7 +239,7 @@ class Anatomy:
             if len(index) == 0:
                 continue
             ball, pupil_at = self.mesh.positions[index], self.mesh.landmarks[pupil]
-            iris = self.mesh.units.irisd0 / self.mesh.frame.scale / 2.0
+            iris = self.mesh.units.irisd0 / self.mesh.head_frame.scale / 2.0
             units = (self._fap_unit(faps[2]), self._fap_unit(faps[3]))
             found.append(build_eyeball(self.eyes[side], index, ball, pupil_at, iris, faps, units))
         return found

@@ -48,7 +48,7 @@ class Assembly:
         anatomy.loose_parts.follow(moved)
         for ball in anatomy.eyeballs:
             moved[ball.index] = ball.displacement(faps)
-        return anatomy.mesh.frame.to_face(anatomy.head_turn.apply(rest + moved, faps))
+        return anatomy.mesh.head_frame.to_face(anatomy.head_turn.apply(rest + moved, faps))
 
     def _folded(self, displacement: Floats, request: Request) -> Floats:
         """(g, 3) displacement of the outer skin's own vertices, with folds where the drive has them."""

@@ -16,18 +16,18 @@ from ..physics.tissue import Tissue
 from ..progress import Progress, Work
 from .anatomy import Anatomy
 from .drive.over_time import cue_plans, stream_plans
-from .drive.request import Drive, EmotionShares, Request, silence
+from .drive.request import Drive, EmotionShares, Request, silent_faps
 from .measure import features, measure
 from .mechanism import Mechanism, named
 from .mesh.checks import checked_axes, checked_parts, checked_polygons, checked_vertices, with_pupils
 from .mesh.face_mesh import FaceMesh
 from .mesh.fap_units import Fapu, fapu
-from .mesh.head_frame import head_frame
+from .mesh.head_frame import head_frame_of
 from .mesh.parts import Part
 from .mesh.points import FeaturePoints, PointSource, bind_points, check_sides
 from .muscles.placement import PlacedMuscle
 from .pose import Pose, Poser, Sketch
-from .requests import checked_drive, checked_emotions, checked_frames, checked_request
+from .requests import checked_drive, checked_emotions, checked_request, checked_stream
 from .response.living_skin import Memory
 from .simulate import Simulation
 
@@ -121,15 +121,15 @@ class Face:
         skin = None if parts is None or np.shape(parts) != (len(array),) else np.asarray(parts) == Part.SKIN
         bound = bind_points(sources, array, triangles, skin)
         positions = bound.positions()
-        frame = head_frame(positions, None if axes is None else checked_axes(axes))
-        landmarks = {name: frame.to_head(position) for name, position in positions.items()}
+        head_frame = head_frame_of(positions, None if axes is None else checked_axes(axes))
+        landmarks = {name: head_frame.to_head(position) for name, position in positions.items()}
         check_sides(landmarks)
-        units = fapu(positions, frame.axes)
-        head = frame.to_head(array)
+        units = fapu(positions, head_frame.axes)
+        head = head_frame.to_head(array)
         given = checked_parts(parts, head, faces, landmarks, bound)
         if parts is None:
             bound = bind_points(sources, array, triangles, given == Part.SKIN)
-        face_mesh = FaceMesh(head, faces, given, bound, landmarks, frame, units)
+        face_mesh = FaceMesh(head, faces, given, bound, landmarks, head_frame, units)
         return cls(array, Anatomy(face_mesh))
 
     def without(self, *mechanisms: str | Mechanism) -> Face:
@@ -173,7 +173,7 @@ class Face:
     @property
     def axes(self) -> Floats:
         """(3, 3) unit vectors to the subject's left, up and forward, along which FAPs are measured."""
-        return self.anatomy.mesh.frame.axes
+        return self.anatomy.mesh.head_frame.axes
 
     @property
     def outer_skin(self) -> Ints:
@@ -183,9 +183,9 @@ class Face:
     @property
     def eyeballs(self) -> tuple[EyeballPlace, ...]:
         """Its eyeballs at rest; none where the mesh has none."""
-        frame = self.anatomy.mesh.frame
+        placed = self.anatomy.mesh.head_frame
         return tuple(
-            EyeballPlace(ball.index, frame.to_face(ball.centre), ball.gaze @ frame.axes, ball.iris, ball.pupil)
+            EyeballPlace(ball.index, placed.to_face(ball.centre), ball.gaze @ placed.axes, ball.iris, ball.pupil)
             for ball in self.anatomy.eyeballs
         )
 
@@ -254,7 +254,7 @@ class Face:
         yield Progress(0.7, "Preparing contact of lips and lids")
         _ = poser.anatomy.contact
         yield Progress(0.9, "Solving the skin")
-        poser.sketch(Request(silence()), Memory())
+        poser.sketch(Request(silent_faps()), Memory())
 
     def sketcher(self) -> Sketcher:
         """Quick poses for a live preview; see `Sketcher`."""
@@ -272,7 +272,7 @@ class Face:
         tissue: str | Tissue = "default",
     ) -> Iterator[Floats]:
         """Positions (V, 3) frame by frame of the moving face; see `simulate`."""
-        checked = checked_frames(frames)
+        checked = checked_stream(frames)
         weights = checked_emotions(emotions, len(checked))
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
         return simulation.run(stream_plans(checked, checked_drive(drive), weights))

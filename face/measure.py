@@ -28,23 +28,23 @@ def measure(anatomy: Anatomy, positions: Floats) -> Floats:
     The head's own turn (FAPs 48-50) is taken out first where the mesh shows a skull; FAPs are measured along the
     head's axes as ISO/IEC 14496-2 gives them.
     """
-    frame = np.full(FAP_COUNT, np.nan)
+    faps = np.full(FAP_COUNT, np.nan)
     rest = anatomy.mesh.positions
-    head = anatomy.mesh.frame.to_head(_checked(anatomy, positions))
+    head = anatomy.mesh.head_frame.to_head(_checked(anatomy, positions))
     head, turn = anatomy.head_turn.undo(head, rest)
     for number, value in turn.items():
-        frame[number - 1] = value
+        faps[number - 1] = value
     rows = anatomy.rows
     reader = anatomy.mesh.points.matrix(rows.names)
     shift = np.asarray(reader @ (head - rest))
-    frame[rows.numbers - 1] = (shift * rows.directions).sum(axis=1) / rows.units
+    faps[rows.numbers - 1] = (shift * rows.directions).sum(axis=1) / rows.units
     roll = _tongue_roll(anatomy, head, rest)
     if roll is not None:
-        frame[47 - 1] = roll
+        faps[47 - 1] = roll
     for ball in anatomy.eyeballs:
         for number, value in ball.measure(head[ball.index]).items():
-            frame[number - 1] = value
-    return frame
+            faps[number - 1] = value
+    return faps
 
 
 def _tongue_roll(anatomy: Anatomy, head: Floats, rest: Floats) -> float | None:
@@ -67,8 +67,7 @@ def features(anatomy: Anatomy, positions: Floats) -> Floats:
     ModelError : names a feature point that the face lacks.
     """
     now = _checked(anatomy, positions)
-    frame = anatomy.mesh.frame
-    rest = frame.to_face(anatomy.mesh.positions)
+    rest = anatomy.mesh.head_frame.to_face(anatomy.mesh.positions)
     points = anatomy.mesh.points
     values = np.empty(len(FEATURES))
     for i, feature in enumerate(FEATURES):

@@ -1,4 +1,4 @@
-"""The frames, drives and emotions that a caller gives, checked once: every refusal names the thing and the remedy."""
+"""The FAPs, drives and emotions that a caller gives, checked once: every refusal names the thing and the remedy."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ def checked_request(
 ) -> Request:
     """The request that a caller makes; contractions are checked by the face that has the muscles."""
     by_hand = (ByHand(contractions),) if contractions else ()
-    return Request(checked_frame(frame), checked_drive(drive), checked_emotion(emotion), by_hand)
+    return Request(checked_faps(frame), checked_drive(drive), checked_emotion(emotion), by_hand)
 
 
-def checked_frame(frame: ArrayLike) -> Floats:
+def checked_faps(frame: ArrayLike) -> Floats:
     """(68,) float64, finite or NaN."""
     array = np.array(frame, dtype=np.float64)
     if array.shape != (FAP_COUNT,):
@@ -30,16 +30,16 @@ def checked_frame(frame: ArrayLike) -> Floats:
     return array
 
 
-def checked_frames(frames: ArrayLike) -> Floats:
+def checked_stream(frames: ArrayLike) -> Floats:
     """(T, 68) float64, at least one frame, each finite or NaN."""
     array = np.array(frames, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != FAP_COUNT or len(array) == 0:
         raise ParameterError("frames", f"must have the shape (T, {FAP_COUNT}) with one frame or more", array.shape)
     wrong = np.argwhere(np.isinf(array))
     if len(wrong):
-        moment, index = wrong[0]
+        step, index = wrong[0]
         raise ParameterError(
-            f"FAP {index + 1} of frame {moment}", "must be finite, or NaN where not stated", float(array[moment, index])
+            f"FAP {index + 1} of frame {step}", "must be finite, or NaN where not stated", float(array[step, index])
         )
     return array
 

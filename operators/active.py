@@ -36,15 +36,15 @@ def face_reason(obj: Any | None) -> str | None:
 
 def ready_reason(obj: Any | None) -> str | None:
     """Why the active object cannot be shown or moved at once, or None: it needs its feature points, too."""
-    return face_reason(obj) or _pointless(obj)
+    return face_reason(obj) or _missing_points_reason(obj)
 
 
 def reading_reason(obj: Any | None) -> str | None:
     """Why the active object cannot be read as a face, or None. What is linked or shared may be read, too."""
-    return refusals.reason(obj, writing=False) or _pointless(obj)
+    return refusals.reason(obj, writing=False) or _missing_points_reason(obj)
 
 
-def _pointless(obj: Any | None) -> str | None:
+def _missing_points_reason(obj: Any | None) -> str | None:
     """That a face has no feature points yet, or None."""
     if obj is None or has_points(obj):
         return None

@@ -44,7 +44,7 @@ class Eyeball:
     ----------
     index : (k,) mesh vertices. positions : (k, 3) at rest, head space. centre : (3,). gaze : (3,) unit axis at rest.
     pupil : angle from the axis to the neutral pupil's edge, rad. iris : the same to the iris' edge.
-    faps : numbers of yaw, pitch, thrust, dilate for this side.
+    fap_numbers : of yaw, pitch, thrust, dilate for this side.
     units : metres of head space per unit of thrust and of dilation.
     """
 
@@ -54,26 +54,26 @@ class Eyeball:
     gaze: Floats
     pupil: float
     iris: float
-    faps: tuple[int, int, int, int]
+    fap_numbers: tuple[int, int, int, int]
     units: tuple[float, float]
 
     @property
     def side(self) -> str:
         """Whose it is: "l" or "r"."""
-        return "l" if self.faps[0] == 23 else "r"
+        return "l" if self.fap_numbers[0] == 23 else "r"
 
-    def displacement(self, frame: Floats) -> Floats:
-        """(k, 3) displacement in head space for a frame (68,) in FAP units."""
-        yaw, pitch, thrust, dilate = (value_of(frame, number) for number in self.faps)
+    def displacement(self, faps: Floats) -> Floats:
+        """(k, 3) displacement in head space for FAPs (68,) in FAP units."""
+        yaw, pitch, thrust, dilate = (value_of(faps, number) for number in self.fap_numbers)
         away = self._dilated(dilate * self.units[1] / 2.0)
         turn = Rotation.from_euler("yx", [yaw * ANGLE_UNIT, pitch * ANGLE_UNIT])
         moved: Floats = turn.apply(away) + self.centre - self.positions
         moved[:, 2] += thrust * self.units[0]
         return moved
 
-    def look(self, frame: Floats) -> Look:
-        """Where the eyeball is and looks for a frame (68,) in FAP units."""
-        yaw, pitch, thrust = (value_of(frame, number) for number in self.faps[:3])
+    def look(self, faps: Floats) -> Look:
+        """Where the eyeball is and looks for FAPs (68,) in FAP units."""
+        yaw, pitch, thrust = (value_of(faps, number) for number in self.fap_numbers[:3])
         turn = Rotation.from_euler("yx", [yaw * ANGLE_UNIT, pitch * ANGLE_UNIT])
         return Look(self.centre + np.array([0.0, 0.0, thrust * self.units[0]]), turn.apply(self.gaze))
 
@@ -102,13 +102,13 @@ class Eyeball:
         centre_shift = now[body].mean(axis=0) - turn.apply(away[body].mean(axis=0))
         yaw, pitch, _ = turn.as_euler("yxz")
         values = {
-            self.faps[0]: yaw / ANGLE_UNIT,
-            self.faps[1]: pitch / ANGLE_UNIT,
-            self.faps[2]: float(centre_shift[2]) / self.units[0],
+            self.fap_numbers[0]: yaw / ANGLE_UNIT,
+            self.fap_numbers[1]: pitch / ANGLE_UNIT,
+            self.fap_numbers[2]: float(centre_shift[2]) / self.units[0],
         }
         dilation = self._read_dilation(turn.inv().apply(now - centre_shift))
         if dilation is not None:
-            values[self.faps[3]] = dilation
+            values[self.fap_numbers[3]] = dilation
         return values
 
     def _read_dilation(self, unturned: Floats) -> float | None:
@@ -130,11 +130,11 @@ def build_eyeball(
     positions: Floats,
     pupil: Floats,
     iris_radius: float,
-    faps: tuple[int, int, int, int],
+    fap_numbers: tuple[int, int, int, int],
     units: tuple[float, float],
 ) -> Eyeball:
     """An eyeball from its vertices (k,), (k, 3), the pupil's middle (3,) and the iris' radius, all in head space."""
     gaze = pupil - eye.centre
     gaze = gaze / np.linalg.norm(gaze)
     iris = float(np.arcsin(min(iris_radius / eye.radius, WIDEST_IRIS)))
-    return Eyeball(index, positions, eye.centre, gaze, iris * EYEBALL.pupil, iris, faps, units)
+    return Eyeball(index, positions, eye.centre, gaze, iris * EYEBALL.pupil, iris, fap_numbers, units)

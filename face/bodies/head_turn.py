@@ -49,9 +49,9 @@ class HeadTurn:
         """Whether enough of the skull is there to tell how the head is turned."""
         return len(self.skull) >= 4
 
-    def apply(self, positions: Floats, frame: Floats) -> Floats:
-        """Positions (V, 3) with FAPs 48 (down), 49 (left) and 50 (right shoulder) of a frame (68,) applied."""
-        pitch, yaw, roll = (value_of(frame, number) * ANGLE_UNIT for number in (48, 49, 50))
+    def apply(self, positions: Floats, faps: Floats) -> Floats:
+        """Positions (V, 3) turned as FAPs 48 (down), 49 (left) and 50 (right shoulder) of `faps` (68,) say."""
+        pitch, yaw, roll = (value_of(faps, number) * ANGLE_UNIT for number in (48, 49, 50))
         if pitch == yaw == roll == 0.0:
             return positions
         vector = Rotation.from_euler("yxz", [yaw, pitch, roll]).as_rotvec()

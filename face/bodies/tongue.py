@@ -12,7 +12,7 @@ from ..figures import Length, Share, read_figures
 from ..skin.outer import smoothstep
 from .direct_faps import value_of
 
-#: FAPs of the tongue, as places in a frame.
+#: FAPs of the tongue, as places in a vector of all FAPs.
 TONGUE = slice(42, 47)
 
 
@@ -48,10 +48,10 @@ class Tongue:
     body: Floats
     units: tuple[float, float]
 
-    def displacement(self, frame: Floats) -> Floats:
-        """(k, 3) displacement in head space for FAPs 43-47 of a frame (68,)."""
+    def displacement(self, faps: Floats) -> Floats:
+        """(k, 3) displacement in head space, as FAPs 43-47 of `faps` (68,) say."""
         wide, high = self.units
-        right, up, forward, raised, roll = (value_of(frame, number) for number in range(43, 48))
+        right, up, forward, raised, roll = (value_of(faps, number) for number in range(43, 48))
         moved: Floats = np.zeros_like(self.positions)
         moved[:, 0] = -self.tip * right * wide
         moved[:, 1] = self.tip * up * high + self.body * raised * high
@@ -59,14 +59,14 @@ class Tongue:
         moved += self._rolled(roll * ANGLE_UNIT) * (self.tip + self.body)[:, None]
         return moved
 
-    def sunk(self, opening: float, frame: Floats) -> Floats:
+    def sunk(self, opening: float, faps: Floats) -> Floats:
         """(k, 3) displacement in head space by which a tongue of which nothing is asked lies down as the jaw opens.
 
         A tongue at rest fills the closed mouth up to the palate; carried down like a stone it would plug the open one.
         `opening` is how far the chin has dropped, metres.
         """
         moved: Floats = np.zeros_like(self.positions)
-        if np.isnan(frame[TONGUE]).all():
+        if np.isnan(faps[TONGUE]).all():
             height = self.positions[:, 1] - self.positions[:, 1].min()
             moved[:, 1] = -FIGURES.sinks * float(smoothstep(np.array(opening / FIGURES.sinks_by))) * height
         return moved

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...arrays import Floats
-from .request import Request, silence
+from .request import Request, silent_faps
 
 #: What differs by less than a share and some FAP units counts as asked: after its range was heeded, after others were.
 AS_HELD, AS_WEIGHED = (0.02, 1.0), (0.1, 5.0)
@@ -74,7 +74,7 @@ def blended(request: Request, plans: Sequence[Plan], weights: Sequence[float]) -
     shown = [(plan, weight / total) for plan, weight in zip(plans, weights, strict=True) if weight > 0.0]
     if not shown:
         rest = np.where(np.isnan(plans[0].goal), np.nan, 0.0)
-        return Plan(request, rest, silence(), silence())
+        return Plan(request, rest, silent_faps(), silent_faps())
     shares = np.array([share for _, share in shown])
     return Plan(
         request,

@@ -22,7 +22,7 @@ Contractions: TypeAlias = Mapping[str, float]
 class Drive(StrEnum):
     """How FAPs move the face.
 
-    natural : requests weighed against anatomy and each other, silence filled by action units (default).
+    natural : requests weighed against anatomy and each other, silent_faps filled by action units (default).
     exact : requests met exactly: muscles, then an elastic correction of the rest.
     muscles : contractions alone, as near as they come.
     points : the skin's elasticity alone, points moved exactly.
@@ -60,6 +60,6 @@ class Request:
     by_hand: tuple[ByHand, ...] = ()
 
 
-def silence() -> Floats:
+def silent_faps() -> Floats:
     """(68,) FAPs of which none is asked."""
     return np.full(FAP_COUNT, np.nan)

@@ -20,7 +20,7 @@ class FaceMesh:
     positions : (V, 3) metres. polygons : vertex index arrays. parts : (V,) numbers of `Part`.
     points : bound feature points (their positions in the face's own coordinates).
     landmarks : feature point -> (3,) in head space.
-    frame, units : where the head is, and its FAP units.
+    head_frame, units : where the head is, and its FAP units.
     """
 
     positions: Floats
@@ -28,5 +28,5 @@ class FaceMesh:
     parts: Ints
     points: FeaturePoints
     landmarks: Mapping[str, Floats]
-    frame: HeadFrame
+    head_frame: HeadFrame
     units: Fapu

@@ -45,9 +45,9 @@ class FapRows:
         """FAP number -> row."""
         return {int(number): row for row, number in enumerate(self.numbers) if number}
 
-    def select(self, frame: Floats) -> Floats:
-        """(m,) the rows' displacements in metres asked for by a frame (68,) in FAP units; NaN where silent."""
-        return np.where(self.numbers > 0, frame[self.numbers - 1], np.nan) * self.units
+    def select(self, faps: Floats) -> Floats:
+        """(m,) the rows' displacements in metres asked for by FAPs (68,) in FAP units; NaN where silent."""
+        return np.where(self.numbers > 0, faps[self.numbers - 1], np.nan) * self.units
 
     def with_lip_middles(self) -> FapRows:
         """These rows and a sideways row for every lip middle among their points."""
@@ -68,7 +68,7 @@ class FapRows:
         return sparse.csr_array(entries, shape=(len(self), 3 * reader.shape[1]))
 
 
-def displacement_rows(points: FeaturePoints, units: Fapu, frame: HeadFrame) -> FapRows:
+def displacement_rows(points: FeaturePoints, units: Fapu, head_frame: HeadFrame) -> FapRows:
     """The rows of every displacement FAP whose feature point is bound to the mesh; eyeballs and head have none."""
     numbers, names, directions, lengths = [], [], [], []
     for number, fap in FAPS.items():
@@ -81,7 +81,7 @@ def displacement_rows(points: FeaturePoints, units: Fapu, frame: HeadFrame) -> F
         numbers.append(number)
         names.append(name)
         directions.append((direction[0], direction[2], -direction[1]))
-        lengths.append(unit_length(fap.unit, units) / frame.scale)
+        lengths.append(unit_length(fap.unit, units) / head_frame.scale)
     return FapRows(
         numbers=np.array(numbers, dtype=np.int64),
         names=tuple(names),

@@ -22,7 +22,7 @@ from .template import TEMPLATE_POINTS
 #: them: whoever made it decided what is upright, and no points tell it so well.
 MODELLED_TOLERANCE = np.radians(10.0)
 
-#: Points that hardly move with expression and hardly depend on the person: they carry the frame.
+#: Points that hardly move with expression and hardly depend on the person: they carry the head frame.
 FRAME_POINTS = (
     "3.7", "3.11", "3.8", "3.12", "9.15", "9.3", "9.12", "4.3", "4.4", "8.3", "8.4", "2.10", "10.9", "10.10",
     "2.13", "2.14",
@@ -61,7 +61,7 @@ def _rotation_between(source: Floats, target: Floats) -> Floats:
     return rotation
 
 
-def head_frame(points: Mapping[str, Floats], axes: Floats | None = None) -> HeadFrame:
+def head_frame_of(points: Mapping[str, Floats], axes: Floats | None = None) -> HeadFrame:
     """The head frame of a neutral face from its feature points.
 
     Parameters
@@ -71,7 +71,7 @@ def head_frame(points: Mapping[str, Floats], axes: Floats | None = None) -> Head
 
     Raises
     ------
-    ModelError : when fewer than six of the frame's points are known, or they do not form a face.
+    ModelError : when fewer than six of these points are known, or they do not form a face.
     """
     axes = _axes(points) if axes is None else axes
     origin = np.asarray(points["9.15"], dtype=np.float64)

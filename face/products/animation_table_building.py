@@ -136,9 +136,9 @@ class _Solver:
 
     def posed(self, number: int, value: float, other: float) -> Floats:
         """(V, 3) metres between rest and the pose of one FAP, all others at a value."""
-        frame = np.full(FAP_COUNT, other)
-        frame[number - 1] = value
-        return np.asarray(self.face.pose(frame, drive=self.drive).positions - self.face.vertices, dtype=np.float64)
+        faps = np.full(FAP_COUNT, other)
+        faps[number - 1] = value
+        return np.asarray(self.face.pose(faps, drive=self.drive).positions - self.face.vertices, dtype=np.float64)
 
     def carried(self, value: float) -> Floats:
         """(V, 3) metres of the jaw: it takes lips and chin along, and what their own tables do of that is taken off.

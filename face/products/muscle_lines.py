@@ -45,7 +45,8 @@ def muscle_lines(face: Face) -> Mapping[str, MuscleLines]:
         if share.all():  # a ring lies on the skin
             strands = _smoothed(skin.positions[nearest.query(strands)[1]])
         vertices = np.asarray(skin.index[nearest.query(strands[:, -1])[1]])
-        lines[name] = MuscleLines(mesh.frame.to_face(strands.reshape(-1, 3)).reshape(strands.shape), share, vertices)
+        places = mesh.head_frame.to_face(strands.reshape(-1, 3)).reshape(strands.shape)
+        lines[name] = MuscleLines(places, share, vertices)
     return MappingProxyType(lines)
 
 

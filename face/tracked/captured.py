@@ -74,14 +74,14 @@ def read_capture(
     file = Path(path)
     if rate is not None and not (np.isfinite(rate) and rate > 0.0):
         raise ParameterError("rate", "must be a positive number of frames per second", rate)
-    frames = read_json_frames(file) if file.suffix.lower() in (".json", ".jsonl") else None
-    table = read_table_file(file) if frames is None else None
-    chosen = _checked_kind(kind) if kind is not None else _kind_of(file, table, frames)
+    recorded = read_json_frames(file) if file.suffix.lower() in (".json", ".jsonl") else None
+    table = read_table_file(file) if recorded is None else None
+    chosen = _checked_kind(kind) if kind is not None else _kind_of(file, table, recorded)
     if chosen is CaptureFormat.LANDMARKS:
-        landmarks = _landmarks(table, frames, aspect, rate)
+        landmarks = _landmarks(table, recorded, aspect, rate)
         samples = Samples(landmarks.times, read_landmarks(landmarks, neutral=neutral).frames)
-    elif frames is not None:
-        samples = read_scores(frames, rate=rate)
+    elif recorded is not None:
+        samples = read_scores(recorded, rate=rate)
     else:
         assert table is not None
         samples = _samples(table, chosen, rate)
@@ -89,10 +89,12 @@ def read_capture(
     return FapStream(frames=even, fps=per_second, name=_name(file))
 
 
-def _landmarks(table: TableFile | None, frames: list[JsonFrame] | None, aspect: float, rate: float | None) -> Landmarks:
+def _landmarks(
+    table: TableFile | None, recorded: list[JsonFrame] | None, aspect: float, rate: float | None
+) -> Landmarks:
     """The landmarks of a file of either kind."""
-    if frames is not None:
-        return landmarks_from_json(frames, aspect=aspect, rate=rate)
+    if recorded is not None:
+        return landmarks_from_json(recorded, aspect=aspect, rate=rate)
     assert table is not None
     return landmarks_from_csv(table, aspect=aspect, rate=rate)
 
@@ -119,12 +121,12 @@ def _checked_kind(kind: str | CaptureFormat) -> CaptureFormat:
         raise ParameterError("kind", f"must be one of {', '.join(CaptureFormat)}", str(kind)) from None
 
 
-def _kind_of(file: Path, table: TableFile | None, frames: list[JsonFrame] | None) -> CaptureFormat:
+def _kind_of(file: Path, table: TableFile | None, recorded: list[JsonFrame] | None) -> CaptureFormat:
     """The kind that a file's columns or entries tell."""
-    if frames is not None:
-        if any(frame.entry("blendshapes") is not None for frame in frames):
+    if recorded is not None:
+        if any(frame.entry("blendshapes") is not None for frame in recorded):
             return CaptureFormat.MEDIAPIPE
-        if any(frame.entry("landmarks") is not None for frame in frames):
+        if any(frame.entry("landmarks") is not None for frame in recorded):
             return CaptureFormat.LANDMARKS
         raise FormatError(file, "has neither blend shapes nor landmarks in any frame")
     assert table is not None

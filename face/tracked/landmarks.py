@@ -113,12 +113,12 @@ def read_points(
     rest = np.nanmean(still[chosen], axis=0)
     at_rest = _with_pupils({name: rest[index] for name, index in place.items()})
     units = fapu(at_rest, np.eye(3))
-    frames = np.full((len(points), FAP_COUNT), np.nan)
-    _read_shifts(frames, still - rest, place, units)
-    _read_eyes(frames, still, place, eye_radius * units.es0, rest)
-    frames[:, 47:50] = head_faps(pose.rotations @ mean_rotation(pose.rotations[chosen]).T)
-    frames[:, [number - 1 for number in unseen]] = np.nan
-    return LandmarkReading(frames, at_rest, units, chosen, pose)
+    stream = np.full((len(points), FAP_COUNT), np.nan)
+    _read_shifts(stream, still - rest, place, units)
+    _read_eyes(stream, still, place, eye_radius * units.es0, rest)
+    stream[:, 47:50] = head_faps(pose.rotations @ mean_rotation(pose.rotations[chosen]).T)
+    stream[:, [number - 1 for number in unseen]] = np.nan
+    return LandmarkReading(stream, at_rest, units, chosen, pose)
 
 
 def fit_poses(reference: Floats, points: Floats, seen: Bools) -> Pose3:
@@ -130,15 +130,15 @@ def fit_poses(reference: Floats, points: Floats, seen: Bools) -> Pose3:
     rotations, scales, shifts = np.full((count, 3, 3), np.nan), np.full(count, np.nan), np.full((count, 3), np.nan)
     middle = reference.mean(axis=0)
     away = reference - middle
-    for frame in np.flatnonzero(seen):
-        centre = points[frame].mean(axis=0)
-        u, size, vt = np.linalg.svd((points[frame] - centre).T @ away)
+    for step in np.flatnonzero(seen):
+        centre = points[step].mean(axis=0)
+        u, size, vt = np.linalg.svd((points[step] - centre).T @ away)
         if size[1] <= 1e-9 * size[0] or size[0] == 0.0:
             continue
         signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u @ vt))])
-        rotations[frame] = (u * signs) @ vt
-        scales[frame] = (size * signs).sum() / (away**2).sum()
-        shifts[frame] = centre - scales[frame] * rotations[frame] @ middle
+        rotations[step] = (u * signs) @ vt
+        scales[step] = (size * signs).sum() / (away**2).sum()
+        shifts[step] = centre - scales[step] * rotations[step] @ middle
     return Pose3(rotations, scales, shifts)
 
 
@@ -156,15 +156,15 @@ def usual_frames(shapes: Floats, seen: Bools) -> Ints:
     ----------
     shapes : (T, P, 3) points without the head's motion. seen : (T,) frames with a face.
     """
-    frames = np.flatnonzero(seen)
-    frames = frames[:: max(1, len(frames) // COMPARED)]
-    flat = np.nan_to_num(shapes[frames]).reshape(len(frames), -1)
+    steps = np.flatnonzero(seen)
+    steps = steps[:: max(1, len(steps) // COMPARED)]
+    flat = np.nan_to_num(shapes[steps]).reshape(len(steps), -1)
     squares = (flat**2).sum(axis=1)
     apart = squares[:, None] + squares - 2.0 * flat @ flat.T
     nearest = np.argsort(apart, axis=1, kind="stable")
-    company, closest = (max(1, round(share * len(frames))) for share in (USUAL_SHARE, NEUTRAL_SHARE))
+    company, closest = (max(1, round(share * len(steps))) for share in (USUAL_SHARE, NEUTRAL_SHARE))
     crowded = np.take_along_axis(apart, nearest[:, :company], axis=1).sum(axis=1)
-    return np.asarray(np.sort(frames[nearest[int(crowded.argmin()), :closest]]), dtype=np.int64)
+    return np.asarray(np.sort(steps[nearest[int(crowded.argmin()), :closest]]), dtype=np.int64)
 
 
 def _neutral_frames(shapes: Floats, seen: Bools, neutral: tuple[int, int] | None) -> Ints:
@@ -188,22 +188,22 @@ def _with_pupils(points: dict[str, Floats]) -> dict[str, Floats]:
     return points
 
 
-def _read_shifts(frames: Floats, shifts: Floats, place: Mapping[str, int], units: Fapu) -> None:
-    """Fill in the displacement FAPs of shifts (T, P, 3) in head space."""
+def _read_shifts(stream: Floats, shifts: Floats, place: Mapping[str, int], units: Fapu) -> None:
+    """Fill the displacement FAPs of a stream (T, 68) in from shifts (T, P, 3) in head space, in place."""
     for number, fap in FAPS.items():
         direction, point = fap.motion.direction if fap.motion is not None else None, fap.feature_point
         if direction is None or fap.angular or point is None or point not in place or point in EYES:
             continue
         along = np.array([direction[0], direction[2], -direction[1]])
-        frames[:, number - 1] = shifts[:, place[point]] @ along / unit_length(fap.unit, units)
+        stream[:, number - 1] = shifts[:, place[point]] @ along / unit_length(fap.unit, units)
 
 
-def _read_eyes(frames: Floats, still: Floats, place: Mapping[str, int], radius: float, rest: Floats) -> None:
-    """Fill in the turn of the eyes, from the pupils' places between the corners of the eyes against those at rest."""
+def _read_eyes(stream: Floats, still: Floats, place: Mapping[str, int], radius: float, rest: Floats) -> None:
+    """Fill the turn of the eyes in from the pupils' places between the corners of the eyes against those at rest."""
     for pupil, (yaw, pitch, corners) in EYES.items():
         if pupil not in place:
             continue
         ends = [place[corner] for corner in corners]
         aside = (still[:, place[pupil]] - still[:, ends].mean(axis=1)) - (rest[place[pupil]] - rest[ends].mean(axis=0))
         turn = np.arcsin(np.clip(aside / radius, -1.0, 1.0)) / ANGLE_UNIT
-        frames[:, yaw - 1], frames[:, pitch - 1] = turn[:, 0], -turn[:, 1]
+        stream[:, yaw - 1], stream[:, pitch - 1] = turn[:, 0], -turn[:, 1]

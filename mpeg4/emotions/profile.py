@@ -112,14 +112,17 @@ class Profile:
             raise ParameterError("weights", "must be shares >= 0 that sum to 1", weights)
         if bool(checked) and not weights:
             raise ParameterError("weights", "must name at least one archetype unless the profile is empty", weights)
-        settle = object.__setattr__
-        settle(self, "ranges", checked)
-        settle(self, "activation", check_activation(self.activation))
-        settle(self, "angle", check_angle(self.angle))
-        settle(self, "weights", weights)
-        settle(self, "category", None if self.category is None else check_archetype(self.category))
-        settle(self, "variants", {check_archetype(name): int(number) for name, number in self.variants.items()})
-        settle(self, "signs", check_signs(self.signs))
+        normalised = {
+            "ranges": checked,
+            "activation": check_activation(self.activation),
+            "angle": check_angle(self.angle),
+            "weights": weights,
+            "category": None if self.category is None else check_archetype(self.category),
+            "variants": {check_archetype(name): int(number) for name, number in self.variants.items()},
+            "signs": check_signs(self.signs),
+        }
+        for name, value in normalised.items():
+            object.__setattr__(self, name, value)
 
     @property
     def variant(self) -> int | None:

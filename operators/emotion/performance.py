@@ -10,7 +10,7 @@ import numpy as np
 from ...arrays import Floats
 from ...mpeg4 import Cue, Drawn, Liveliness, Ramp, drawn_within
 from ...scene.bake.timing import scene_fps
-from ..timeline.props import sounding
+from ..timeline.props import playing_clips
 from ..timeline.titles import clip_title
 from .profile import Wanted, title_of, wanted_of
 
@@ -61,7 +61,7 @@ def performance_of(obj: Any, scene: Any) -> Performance:
     """What is laid out for `obj`: the clips of its timeline, or without any the chosen emotion with its timing."""
     timeline, fps = obj.risorius.timeline, scene_fps(scene)
     if timeline.clips:
-        clips = sounding(timeline)
+        clips = playing_clips(timeline)
         choices = [(clip.emotion, clip, {"peak": clip.peak, "ramp": Ramp(clip.ramp)}) for clip in clips]
         titles = [clip_title(clip) for clip in clips]
     else:

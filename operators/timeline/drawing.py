@@ -12,7 +12,7 @@ from ..changes import listen, listen_to_time
 from ..points.canvas import Canvas, Colour, text_width
 from .bars import Bar, lay_out
 from .colours import colour_of
-from .props import active_clip, sounding
+from .props import active_clip, playing_clips
 from .titles import clip_title
 
 #: Pixels at a scale of 1: letters, their distance from the bar's beginning, a rim.
@@ -54,7 +54,7 @@ def _draw() -> None:
     if not bars:
         return
     timeline, scale = context.object.risorius.timeline, context.preferences.system.ui_scale
-    playing, active = {clip.path_from_id() for clip in sounding(timeline)}, active_clip(timeline)
+    playing, active = {clip.path_from_id() for clip in playing_clips(timeline)}, active_clip(timeline)
     canvas = Canvas()
     for bar in bars:
         clip = timeline.clips[bar.number]

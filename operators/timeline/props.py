@@ -184,7 +184,7 @@ def active_clip(timeline: Any) -> Any | None:
     return timeline.clips[timeline.active] if timeline.active < len(timeline.clips) else None
 
 
-def sounding(timeline: Any) -> list[Any]:
+def playing_clips(timeline: Any) -> list[Any]:
     """The clips that play: those that are solo where any is, else those that are not muted."""
     solo = [clip for clip in timeline.clips if clip.solo]
     return solo or [clip for clip in timeline.clips if not clip.mute]

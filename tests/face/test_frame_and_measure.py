@@ -9,7 +9,7 @@ import pytest
 import risorius.api as api
 from risorius.api import Face
 from risorius.face.default_head import HeadMesh
-from risorius.face.mesh.head_frame import head_frame
+from risorius.face.mesh.head_frame import head_frame_of
 from scipy.spatial.transform import Rotation
 
 #: FAPs 1 and 2 are visemes and expressions: no feature point measures them.
@@ -18,10 +18,10 @@ NOT_MEASURED = {1, 2}
 
 def test_the_frame_is_a_rotation_however_the_head_lies(head: HeadMesh) -> None:
     places = {name: head.vertices[point] if isinstance(point, int) else point for name, point in head.points.items()}
-    upright = head_frame(places).axes
+    upright = head_frame_of(places).axes
     for seed in range(300):
         turn = Rotation.random(random_state=seed).as_matrix()
-        axes = head_frame({name: turn @ np.asarray(place) for name, place in places.items()}).axes
+        axes = head_frame_of({name: turn @ np.asarray(place) for name, place in places.items()}).axes
         np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
         assert np.linalg.det(axes) > 0.0
         lies_askew = Rotation.from_matrix(axes @ turn @ upright.T).magnitude()
@@ -69,7 +69,7 @@ def test_a_face_lying_on_its_side_and_a_hundred_times_larger_is_the_same_face(he
 def test_a_face_within_ten_degrees_of_upright_is_measured_along_blenders_axes(head: HeadMesh) -> None:
     for degrees, upright in ((8.0, True), (30.0, False)):
         face = copy_of(head, Rotation.from_euler("x", degrees, degrees=True), 1.0, np.zeros(3))
-        snapped = np.allclose(face.anatomy.mesh.frame.axes, [[1, 0, 0], [0, 0, 1], [0, -1, 0]])
+        snapped = np.allclose(face.anatomy.mesh.head_frame.axes, [[1, 0, 0], [0, 0, 1], [0, -1, 0]])
         assert snapped is upright, degrees
 
 

@@ -64,7 +64,7 @@ def test_folds_are_those_of_the_moving_skin(any_face: Callable[[str], Face]) -> 
         poser = Poser(face.anatomy, folds=folds)
         simulation = Simulation(poser, fps=50.0, integrator="implicit", substeps=1, tissue="default")
         moving = simulation.run(stream_plans(frames, Drive.NATURAL, None))
-        skins.append([face.anatomy.mesh.frame.to_head(p)[face.anatomy.skin.index] for p in moving])
+        skins.append([face.anatomy.mesh.head_frame.to_head(p)[face.anatomy.skin.index] for p in moving])
     placed = Poser(face.anatomy).assembly.folds
     for number, (folded, smooth) in enumerate(zip(*skins, strict=True)):
         expected = placed.displacement(smooth - face.anatomy.skin.positions)

@@ -91,7 +91,7 @@ def _shape(face: Face, name: str, displacement: Floats, skin: Ints) -> Shape:
 
 def head_displacement(face: Face, positions: Floats) -> Floats:
     """(V, 3) displacement in head space of a face's positions (V, 3)."""
-    moved: Floats = face.anatomy.mesh.frame.to_head(positions) - face.anatomy.mesh.positions
+    moved: Floats = face.anatomy.mesh.head_frame.to_head(positions) - face.anatomy.mesh.positions
     return moved
 
 

@@ -16,7 +16,7 @@ from risorius.face.fit.doubt import DOUBTFUL_SCORE
 from risorius.face.fit.find import locate_points
 from risorius.face.mesh.checks import with_pupils
 from risorius.face.mesh.fap_units import fapu
-from risorius.face.mesh.head_frame import head_frame
+from risorius.face.mesh.head_frame import head_frame_of
 
 from . import shapes
 from .heads import TrueHead
@@ -89,7 +89,7 @@ def _unit_errors(found: Mapping[str, Floats], truth: Mapping[str, Floats]) -> di
         )
         places = {name: np.asarray(place) for name, place in whole.items()}
         try:
-            units.append(vars(fapu(places, head_frame(places).axes)))
+            units.append(vars(fapu(places, head_frame_of(places).axes)))
         except ModelError:
             return {}
     return {name: abs(units[0][name] / units[1][name] - 1.0) for name in units[0]}

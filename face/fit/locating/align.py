@@ -49,9 +49,9 @@ def align(cloud: Cloud, pose: HeadPose, template: FitTemplate) -> HeadPose:
     chosen = np.flatnonzero(template.front)
     chosen = chosen[:: max(1, len(chosen) // PROBES)]
     model, normals = template.surface.vertices[chosen], template.surface.normals[chosen]
-    frame = pose.alike()
-    near = HeadPose(np.eye(3), np.zeros(3), pose.scale / frame.size)
-    positions, directions = frame.to_template(cloud.positions), frame.normals_to_template(cloud.normals)
+    alike = pose.alike()
+    near = HeadPose(np.eye(3), np.zeros(3), pose.scale / alike.size)
+    positions, directions = alike.to_template(cloud.positions), alike.normals_to_template(cloud.normals)
     tree = cKDTree(positions)
     rounds = ROUNDS_ALIKE + ROUNDS_AXES
     for number in range(rounds):
@@ -73,7 +73,7 @@ def align(cloud: Cloud, pose: HeadPose, template: FitTemplate) -> HeadPose:
             facing[match[found]],
             by_axis=number >= ROUNDS_ALIKE,
         )
-    return near.within(frame)
+    return near.within(alike)
 
 
 def _seen_from_front(positions: Floats, pose: HeadPose) -> Ints:

@@ -64,8 +64,8 @@ def _flow(place: Located, pose: HeadPose, passes: tuple[Pass, ...]) -> Flow:
 
 def pose_of(model: Floats, places: Floats, near: HeadPose) -> HeadPose:
     """The pose near another that brings template points (N, 3) to places (N, 3) of the mesh; outliers count less."""
-    frame = near.alike()
-    own, aims = model * (near.scale / near.size), frame.to_template(places)
+    alike = near.alike()
+    own, aims = model * (near.scale / near.size), alike.to_template(places)
     firm = ALIKE * np.sqrt(len(model))
 
     def misses(figures: Floats) -> Floats:
@@ -75,4 +75,4 @@ def pose_of(model: Floats, places: Floats, near: HeadPose) -> HeadPose:
 
     best = least_squares(misses, np.zeros(9), loss="soft_l1", f_scale=HALF).x
     found = HeadPose(Rotation.from_rotvec(best[:3]).as_matrix(), best[3:6], np.exp(best[6:]) * near.scale / near.size)
-    return found.within(frame)
+    return found.within(alike)

@@ -30,7 +30,7 @@ def opened(positions: np.ndarray, opening: Opening) -> np.ndarray:
 
 def skin_of(face: Face, positions: np.ndarray) -> np.ndarray:
     """The outer skin (n, 3) of posed vertices, in head space."""
-    return np.asarray(face.anatomy.mesh.frame.to_head(positions)[face.anatomy.skin.index])
+    return np.asarray(face.anatomy.mesh.head_frame.to_head(positions)[face.anatomy.skin.index])
 
 
 def overlap(face: Face, positions: np.ndarray, opening: Opening) -> float:
@@ -55,7 +55,7 @@ def depth_in(face: Face, positions: np.ndarray, part: Part, near: np.ndarray, ce
 
     Minus infinity where nothing of the part is before it. Measured on the posed mesh itself, outermost surface first.
     """
-    posed = face.anatomy.mesh.frame.to_head(positions)
+    posed = face.anatomy.mesh.head_frame.to_head(positions)
     key = (int(part), posed[face.parts == part].tobytes())
     if key not in _surfaces:
         polygons = [p for p in face.polygons if (face.parts[p] == part).all()]

@@ -7,9 +7,9 @@ import pytest
 import risorius.api as api
 from risorius.face.drive.natural.planning import plan_naturally
 from risorius.face.drive.plan import Plan, blended
-from risorius.face.drive.request import Drive, Request, silence
+from risorius.face.drive.request import Drive, Request, silent_faps
 
-SILENT = Request(silence())
+SILENT = Request(silent_faps())
 
 
 def plan_of(word: str, variant: int) -> Plan:
@@ -33,7 +33,7 @@ def test_a_plan_shown_alone_is_itself_and_two_in_full_are_their_mean() -> None:
 
 
 def test_a_plan_as_asked_has_nothing_to_explain() -> None:
-    faps = silence()
+    faps = silent_faps()
     faps[[2, 11]] = 1500.0, -40.0
     plan = Plan.as_asked(Request(faps, Drive.EXACT))
     assert plan.goal is faps

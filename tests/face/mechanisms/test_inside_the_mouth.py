@@ -27,7 +27,7 @@ def comes_through(face: Face, frame: np.ndarray) -> float:
     """How far the mouth bag comes out through the skin that it lies behind at rest, mm."""
     anatomy = face.anatomy
     rest = anatomy.mesh.positions
-    posed = anatomy.mesh.frame.to_head(face.pose(frame, drive="exact").positions)
+    posed = anatomy.mesh.head_frame.to_head(face.pose(frame, drive="exact").positions)
     inner, outer = anatomy.inner_skin.index, anatomy.skin.index
     distance, nearest = cKDTree(rest[outer]).query(rest[inner])
     normals = anatomy.skin.normals[nearest]
@@ -58,7 +58,7 @@ def tongue_top(face: Face, frame: np.ndarray) -> float:
     anatomy = face.anatomy
     assert anatomy.tongue is not None
     pose = face.pose(frame, drive="exact")
-    posed = anatomy.mesh.frame.to_head(pose.positions)
+    posed = anatomy.mesh.head_frame.to_head(pose.positions)
     tongue = anatomy.tongue.index
     top = tongue[np.argmax(anatomy.mesh.positions[tongue, 1])]
     lower = np.setdiff1d(anatomy.lower_teeth, tongue)

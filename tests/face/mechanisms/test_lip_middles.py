@@ -15,7 +15,7 @@ def sideways(face: Face, faps: np.ndarray) -> float:
     """Largest sideways motion of a lip middle, mm on the template."""
     positions = face.pose(faps, drive="exact").positions
     reader = face.points.matrix(LIP_MIDDLES)
-    frame = face.anatomy.mesh.frame
+    frame = face.anatomy.mesh.head_frame
     moved = reader @ (frame.to_head(positions) - frame.to_head(face.vertices))
     return float(np.abs(moved[:, 0]).max()) * 1e3
 

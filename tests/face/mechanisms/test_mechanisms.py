@@ -41,7 +41,7 @@ class Moved:
 def shown(face: Face, positions: np.ndarray) -> Moved:
     """How far positions (V, 3) are from rest."""
     mesh = face.anatomy.mesh
-    moved = mesh.frame.to_head(positions) - mesh.positions
+    moved = mesh.head_frame.to_head(positions) - mesh.positions
     return Moved(face, moved[face.anatomy.skin.index] / MM)
 
 

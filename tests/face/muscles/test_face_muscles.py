@@ -138,7 +138,7 @@ def test_an_open_jaw_turns_the_lower_teeth_and_drops_the_chin_back(
     frame = SILENT.copy()
     frame[3 - 1] = 600.0
     pose = face.pose(frame, drive=drive)
-    moved = face.anatomy.mesh.frame.to_head(pose.positions) - face.anatomy.mesh.positions
+    moved = face.anatomy.mesh.head_frame.to_head(pose.positions) - face.anatomy.mesh.positions
     teeth = face.anatomy.mesh.positions[face.parts == Part.TEETH_LOWER]
     now = teeth + moved[face.parts == Part.TEETH_LOWER]
     turn, _ = Rotation.align_vectors(now - now.mean(axis=0), teeth - teeth.mean(axis=0))
@@ -173,14 +173,14 @@ def test_closing_lids_stay_outside_the_eyeball(any_face: Callable[[str], Face], 
     frame[[19 - 1, 20 - 1]], frame[[21 - 1, 22 - 1]] = 612.0, 412.0  # 1024 together: the whole gap
     pose = face.pose(frame, drive=drive)
     skin = face.anatomy.skin
-    now = face.anatomy.mesh.frame.to_head(pose.positions)[skin.index]
+    now = face.anatomy.mesh.head_frame.to_head(pose.positions)[skin.index]
     for side in "lr":
         eye, margin = face.anatomy.eyes[side], skin.eyes[side].upper
         rest, closed = (np.linalg.norm(p[margin] - eye.centre, axis=1) for p in (skin.positions, now))
         # Where a mesh's lid lies inside the fitted ball from the start, it need not leave it.
         assert (closed >= np.minimum(rest, eye.radius) - 0.3e-3).all()
         drop = (skin.positions - now)[margin, 1].max()
-        assert drop > 0.4 * face.units.irisd0 / face.anatomy.mesh.frame.scale
+        assert drop > 0.4 * face.units.irisd0 / face.anatomy.mesh.head_frame.scale
 
 
 def test_skin_pushed_into_the_eyeball_is_lifted_off_it_and_other_skin_is_not(face: Face) -> None:
@@ -214,7 +214,7 @@ def test_contractions_scale_from_nothing_to_the_amplitude(face: Face) -> None:
     """The amplitude is the low-strain response; the biphasic skin gives more at first and less when stretched far."""
     name = "frontalis_lat_r"
     muscle = face.muscles[name]
-    actuators, scale = face.anatomy.actuators, face.anatomy.mesh.frame.scale
+    actuators, scale = face.anatomy.actuators, face.anatomy.mesh.head_frame.scale
     number = [placed.name for placed in actuators.muscles].index(name)
     gains = []
     for share in (0.25, 1.0):
