@@ -8,7 +8,7 @@ They know nothing of faces: which skin a muscle may act on (upper or lower lip, 
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+from typing import Protocol
 
 from ...arrays import Floats
 from .linear import LinearMuscle
@@ -16,7 +16,6 @@ from .sheet import SheetMuscle
 from .sphincter import SphincterMuscle
 
 
-@runtime_checkable
 class Muscle(Protocol):
     """Anything that pulls skin nodes."""
 

@@ -105,9 +105,12 @@ def test_measure_reads_faps_off_a_deformed_mesh(run_json: Run, tmp_path: Path) -
     np.testing.assert_allclose(stored[2:], measured[2:], atol=1.0)
 
 
-def test_recognise_reads_a_deformed_mesh(run_json: Run, default_obj: Path) -> None:
-    beliefs = run_json("recognise", default_obj)
+def test_recognise_reads_a_deformed_mesh(run_json: Run, tmp_path: Path) -> None:
+    surprise = api.expression("surprise")
+    posed = api.default_face().pose(surprise.frame(), emotion=surprise.weights).positions
+    beliefs = run_json("recognise", write_obj(tmp_path / "surprised.obj", posed))
     assert set(beliefs) == {str(name) for name in api.ARCHETYPES}
+    assert max(beliefs, key=beliefs.get) == "surprise"
 
 
 @pytest.fixture

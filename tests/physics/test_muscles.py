@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from risorius.errors import ParameterError
-from risorius.physics.muscles import LinearMuscle, Muscle, SheetMuscle, SphincterMuscle
+from risorius.physics.muscles import LinearMuscle, SheetMuscle, SphincterMuscle
 
 Vector = tuple[float, float, float]
 
@@ -154,10 +154,6 @@ def test_sheet_pulls_all_fibres_the_same_way_within_its_rectangle() -> None:
     force = muscle.force(np.array([[-0.9, 0, 1], [0.9, 0, 1], [1.1, 0, 1], [0, 0, 2.1], [0, 0, 2], [0, 0, 0.49]]))
     assert force == pytest.approx(np.array([[0, 0, 1.0], [0, 0, 1.0]] + [[0.0, 0, 0]] * 4))
     assert muscle.width == pytest.approx(2.0)
-
-
-def test_all_are_muscles() -> None:
-    assert isinstance(unit_linear(), Muscle)
 
 
 @pytest.mark.parametrize(

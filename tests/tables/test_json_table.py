@@ -10,10 +10,19 @@ from risorius.errors import FormatError
 from risorius.tables import read_json
 
 
-@pytest.mark.parametrize("text", ["", "[1]", '{"format": "tea"}', '{"format": "soup", "version": 2}', "[" * 100_000])
-def test_other_documents_are_refused(text: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "a: is not valid JSON: Expecting value: line 1"),
+        ("[1]", "must be an object"),
+        ('{"format": "tea"}', 'key format: must be an object with "format": "soup", "version": 1'),
+        ('{"format": "soup", "version": 2}', 'key format: must be an object with "format": "soup", "version": 1'),
+        ("[" * 100_000, "is not valid JSON"),
+    ],
+)
+def test_other_documents_are_refused(text: str, told: str, tmp_path: Path) -> None:
     (tmp_path / "a").write_text(text)
-    with pytest.raises(FormatError):
+    with pytest.raises(FormatError, match=told):
         read_json(tmp_path / "a", kind="soup", version=1)
 
 

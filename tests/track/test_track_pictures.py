@@ -37,11 +37,13 @@ def test_pictures_become_the_faps_that_they_show(tmp_path: Path, capsys: pytest.
     frames = api.read_fap(out).frames
     seen = {number: frames[:, number - 1] for number in range(1, 69)}
     for number in (3, 6, 7, 12, 13, 19, 20, 33, 34):
-        assert abs(seen[number][1]) < 60.0, "the second neutral picture"
-    shown = {(2, 3): 585, (2, 5): -740, (3, 6): 155, (3, 7): 155, (3, 59): 222, (3, 60): 222}
-    shown |= {(4, 33): 166, (4, 34): 166, (5, 19): 877, (5, 20): 877, (6, 49): 25000}
-    for (frame, number), value in shown.items():
-        assert seen[number][frame] / value == pytest.approx(0.9, abs=0.5), f"FAP {number}"
+        assert abs(seen[number][1]) < 25.0, "the second neutral picture"
+    # (picture, FAP) -> what the mesh in the picture shows, and the share of it that the extra's MediaPipe sees
+    shown = {(2, 3): (585, 0.69), (2, 5): (-740, 1.03), (3, 6): (155, 0.80), (3, 7): (155, 0.85), (3, 59): (222, 1.16),
+             (3, 60): (222, 1.14), (4, 33): (166, 0.54), (4, 34): (166, 0.68), (5, 19): (877, 0.74),
+             (5, 20): (877, 0.75), (6, 49): (25000, 1.05)}  # fmt: skip
+    for (frame, number), (value, share) in shown.items():
+        assert seen[number][frame] / value == pytest.approx(share, abs=0.1), f"FAP {number}"
     assert np.isnan(frames[:, [14 - 1, 29 - 1, 43 - 1, 65 - 1]]).all()
     with sure.open(encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
@@ -64,7 +66,7 @@ def test_pictures_without_a_face_are_refused(tmp_path: Path, capsys: pytest.Capt
 
     cv2.imwrite(str(tmp_path / "grey.png"), np.full((64, 64, 3), 128, dtype=np.uint8))
     assert main(["track", str(tmp_path / "grey.png"), "--out", str(tmp_path / "no.fap")]) == 1
-    assert "no picture shows a face" in capsys.readouterr().err
+    assert "no image shows a face" in capsys.readouterr().err
     assert not (tmp_path / "no.fap").exists()
 
 

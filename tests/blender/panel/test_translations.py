@@ -56,6 +56,7 @@ def choices(text: ast.expr) -> list[ast.expr]:
 
 
 def test_every_translated_text_is_a_name_of_ours(properties_of: Callable[[type], Any]) -> None:
+    assert "de" in translations.load()
     for language, table in translations.load().items():
         assert sorted(set(table) - names(properties_of)) == [], language
 

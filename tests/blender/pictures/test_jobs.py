@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius import cli
-from risorius.errors import FormatError, ModelError, ParameterError, RisoriusError
+from risorius.errors import FormatError, ModelError, ParameterError, SceneError
 from risorius.progress import run
 from risorius.scene import mesh as meshes
 from risorius.scene.bake.performance import PAUSE, cues_of
@@ -88,6 +88,7 @@ def test_the_demo_leaves_film_file_and_sheet(tmp_path: Path) -> None:
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"risorius.blend", "risorius.mp4", "risorius.png"}
     assert made["frames"] == len(api.sequence(cues_of(["joy", "sad"]), fps=4.0)) + 1
     fractions = [step.fraction for step in steps]
+    assert len(fractions) > 10
     assert fractions == sorted(fractions)
 
 
@@ -122,7 +123,7 @@ def test_wrong_requests_are_refused_and_nothing_is_written(tmp_path: Path) -> No
         assert not out.exists()
     with pytest.raises(ParameterError, match="engine"):
         words.demo(tmp_path, engine="POVRAY")
-    with pytest.raises(RisoriusError):
+    with pytest.raises(SceneError, match="cannot be written"):
         words.render_film(tmp_path, words=["joy"])
 
 
@@ -140,5 +141,5 @@ def test_the_command_line_bakes(tmp_path: Path, capsys: pytest.CaptureFixture[st
     out = tmp_path / "faces.blend"
     assert cli.main(["bake", "joy", "--out", str(out), "--json"]) == 0
     printed = capsys.readouterr().out
-    assert json.loads(printed[printed.index("{") :])["shape_keys"] in (1, "1")
+    assert json.loads(printed[printed.index("{") :])["shape_keys"] == 1
     assert out.is_file()

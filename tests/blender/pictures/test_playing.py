@@ -51,5 +51,5 @@ def test_the_verb_plays_a_bitstream(stream: api.FapStream, tmp_path: Path, capsy
 
 
 def test_an_unwritable_place_is_refused_before_the_work(stream: api.FapStream, tmp_path: Path) -> None:
-    with pytest.raises(SceneError):
+    with pytest.raises(SceneError, match="cannot be written"):
         play_stream(tmp_path, stream)

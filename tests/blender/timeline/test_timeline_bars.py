@@ -6,6 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from risorius.operators.timeline import colours
 from risorius.operators.timeline.bars import GAP, LANE, LEAST_LANE, RULER, Bar, Grip, dragged, lay_out
 from risorius.operators.timeline.colours import colour_of, icon_of
 from risorius.operators.wheel.picture import COLOURS
@@ -70,4 +71,21 @@ def test_an_emotion_has_its_archetypes_colour(head: Any) -> None:
         assert min(one, other) <= mixed <= max(one, other)
     emotion.word = "neutral"
     assert len({*colour_of(emotion)}) == 1
-    assert icon_of(emotion) >= 0
+
+
+def test_each_archetype_has_an_icon_of_its_colour_drawn_once(head: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Icons(dict[str, SimpleNamespace]):
+        """Blender's collection of icons, which have no numbers in background."""
+
+        def new(self, name: str) -> SimpleNamespace:
+            return self.setdefault(name, SimpleNamespace(icon_id=len(self) + 1))
+
+    drawn: list[tuple[float, float, float]] = []
+    monkeypatch.setattr(colours, "_icons", Icons())
+    monkeypatch.setattr(colours, "_draw_icon", lambda _icon, colour: drawn.append(colour))
+    emotion, numbers = head.risorius.emotion, []
+    for word in ("anger", "furious", "guilty", "sadness", "neutral"):
+        emotion.word = word
+        numbers.append(icon_of(emotion))
+    assert numbers == [1, 1, 2, 2, 3]
+    assert drawn == [COLOURS["anger"], COLOURS["sadness"], colours.GREY]  # type: ignore[index]

@@ -25,8 +25,13 @@ def test_ends_are_the_tips_of_a_star() -> None:
     away = np.linalg.norm(found[:, None] - tips, axis=2)
     assert len(found) == len(tips)
     assert away.min(axis=0).max() < 0.1
-    middle, radius = middle_and_radius(positions)
-    assert np.linalg.norm(positions - middle, axis=1).max() > radius
+
+
+def test_the_radius_is_the_usual_distance_from_the_middle() -> None:
+    corners = np.array([[x, y, z] for x in (1.0, 3.0) for y in (-2.0, 2.0) for z in (0.0, 4.0)])
+    middle, radius = middle_and_radius(np.concatenate([corners, [[2.0, 0.0, 2.0]]]))
+    np.testing.assert_allclose(middle, (2.0, 0.0, 2.0))
+    assert radius == pytest.approx(3.0 * np.sqrt(8.0 / 9.0))
 
 
 def turned_head(vertices: np.ndarray, chin: np.ndarray) -> np.ndarray:

@@ -244,9 +244,10 @@ def test_what_is_no_file_of_tables(tmp_path: Path) -> None:
     path = tmp_path / "face.json"
     with pytest.raises(FormatError, match="cannot be read"):
         api.read_animation_tables(path)
-    for text in ("{", "[1, 2]", "null", "\xff"):
+    wrong = (("{", "not valid JSON"), ("[1, 2]", "must be"), ("null", "must be"), ("\xff", "can't decode byte"))
+    for text, told in wrong:
         path.write_text(text, encoding="latin-1")
-        with pytest.raises(FormatError):
+        with pytest.raises(FormatError, match=told):
             api.read_animation_tables(path)
     with pytest.raises(FormatError, match="cannot be written"):
         api.write_animation_tables(tmp_path / "none" / "face.json", small())

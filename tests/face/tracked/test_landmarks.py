@@ -13,7 +13,13 @@ from risorius import api
 from risorius.errors import ModelError, ParameterError
 from risorius.face.face import Face
 from risorius.face.tracked.captured import read_landmarks
-from risorius.face.tracked.landmarks import LandmarkReading, fit_poses, mean_rotation, usual_frames
+from risorius.face.tracked.landmarks import (
+    NEUTRAL_SHARE,
+    LandmarkReading,
+    fit_poses,
+    mean_rotation,
+    usual_frames,
+)
 from risorius.mpeg4.streams.capture import Landmarks
 from risorius.mpeg4.streams.capture.rotation import euler_matrix
 from scipy.spatial.transform import Rotation
@@ -120,6 +126,7 @@ def test_what_the_landmarks_do_not_show_is_unknown(seen: tuple[np.ndarray, np.nd
 
 def test_the_neutral_face_is_the_usual_one_or_as_told(seen: tuple[np.ndarray, np.ndarray]) -> None:
     usual = reading(seen[0])
+    assert len(usual.chosen) == round(NEUTRAL_SHARE * FRAMES)
     assert set(usual.chosen) <= {*range(13), *range(30, FRAMES)}
     told = reading(seen[0], neutral=(20 / 25, 24 / 25))
     assert list(told.chosen) == [20, 21, 22, 23, 24]
@@ -161,7 +168,9 @@ def test_the_mean_of_rotations_is_a_rotation() -> None:
 def test_usual_frames_are_those_that_the_face_keeps() -> None:
     shapes = np.zeros((100, 2, 3))
     shapes[60:, 0, 0] = 1.0 + 0.01 * np.arange(40)
-    assert set(usual_frames(shapes, np.ones(100, dtype=bool))) <= set(range(60))
+    usual = usual_frames(shapes, np.ones(100, dtype=bool))
+    assert len(usual) == round(NEUTRAL_SHARE * 100)
+    assert set(usual) <= set(range(60))
 
 
 def test_a_file_of_landmarks_becomes_a_stream(seen: tuple[np.ndarray, np.ndarray], tmp_path: Path) -> None:

@@ -16,7 +16,8 @@ from risorius.mpeg4.emotions.profile import Range
 from risorius.mpeg4.emotions.wheel import position, turn
 
 # FAP units: the paper rounds mostly away from zero to tens (720 is printed 730); 1e-9 lets 4.9 be no binary number.
-ROUNDING = 10.0 + 1e-9
+#: How far Table 7 is off its own rule: it rounds to tens, and the lids of "terrified" are a whole ten off.
+ROUNDING = {"afraid": 0.0, "worried": 5.0, "terrified": 10.0 + 1e-9}
 
 
 def _created(table: int, word: str) -> dict[int, Range]:
@@ -41,7 +42,7 @@ def _assert_close(computed: dict[int, Range], printed: dict[int, Range], toleran
 def test_table_7(word: str, activation: float) -> None:
     printed = _created(7, word)
     assert len(printed) == 12
-    _assert_close(archetype("fear", 8).scaled(activation).ranges, printed, 0.0 if word == "afraid" else ROUNDING)
+    _assert_close(archetype("fear", 8).scaled(activation).ranges, printed, ROUNDING[word])
 
 
 def test_table_8_in_the_papers_signs() -> None:
@@ -50,7 +51,7 @@ def test_table_8_in_the_papers_signs() -> None:
     _assert_close(afraid.ranges, _created(8, "afraid"), 0.0)
     _assert_close(sad.ranges, _created(8, "sad"), 0.0)
     guilty = between(afraid, sad, activation=4.0, angle=102.3)
-    _assert_close(guilty.ranges, _created(8, "guilty"), ROUNDING)
+    _assert_close(guilty.ranges, _created(8, "guilty"), 3.5)  # the paper rounds what it mixes, too
 
 
 def test_the_worked_example_13() -> None:

@@ -185,7 +185,7 @@ def test_an_unwritable_place_is_refused_and_leaves_nothing(tmp_path: Path) -> No
 
 def test_values_are_rounded_to_whole_numbers_unless_asked(tmp_path: Path) -> None:
     frames = np.full((1, 68), np.nan)
-    frames[0, [2, 3, 4]] = -0.3, 12.345, 100.0
+    frames[0, [2, 3, 4]] = -0.3, 12.346, 100.0
     path = tmp_path / "x.fap"
     write_fap(path, FapStream(frames, fps=24000 / 1001, name="two words"))
     lines = path.read_bytes().decode().splitlines()
@@ -193,9 +193,7 @@ def test_values_are_rounded_to_whole_numbers_unless_asked(tmp_path: Path) -> Non
     assert lines[2] == "0 0 12 100"
     assert b"\r" not in path.read_bytes()
     write_fap(path, FapStream(frames), decimals=2)
-    assert (
-        path.read_text().splitlines()[2] == "0 -0.3 12.35 100" or path.read_text().splitlines()[2] == "0 -0.3 12.34 100"
-    )
+    assert path.read_text().splitlines()[2] == "0 -0.3 12.35 100"
     with pytest.raises(ParameterError, match="decimals"):
         write_fap(path, FapStream(frames), decimals=-1)
 

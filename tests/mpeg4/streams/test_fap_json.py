@@ -107,9 +107,10 @@ def test_what_is_no_stream(tmp_path: Path) -> None:
     path = tmp_path / "x.json"
     with pytest.raises(FormatError, match="cannot be read"):
         read_fap_json(path)
-    for text in ("{", "[1]", "nul", "\xff"):
+    wrong = (("{", "not valid JSON"), ("[1]", "must be"), ("nul", "not valid JSON"), ("\xff", "can't decode byte"))
+    for text, told in wrong:
         path.write_text(text, encoding="latin-1")
-        with pytest.raises(FormatError):
+        with pytest.raises(FormatError, match=told):
             read_fap_json(path)
     with pytest.raises(FormatError, match="cannot be written"):
         write_fap_json(tmp_path / "none" / "x.json", example())

@@ -142,15 +142,16 @@ def test_foreign_streams_are_refused_by_name(fields: tuple[tuple[int, int], ...]
 
 
 def test_the_old_start_codes_and_the_default_limits() -> None:
-    """Written by hand: an I frame that sends open_jaw in group 2 alone, without limits, at level 0."""
+    """Written by hand: an I frame that sends open_jaw in group 2 alone, without limits: 2161 levels of 4 units."""
     group_two = ((0b1, 1), (0b10, 2), (1 << 15, 16))
     masks = ((1, 5), (0b100, 3), *group_two, *[(0b100, 3)] * 8)
-    level = ((0b01, 2),)  # the middle of 2161 levels: the first bit may be 0, the flush settles it
-    data = _foreign(*HEADER, *masks, (0, 2), (0, 4), *level, (0xFFFF, 16))
-    data = b"\0\0\1\1" + data[4:]
-    stream = decode_fba(data).stream
-    assert stream.mask.sum() == 1
-    assert abs(stream.frames[0, 2]) <= 1080 * 4
+    # The arithmetic coder's interval ends with the lowest level (all ones) and begins with the highest.
+    for level, value in (((0xFFF, 12), -1080 * 4), ((0b01, 2), 0), ((0x001, 12), 1080 * 4)):
+        tail = (0xFFFF, 16) if value <= 0 else (0x5555, 16)
+        data = _foreign(*HEADER, *masks, (0, 2), (0, 4), level, tail)
+        stream = decode_fba(b"\0\0\1\1" + data[4:]).stream
+        assert stream.mask.sum() == 1
+        assert stream.frames[0, 2] == value
 
 
 @settings(max_examples=150)

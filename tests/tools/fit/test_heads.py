@@ -25,11 +25,12 @@ def heads(shared: Path) -> SharedHeads:
 def test_the_reserved_heads_are_no_heads_of_the_other_sets(heads: SharedHeads) -> None:
     reserved = list(heads.reserved())
     assert len(reserved) == 15
-    for other in [*heads.known(), *heads.second()]:
-        for head in reserved:
-            if len(head.vertices) == len(other.vertices):
-                apart = np.linalg.norm(head.vertices - other.vertices, axis=1)
-                assert np.quantile(apart, 0.9) > 2e-3, (head.name, other.name)
+    others = [*heads.known(), *heads.second()]
+    alike = [(head, other) for other in others for head in reserved if len(head.vertices) == len(other.vertices)]
+    assert {head.name for head, _ in alike} == {head.name for head in reserved}
+    for head, other in alike:
+        apart = np.linalg.norm(head.vertices - other.vertices, axis=1)
+        assert np.quantile(apart, 0.9) > 2e-3, (head.name, other.name)
 
 
 def test_their_points_lie_on_their_skin(heads: SharedHeads) -> None:

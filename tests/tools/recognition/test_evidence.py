@@ -113,7 +113,9 @@ def test_with_the_choice_in_use_it_says_what_recognise_says(rule: Rule) -> None:
     expected = [list(api.recognise(row, rule=rule).values()) for row in faps]
     np.testing.assert_allclose(shapes.believed(faps, shapes.own(rule)), expected, atol=1e-12)
     flat = shapes.Choice(shapes.Shape.FLAT_NORMAL, 1.0, 80.0, rule)
-    assert (shapes.believed(faps, flat) >= shapes.believed(faps, shapes.own(rule))).any()
+    more = shapes.believed(faps, flat) - shapes.believed(faps, shapes.own(rule))
+    assert more.min() >= 0.0  # inside a range nothing is taken off
+    assert more.max() > 0.1
 
 
 def test_halves_share_no_face_and_no_variant(monkeypatch: Any) -> None:
