@@ -208,7 +208,7 @@ def test_the_wheel_is_there_for_faces_in_object_mode_only(head: Any) -> None:
     wheel.show = False
     assert "Emotion panel" in str(reason_hidden(context))
     wheel.show, space.show_gizmo = True, False
-    assert "no gizmos" in str(reason_hidden(context))
+    assert "gizmos are hidden" in str(reason_hidden(context))
     space.show_gizmo = True
     bpy.ops.object.mode_set(mode="EDIT")
     assert head.name in str(reason_hidden(context))
