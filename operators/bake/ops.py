@@ -47,7 +47,7 @@ def expression_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
     wanted = wanted_of(obj)
     return bake.bake_expression(
         target_of(obj),
-        wanted.frame,
+        wanted.faps,
         clip=clip_name(obj),
         timing=timing_of(obj, scene),
         drive=wanted.drive,
@@ -80,7 +80,7 @@ def strips_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
     shapes = [
         ClipShape(
             title,
-            wanted.frame,
+            wanted.faps,
             strip_curve(performance, number),
             strip_settings(obj, performance, number),
             wanted.profile.weights,

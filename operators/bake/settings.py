@@ -114,7 +114,7 @@ def stale_clips(obj: Any, scene: Any) -> Mapping[str, BakeKind]:
 def _look(wanted: Wanted) -> tuple[Any, ...]:
     """All of a wanted expression that a pose depends on."""
     shares = sorted((str(name), share) for name, share in wanted.profile.weights.items())
-    return wanted.frame.tobytes(), wanted.drive, shares, sorted(wanted.contractions.items())
+    return wanted.faps.tobytes(), wanted.drive, shares, sorted(wanted.contractions.items())
 
 
 def _digest(*parts: Any) -> str:

@@ -91,7 +91,7 @@ def _drawn(obj: Any, emotion: Any, number: int) -> Wanted:
     if variation.draws == 0.0 or emotion.seed:
         return wanted
     profile = drawn_within(wanted.profile, Drawn(variation.draws, variation.draws_seed + _NEXT_SEED * number))
-    return replace(wanted, profile=profile, frame=profile.frame())
+    return replace(wanted, profile=profile, faps=profile.frame())
 
 
 def _cue(timing: Any, wanted: Wanted, emotion: Any, fps: float, **options: Any) -> Cue:

@@ -23,12 +23,12 @@ class Wanted:
 
     Attributes
     ----------
-    profile : of the emotion. frame : (68,) FAPs drawn from it, NaN where it is silent. drive : see `api.Drive`.
+    profile : of the emotion. faps : (68,) FAPs drawn from it, NaN where it is silent. drive : see `api.Drive`.
     contractions : muscle name -> 0..1, those set by hand.
     """
 
     profile: Profile
-    frame: Floats
+    faps: Floats
     drive: str
     contractions: Mapping[str, float] = field(default_factory=dict)
 

@@ -127,10 +127,10 @@ def show(obj: Any, face: LiveFace, *, exact: bool) -> None:
     RisoriusError : it cannot be posed.
     """
     wanted, previews = wanted_of(obj), session().previews
-    pose = face.pose(wanted.frame, **_asked_of(wanted), exact=exact)
+    pose = face.pose(wanted.faps, **_asked_of(wanted), exact=exact)
     face.show(target_of(obj), pose.displacement)
     with_paths = exact and bpy.context.window_manager.risorius.show.paths
-    paths = face.paths_to(wanted.frame, **_asked_of(wanted)) if with_paths else None
+    paths = face.paths_to(wanted.faps, **_asked_of(wanted)) if with_paths else None
     previews.shown[face.uid] = Shown(pose.contractions, paths)
     previews.trouble = ""
 
@@ -153,7 +153,7 @@ def play(obj: Any, face: LiveFace, scene: Any) -> None:
         rest(obj)
         return
     apexes = [
-        share * face.apex(wanted.frame, **_asked_of(wanted))
+        share * face.apex(wanted.faps, **_asked_of(wanted))
         for share, wanted in zip(shares, performance.wanted, strict=True)
         if share > 0.0
     ]

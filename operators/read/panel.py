@@ -116,11 +116,11 @@ class RISORIUS_PT_read_faps(Sidebar, bpy.types.Panel):
         ranges = profile.ranges if profile is not None else {}
         weighty = list(decisive.items())[:DECISIVE]
         marked = {number: "+ " if speaks > 0.0 else "- " for number, speaks in weighty if abs(speaks) >= LEAST}
-        seen = {number for number in api.FAPS if not math.isnan(reading.frame[number - 1])}
+        seen = {number for number in api.FAPS if not math.isnan(reading.faps[number - 1])}
         column = layout.column(align=True)
         _row(column, "", "shown", "asked")
         for number in sorted(seen if chosen.all_faps else {*ranges, *marked}):
-            value = f"{reading.frame[number - 1]:.0f}" if number in seen else "unseen"
+            value = f"{reading.faps[number - 1]:.0f}" if number in seen else "unseen"
             asked = _range(*ranges[number]) if number in ranges else ""
             _row(column, f"{marked.get(number, '')}{number} {api.fap(number).name}", value, asked)
         if profile is not None:

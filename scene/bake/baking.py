@@ -53,7 +53,7 @@ class BakeResult:
 
 def bake_expression(
     target: Target,
-    frame: Floats,
+    faps: Floats,
     *,
     clip: str,
     timing: ClipTiming,
@@ -68,7 +68,7 @@ def bake_expression(
 
     Parameters
     ----------
-    frame : (68,) FAPs; NaN where the expression is silent.
+    faps : (68,) FAPs; NaN where the expression is silent.
     clip : name of the shape key and of the clip; a clip of this name is replaced.
     peak : the key's value at the apex.
     drive, emotion, contractions : as for `Face.pose`.
@@ -84,7 +84,7 @@ def bake_expression(
     yield Progress(0.1, "Placing the muscles")
     face = face_of(source)
     yield Progress(0.5, f"Solving the skin for {clip}")
-    pose = face.pose(frame, drive=drive, emotion=emotion, contractions=contractions)
+    pose = face.pose(faps, drive=drive, emotion=emotion, contractions=contractions)
     yield Progress(0.95, "Writing the shape key")
     shapes = (np.asarray(pose.positions) - face.vertices)[None]
     marks = crease_marks.prepare(source, creases)

@@ -62,34 +62,34 @@ class CueMotion:
 class FapMotion:
     """A stream of FAPs (T, 68), NaN where silent, and the emotions (T, 6) behind it where they are known."""
 
-    frames: Floats
+    stream: Floats
     emotions: Floats | None = None
 
     def __post_init__(self) -> None:
-        if len(self.frames) == 0:
-            raise ParameterError("frames", "must contain at least one frame", len(self.frames))
+        if len(self.stream) == 0:
+            raise ParameterError("frames", "must contain at least one frame", len(self.stream))
 
     def frame_count(self, fps: float) -> int:
         """The stream's own frames."""
-        return len(self.frames)
+        return len(self.stream)
 
     def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
         """The stream, each frame planned by itself; see `Face.simulation`."""
-        return face.simulation(self.frames, fps, drive=drive, emotions=self.emotions)
+        return face.simulation(self.stream, fps, drive=drive, emotions=self.emotions)
 
 
-def at_rate(frames: Floats, fps: float, wanted: float) -> Floats:
-    """Frames (T, 68) at another rate, seconds kept; between frames each FAP goes evenly.
+def at_rate(stream: Floats, fps: float, wanted: float) -> Floats:
+    """A stream (T, 68) at another rate, seconds kept; between its steps each FAP goes evenly.
 
-    A FAP is silent (NaN) where the nearer one of the frames around it is.
+    A FAP is silent (NaN) where the nearer one of the steps around it is.
     """
-    if fps == wanted or len(frames) < 2:
-        return frames
-    count = int(np.floor((len(frames) - 1) / fps * wanted + 1e-6)) + 1
-    places = np.minimum(np.arange(count) / wanted * fps, len(frames) - 1.0)
-    below = np.minimum(places.astype(np.int64), len(frames) - 2)
+    if fps == wanted or len(stream) < 2:
+        return stream
+    count = int(np.floor((len(stream) - 1) / fps * wanted + 1e-6)) + 1
+    places = np.minimum(np.arange(count) / wanted * fps, len(stream) - 1.0)
+    below = np.minimum(places.astype(np.int64), len(stream) - 2)
     share = (places - below)[:, None]
-    first, second = frames[below], frames[below + 1]
+    first, second = stream[below], stream[below + 1]
     nearer = np.where(share < 0.5, first, second)
     mixed = (1.0 - share) * np.where(np.isnan(first), second, first) + share * np.where(np.isnan(second), first, second)
     return np.where(np.isnan(nearer), np.nan, mixed)

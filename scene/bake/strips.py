@@ -35,12 +35,12 @@ class ClipShape:
 
     Attributes
     ----------
-    clip : its name. frame : (68,) FAPs at its apex; NaN where silent. curve : how much of it shows, frame by frame.
+    clip : its name. faps : (68,) FAPs at its apex; NaN where silent. curve : how much of it shows, frame by frame.
     settings : digest of what it is baked from. emotion, contractions : as for `Face.pose`.
     """
 
     clip: str
-    frame: Floats
+    faps: Floats
     curve: actions.Curve
     settings: str = ""
     emotion: EmotionShares | None = None
@@ -65,7 +65,7 @@ def bake_strips(
     moved = []
     for number, shape in enumerate(shapes):
         yield Progress(0.2 + 0.75 * number / len(shapes), f"Solving the skin for {shape.clip}")
-        pose = face.pose(shape.frame, drive=drive, emotion=shape.emotion, contractions=shape.contractions)
+        pose = face.pose(shape.faps, drive=drive, emotion=shape.emotion, contractions=shape.contractions)
         moved.append((np.asarray(pose.positions) - face.vertices)[None])
     marks = crease_marks.prepare(source, creases)
     yield Progress(0.95, "Writing the shape keys")

@@ -61,31 +61,31 @@ class LiveFace:
 
     def pose(
         self,
-        frame: Floats,
+        faps: Floats,
         *,
         drive: str,
         emotion: EmotionShares | None = None,
         contractions: Mapping[str, float] | None = None,
         exact: bool = False,
     ) -> LivePose:
-        """The face for one frame of FAPs: a sketch (`Face.sketcher`), or in balance as a bake is."""
+        """The face for some FAPs (68,): a sketch (`Face.sketcher`), or in balance as a bake is."""
         show = self._face.pose if exact else self._sketcher.sketch
-        shown = show(frame, drive=drive, emotion=emotion, contractions=contractions)
+        shown = show(faps, drive=drive, emotion=emotion, contractions=contractions)
         return LivePose(shown.positions - self._face.vertices, shown.contractions)
 
     def apex(
         self,
-        frame: Floats,
+        faps: Floats,
         *,
         drive: str,
         emotion: EmotionShares | None = None,
         contractions: Mapping[str, float] | None = None,
     ) -> Floats:
         """(V, 3) displacement of a sketch, metres; those last asked for are kept."""
-        name = repr((frame.tolist(), drive, emotion, contractions))
+        name = repr((faps.tolist(), drive, emotion, contractions))
         found = self._apexes.pop(name, None)
         if found is None:
-            found = self.pose(frame, drive=drive, emotion=emotion, contractions=contractions).displacement
+            found = self.pose(faps, drive=drive, emotion=emotion, contractions=contractions).displacement
         self._apexes[name] = found
         while len(self._apexes) > KEPT_APEXES:
             self._apexes.popitem(last=False)
@@ -93,16 +93,16 @@ class LiveFace:
 
     def paths_to(
         self,
-        frame: Floats,
+        faps: Floats,
         *,
         drive: str,
         emotion: EmotionShares | None = None,
         contractions: Mapping[str, float] | None = None,
     ) -> Floats:
-        """(k, T, 3) the skin's ways from rest to a frame of FAPs, in the head mesh's own coordinates."""
+        """(k, T, 3) the skin's ways from rest to FAPs (68,), in the head mesh's own coordinates."""
         rest, stops = self._source.vertices[self._traced], [np.zeros((len(self._traced), 3))]
         for share in np.linspace(0.0, 1.0, STOPS)[1:]:
-            pose = self.pose(share * frame, drive=drive, emotion=emotion, contractions=contractions)
+            pose = self.pose(share * faps, drive=drive, emotion=emotion, contractions=contractions)
             stops.append(pose.displacement[self._traced])
         return self._local(np.stack([rest + moved for moved in stops], axis=1))
 

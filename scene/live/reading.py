@@ -40,14 +40,14 @@ class Reading:
 
     Attributes
     ----------
-    frame : (68,) FAPs in FAP units; NaN where the face has no such point.
+    faps : (68,) FAPs in FAP units; NaN where the face has no such point.
     features : (15,) features of Table 3; None where the face lacks points for them.
     beliefs : in the six emotions.
     words : emotion word -> belief, the most believed first.
     strength : how strongly the most believed emotion is shown, 1 as its profile asks.
     """
 
-    frame: Floats
+    faps: Floats
     features: Floats | None
     beliefs: Beliefs
     words: dict[str, float]
@@ -134,15 +134,15 @@ class FaceReader:
         from ... import api
 
         positions = self.positions(depsgraph)
-        frame = self._measured(positions)
+        faps = self._measured(positions)
         try:
             features: Floats | None = self._face.features(positions)
         except ModelError:
             features = None
-        beliefs = api.recognise(frame, rule=rule)
+        beliefs = api.recognise(faps, rule=rule)
         profile = beliefs.best_profile
-        strength = 0.0 if profile is None else api.shown_strength(frame, profile)
-        return Reading(frame, features, beliefs, api.recognise_words(frame, words), strength)
+        strength = 0.0 if profile is None else api.shown_strength(faps, profile)
+        return Reading(faps, features, beliefs, api.recognise_words(faps, words), strength)
 
 
 def _steadied(positions: Floats, rest: Floats, reader: Sparse) -> Floats:
@@ -169,13 +169,13 @@ def read_animation(obj: Object, scene: Scene, *, start: int, end: int, rule: str
     yield Progress(0.0, "Reading the resting face")
     reader = FaceReader(obj)
     now, between = scene.frame_current, scene.frame_subframe
-    frames = []
+    stream = []
     try:
         for number in range(start, end + 1):
             scene.frame_set(number)
-            frames.append(reader.measure(bpy.context.evaluated_depsgraph_get()))
+            stream.append(reader.measure(bpy.context.evaluated_depsgraph_get()))
             yield Progress((number - start + 1) / (end - start + 1) * 0.98, f"Reading frame {number}")
     finally:
         scene.frame_set(now, subframe=between)
     fps = scene.render.fps / scene.render.fps_base
-    return api.recognise_over_time(np.array(frames), rule=rule, fps=fps, first_frame=start)
+    return api.recognise_over_time(np.array(stream), rule=rule, fps=fps, first_frame=start)

@@ -39,7 +39,7 @@ def test_a_live_face_traces_paths_and_moves_strands_in_the_meshs_own_coordinates
     head.location = (1.0, 2.0, 3.0)
     bpy.context.view_layer.update()
     face, wanted = LiveFace(target_of(head)), wanted_of(head)
-    paths = face.paths_to(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights)
+    paths = face.paths_to(wanted.faps, drive=wanted.drive, emotion=wanted.profile.weights)
     assert paths.shape[1:] == (STOPS, 3)
     rest = rest_vertices(head.data)
     for start in paths[::50, 0]:
@@ -67,10 +67,10 @@ def test_the_preview_shows_on_the_object_and_goes_without_a_trace(head: Any) -> 
 
     before = state()
     face, wanted = LiveFace(target_of(head)), wanted_of(head)
-    pose = face.pose(wanted.frame, drive=wanted.drive, emotion=wanted.profile.weights, exact=True)
+    pose = face.pose(wanted.faps, drive=wanted.drive, emotion=wanted.profile.weights, exact=True)
     face.show(target_of(head), pose.displacement)
     shown = meshes.evaluated_vertices(head)
-    posed = api.default_face().pose(wanted.frame, emotion=wanted.profile.weights)
+    posed = api.default_face().pose(wanted.faps, emotion=wanted.profile.weights)
     np.testing.assert_allclose(shown, posed.positions, atol=2e-6)
     assert not head.modifiers[0].show_render
     preview.rest([head])

@@ -154,7 +154,7 @@ def test_draws_differ_between_clips_of_one_word_and_follow_the_seed(head: Any) -
     variation = head.risorius.timeline.variation
 
     def drawn() -> list[np.ndarray]:
-        return [wanted.frame for wanted in performance_of(head, bpy.context.scene).wanted]
+        return [wanted.faps for wanted in performance_of(head, bpy.context.scene).wanted]
 
     same = drawn()
     np.testing.assert_array_equal(*same)

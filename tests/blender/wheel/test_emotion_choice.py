@@ -17,7 +17,7 @@ def test_a_point_of_the_wheel_is_the_profile_of_that_angle(head: Any) -> None:
     emotion = head.risorius.emotion
     emotion.by, emotion.angle, emotion.activation = "WHEEL", math.radians(90.0), 5.0
     wanted = wanted_of(head)
-    np.testing.assert_allclose(wanted.frame, api.expression(angle=90.0, activation=5.0).frame(), rtol=1e-5)
+    np.testing.assert_allclose(wanted.faps, api.expression(angle=90.0, activation=5.0).frame(), rtol=1e-5)
     assert title_of(emotion) == "90° at 5.0"
 
 

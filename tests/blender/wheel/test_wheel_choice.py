@@ -72,10 +72,10 @@ def test_a_drag_from_fear_towards_sadness_comes_by_guilty(head: Any, drag: Drag)
     drag.send("MOUSEMOVE", WHEEL.pixel(86.0, 4.5))
     assert emotion.by == "WHEEL"
     expected = api.expression(angle=86.0, activation=4.5)
-    np.testing.assert_allclose(wanted_of(head).frame, expected.frame(), rtol=1e-4)
+    np.testing.assert_allclose(wanted_of(head).faps, expected.frame(), rtol=1e-4)
     drag.send("MOUSEMOVE", WHEEL.pixel(102.0, 4.05))
     assert (emotion.by, emotion.word) == ("WORD", "guilty")
-    np.testing.assert_allclose(wanted_of(head).frame, api.expression("guilty").frame(), rtol=1e-6)
+    np.testing.assert_allclose(wanted_of(head).faps, api.expression("guilty").frame(), rtol=1e-6)
     assert "Guilty" in drag.said
     assert drag.send("LEFTMOUSE", WHEEL.pixel(102.0, 4.05), "RELEASE") == {"FINISHED"}
     assert emotion.word == "guilty"
