@@ -37,8 +37,11 @@ from .face.products.animation_table_files import read_animation_tables, write_an
 from .face.products.animation_tables import AnimationTable, AnimationTables, TableError
 from .face.products.blendshapes import arkit_shapes
 from .face.products.creases import Creases
-from .face.tracked.captured import CaptureFormat, read_capture
+from .face.tracked.formats import READABLE as READABLE_STREAMS
+from .face.tracked.formats import WRITABLE as WRITABLE_STREAMS
+from .face.tracked.formats import StreamFormat
 from .face.tracked.landmarks import LandmarkReading, read_points
+from .face.tracked.recording import Recording, read_capture, read_recording, read_stream, write_stream
 from .mpeg4 import (
     ARCHETYPES,
     FAPS,
@@ -100,9 +103,11 @@ __all__ = [
     "FEATURES",
     "FEATURE_POINTS",
     "MUSCLE_GROUPS",
+    "READABLE_STREAMS",
     "REQUIRED_POINTS",
     "VISEMES",
     "WORDS",
+    "WRITABLE_STREAMS",
     "AnimationTable",
     "AnimationTables",
     "Archetype",
@@ -139,7 +144,9 @@ __all__ = [
     "Profile",
     "Progress",
     "Ramp",
+    "Recording",
     "Rule",
+    "StreamFormat",
     "TableError",
     "Timing",
     "Topology",
@@ -175,6 +182,8 @@ __all__ = [
     "read_mesh",
     "read_point_file",
     "read_points",
+    "read_recording",
+    "read_stream",
     "read_topology",
     "recognise",
     "recognise_features",
@@ -192,8 +201,12 @@ __all__ = [
     "write_fap_csv",
     "write_fap_json",
     "write_fba",
+    "write_stream",
 ]
 
+
+CaptureFormat = StreamFormat
+"""The formats of streams, by their older name."""
 
 FitProgress = Progress
 """The steps of `find_points_steps`, by their older name."""

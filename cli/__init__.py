@@ -7,7 +7,8 @@ emotions       profile
 faces          measure, points
 films          bake, render, demo: they need Blender
 recognition    recognise
-streams        fap, tables
+streams        fap
+animation_tables    tables
 capture        import, export
 track          track
 options        what several verbs share
@@ -23,13 +24,14 @@ import json
 import sys
 
 from ..errors import RisoriusError
+from .animation_tables import add_table_verb
 from .capture import add_capture_verbs
 from .emotions import add_emotion_verbs
 from .faces import add_face_verbs
 from .films import add_film_verbs
 from .recognition import add_recognition_verb
 from .result import Result, UsageError, plain
-from .streams import add_stream_verbs
+from .streams import add_stream_verb, with_action
 from .track import add_track_verb
 
 DESCRIPTION = "Animate a face from an emotion word and an activation."
@@ -49,7 +51,7 @@ def main(argv: list[str] | None = None) -> int:
     """
     parser = _parser()
     try:
-        arguments = parser.parse_args(argv)
+        arguments = parser.parse_args(with_action(sys.argv[1:] if argv is None else argv))
     except SystemExit as ended:  # argparse has said why
         return int(ended.code or 0)
     try:
@@ -70,7 +72,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="risorius", description=DESCRIPTION)
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     add_emotion_verbs(verbs)
-    add_stream_verbs(verbs)
+    add_stream_verb(verbs)
+    add_table_verb(verbs)
     add_track_verb(verbs)
     add_film_verbs(verbs)
     add_face_verbs(verbs)

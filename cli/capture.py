@@ -60,9 +60,9 @@ def _import(arguments: argparse.Namespace) -> Result:
     """Convert a tracker's recording to a FAP stream."""
     from .. import api
 
-    stream = api.read_capture(
+    stream = api.read_stream(
         arguments.file,
-        kind=arguments.kind,
+        arguments.kind,
         fps=arguments.fps,
         rate=arguments.rate,
         aspect=arguments.aspect,
@@ -100,8 +100,7 @@ def _export_csv(arguments: argparse.Namespace) -> Result:
 
     if len(arguments.source) != 1:
         raise UsageError("export csv needs one input file: a .fap, or a tracker's .csv or .json")
-    path = arguments.source[0]
-    stream = api.read_fap(path) if path.suffix.lower() == ".fap" else api.read_capture(path)
+    stream = api.read_stream(arguments.source[0])
     api.write_fap_csv(arguments.out, stream)
     data = {"frames": len(stream.frames), "fps": stream.fps, "out": arguments.out}
     return Result(data, [f"wrote {arguments.out}: {len(stream.frames)} frames at {stream.fps:g} per second"])

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from ..api import BeliefTrack
     from ..arrays import Floats
 
-STREAMS = (".fap", ".fba", ".json", ".csv")
 #: Words that are printed where none are named; FAPs that are said to have decided; frames from which progress is said.
 CLOSEST, DECISIVE, MANY = 10, 5, 500
 
@@ -25,7 +24,7 @@ CLOSEST, DECISIVE, MANY = 10, 5, 500
 def add_recognition_verb(verbs: Any) -> None:
     """Add recognise to the verbs."""
     recognise = verb(verbs, "recognise", _recognise)
-    about = f"a FAP stream ({', '.join(STREAMS)}), or deformed meshes; several meshes are successive frames"
+    about = "a FAP stream (.fap, .fba, .json, .csv), a tracker's recording, or deformed meshes, one for each frame"
     recognise.add_argument("files", type=Path, nargs="+", metavar="FILE", help=about)
     recognise.add_argument("--rule", choices=("paper", "robust"), default="paper", help="default: paper")
     recognise.add_argument("--frame", type=int, help="frame to recognise (default: the strongest)")
@@ -56,14 +55,12 @@ def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int]:
     from .. import api
 
     path, *others = arguments.files
-    suffix = path.suffix.lower()
-    if suffix not in STREAMS:
+    if path.suffix.lower() not in api.READABLE_STREAMS:
         face = face_of(arguments)
         return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0
     if others:
         raise UsageError("give one stream only")
-    readers = {".fap": api.read_fap, ".fba": api.read_fba, ".json": api.read_fap_json}
-    stream = api.read_capture(path) if suffix == ".csv" else readers[suffix](path)
+    stream = api.read_stream(path)
     if not len(stream.frames):
         raise FormatError(path, "has no frames: nothing to recognise")
     return stream.expanded(), stream.fps, stream.first_frame

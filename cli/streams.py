@@ -1,102 +1,105 @@
-"""Verbs of FAP streams: fap (info, convert, play), tables."""
+"""Verbs of FAP streams: fap info, convert, play; fap of a file or a word."""
 
 from __future__ import annotations
 
 import argparse
 import math
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import FormatError, RisoriusError
+from ..errors import RisoriusError
 from .films import NEEDS_BLENDER, silent_blender
-from .options import add_creases, add_engine, add_face, add_strength, expression_of, face_of, verb
+from .options import add_creases, add_engine, add_face, add_fps, add_strength, expression_of, verb
 from .progress import ShowProgress, when_slow
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
-    from ..api import FapStream
+    from ..api import FapStream, Recording
 
-READABLE, WRITABLE = (".fap", ".fba", ".json", ".csv"), (".fap", ".fba", ".json", ".csv")
-SOURCES = "info FILE | convert FILE OUT | play FILE OUT; or a FILE to inspect, or an emotion WORD to write as a stream"
+READABLE = "a FAP stream (.fap, .fba, .json, .csv) or a tracker's recording"
+WRITABLE = ".fap, .fba, .json, .csv"
+
+#: What `fap` does; `of` may be left out.
+ACTIONS = ("info", "convert", "play", "of")
 
 
-def add_stream_verbs(verbs: Any) -> None:
-    """Add fap and tables to the verbs."""
-    fap = verb(verbs, "fap", _fap)
-    fap.add_argument("source", nargs="+", metavar="WHAT", help=SOURCES)
-    add_strength(fap)
-    add_face(fap)
-    add_engine(fap)
-    add_creases(fap)
-    fap.add_argument("--out", type=Path, help=f"the stream to write: {', '.join(WRITABLE)}")
-    fap.add_argument("--fill", choices=("copy", "hold", "standard"), help="fill FAPs that are not stated")
-    fap.add_argument("--expand", action="store_true", help="convert visemes and expressions to low-level FAPs")
-    fap.add_argument(
+def add_stream_verb(verbs: Any) -> None:
+    """Add fap to the verbs; what it does are verbs of its own."""
+    about = "Inspect a FAP stream, convert it, play it on a face, or write an expression as a stream."
+    fap = verbs.add_parser("fap", help=about, description=f"{about} `of` may be left out.")
+    actions = fap.add_subparsers(dest="action", required=True, metavar="ACTION")
+
+    info = verb(actions, "info", _info)
+    info.add_argument("source", metavar="FILE", help=READABLE)
+
+    convert = verb(actions, "convert", _convert)
+    convert.add_argument("source", metavar="FILE", help=READABLE)
+    convert.add_argument("target", metavar="OUT", nargs="?", help=f"the stream to write: {WRITABLE}")
+    _add_writing(convert)
+
+    play = verb(actions, "play", _play)
+    play.add_argument("source", metavar="FILE", help=READABLE)
+    play.add_argument("target", metavar="OUT", nargs="?", help="the file to write: .blend or .mp4")
+    play.add_argument("--out", type=Path, help="the same as OUT")
+    add_face(play)
+    add_engine(play)
+    add_creases(play)
+
+    of = verb(actions, "of", _of)
+    of.add_argument("source", metavar="FILE|WORD", help=f"{READABLE}, to inspect or to convert; or an emotion word")
+    add_strength(of)
+    add_fps(of)
+    _add_writing(of)
+    for action in (info, convert, play, of):
+        _add_reading(action)
+
+
+def with_action(argv: list[str]) -> list[str]:
+    """Arguments in which what `fap` does comes first: options may stand before it, and `of` may be left out."""
+    first, *rest = argv or [""]
+    if first != "fap" or not rest or rest[0] in ("-h", "--help"):
+        return argv
+    place = next((place for place, argument in enumerate(rest) if argument in ACTIONS), None)
+    if place is None:
+        return [first, "of", *rest]
+    return [first, rest[place], *rest[:place], *rest[place + 1 :]]
+
+
+def _add_reading(parser: argparse.ArgumentParser) -> None:
+    """Options of reading a stream."""
+    parser.add_argument("--fill", choices=("copy", "hold", "standard"), help="fill FAPs that are not stated")
+    parser.add_argument("--expand", action="store_true", help="convert visemes and expressions to low-level FAPs")
+    parser.add_argument(
         "--strict", action="store_true", help="stop at damage in an .fba file instead of continuing after it"
     )
-    fap.add_argument("--quantiser", type=int, default=1, help=".fba: 0 (lossless) to 31 (default: 1)")
-    fap.add_argument("--refresh", type=float, default=10.0, help=".fba: seconds between I frames (default: 10)")
-    fap.add_argument("--decimals", type=int, default=0, help=".fap: number of decimals (default: 0)")
-
-    tables = verb(verbs, "tables", _tables)
-    add_face(tables)
-    tables.add_argument(
-        "--out", type=Path, required=True, help="the file to write: .json, or .wrl or .txt for BIFS nodes"
-    )
-    tables.add_argument("--steps", type=int, default=4, help="intervals on either side of 0 (default: 4)")
-    tables.add_argument("--faps", type=int, nargs="+", help="FAP numbers (default: all)")
-    about = "still: other points keep their place (default); free: they follow skin and jaw"
-    tables.add_argument("--others", choices=("still", "free"), default="still", help=about)
 
 
-def _fap(arguments: argparse.Namespace) -> Result:
-    """Inspect a FAP stream, convert it, play it on a face, or write an expression as a stream."""
-    actions: dict[str, tuple[Callable[[argparse.Namespace], Result], int]] = {
-        "info": (_info, 1),
-        "convert": (_convert, 2),
-        "play": (_play, 2),
-    }
-    first, *rest = arguments.source
-    if first in actions:
-        run, count = actions[first]
-        if len(rest) == count - 1 and count == 2 and arguments.out is not None:
-            rest.append(str(arguments.out))
-        if len(rest) != count:
-            raise UsageError(f"{first} needs {'one file' if count == 1 else 'an input file and an output file'}")
-        arguments.files = [Path(name) for name in rest]
-        return run(arguments)
-    if rest:
-        raise UsageError(f"give one of: {SOURCES}")
-    arguments.files = [Path(first), *([arguments.out] if arguments.out else [])]
-    if arguments.files[0].suffix.lower() in READABLE:
-        return _convert(arguments) if arguments.out else _info(arguments)
-    stream = _of_word(arguments, first)
-    if arguments.out:
-        _write(arguments.out, stream, arguments)
-    return _described(stream, out=arguments.out)
+def _add_writing(parser: argparse.ArgumentParser) -> None:
+    """Options of writing a stream."""
+    parser.add_argument("--out", type=Path, help=f"the stream to write: {WRITABLE}")
+    parser.add_argument("--quantiser", type=int, default=1, help=".fba: 0 (lossless) to 31 (default: 1)")
+    parser.add_argument("--refresh", type=float, default=10.0, help=".fba: seconds between I frames (default: 10)")
+    parser.add_argument("--decimals", type=int, default=0, help=".fap: number of decimals (default: 0)")
 
 
 def _info(arguments: argparse.Namespace) -> Result:
-    """What a stream holds."""
-    stream, damage = _read(arguments.files[0], arguments)
-    return _described(stream, damage=damage)
+    """Inspect a FAP stream."""
+    return _described(*_read(arguments))
 
 
 def _convert(arguments: argparse.Namespace) -> Result:
-    """Read one format and write another."""
-    source, out = arguments.files
-    stream, damage = _read(source, arguments)
+    """Convert a FAP stream to another format."""
+    out = _target(arguments)
+    stream, recording = _read(arguments)
     _write(out, stream, arguments)
-    return _described(stream, out=out, damage=damage)
+    return _described(stream, recording, out=out)
 
 
 def _play(arguments: argparse.Namespace) -> Result:
-    """Bake a stream onto a face: a .blend, or a film."""
-    source, out = arguments.files
-    stream, _ = _read(source, arguments)
-    shared = {name: getattr(arguments, name) for name in ("mesh", "points", "creases")}
+    """Play a FAP stream on a face, as .blend or video (needs Blender)."""
+    out = _target(arguments)
+    stream, _ = _read(arguments)
     if arguments.mesh is None and arguments.points is not None:
         raise UsageError("--points needs --mesh")
     try:
@@ -105,70 +108,67 @@ def _play(arguments: argparse.Namespace) -> Result:
         if missing.name in ("bpy", "mathutils"):
             raise RisoriusError(NEEDS_BLENDER) from None
         raise
+    shared = {name: getattr(arguments, name) for name in ("mesh", "points", "creases", "engine")}
     with silent_blender():
-        options = {**shared, "engine": arguments.engine, "progress": ShowProgress()}
-        made = dict(playing.play_stream(out, stream, **options))
+        made = dict(playing.play_stream(out, stream, **shared, progress=ShowProgress()))
     return Result(made, [f"{key}: {value}" for key, value in made.items()])
 
 
-def _of_word(arguments: argparse.Namespace, word: str) -> FapStream:
+def _of(arguments: argparse.Namespace) -> Result:
+    """Inspect a FAP stream or convert it, or write an expression as a stream."""
+    from .. import api
+
+    if Path(arguments.source).suffix.lower() in api.READABLE_STREAMS:
+        return _convert(arguments) if arguments.out else _info(arguments)
+    stream = _of_word(arguments)
+    if arguments.out:
+        _write(arguments.out, stream, arguments)
+    return _described(stream, out=arguments.out)
+
+
+def _of_word(arguments: argparse.Namespace) -> FapStream:
     """An expression that comes and goes."""
     from .. import api
 
-    arguments.word, arguments.angle = word, None
+    arguments.word, arguments.angle = arguments.source, None
     timing = api.load_timings()["natural"]
     profile = expression_of(arguments)
     frames = api.envelope(profile, onset=timing.onset, apex=timing.apex, offset=timing.offset, fps=arguments.fps)
-    return api.FapStream(frames=frames, fps=arguments.fps, name=word)
+    return api.FapStream(frames=frames, fps=arguments.fps, name=arguments.source)
 
 
-def _read(path: Path, arguments: argparse.Namespace) -> tuple[FapStream, list[str]]:
-    """A stream of any format, filled and expanded as asked; and what was damaged."""
+def _target(arguments: argparse.Namespace) -> Path:
+    """The file to write, as an argument or as --out."""
+    given = getattr(arguments, "target", None)
+    if (given is None) == (arguments.out is None):
+        raise UsageError(f"{arguments.action} needs an input file and an output file")
+    return Path(given) if given is not None else arguments.out
+
+
+def _read(arguments: argparse.Namespace) -> tuple[FapStream, Recording]:
+    """The stream of a file, filled and expanded as asked; and the file as it was read."""
     from .. import api
 
-    damage: list[str] = []
-    suffix = path.suffix.lower()
-    if suffix == ".fba":
-        try:
-            decoded = api.decode_fba(path.read_bytes(), path=path, strict=arguments.strict, progress=when_slow())
-        except OSError as error:
-            raise FormatError(path, f"cannot be read ({error.strerror})") from error
-        stream, damage = decoded.stream, [str(error) for error in decoded.damage]
-    elif suffix == ".json":
-        stream = api.read_fap_json(path)
-    elif suffix == ".csv":
-        stream = api.read_capture(path)
-    elif suffix == ".fap":
-        stream = api.read_fap(path)
-    else:
-        raise FormatError(path, f"is not a readable FAP stream: use {', '.join(READABLE)}")
-    for problem in damage:
+    recording = api.read_recording(arguments.source, strict=arguments.strict, progress=when_slow())
+    for problem in recording.damage:
         print(f"risorius fap: {problem}", file=sys.stderr)
+    stream = recording.stream
     if arguments.fill:
         stream = stream.filled(arguments.fill)
     if arguments.expand:
         stream = api.FapStream(stream.expanded(), fps=stream.fps, name=stream.name, first_frame=stream.first_frame)
-    return stream, damage
+    return stream, recording
 
 
 def _write(path: Path, stream: FapStream, arguments: argparse.Namespace) -> None:
     """A stream in the format of the file's name."""
     from .. import api
 
-    suffix = path.suffix.lower()
-    if suffix == ".fba":
-        api.write_fba(path, stream, quantiser=arguments.quantiser, refresh=arguments.refresh, progress=when_slow())
-    elif suffix == ".json":
-        api.write_fap_json(path, stream)
-    elif suffix == ".csv":
-        api.write_fap_csv(path, stream)
-    elif suffix == ".fap":
-        api.write_fap(path, stream, decimals=arguments.decimals)
-    else:
-        raise FormatError(path, f"is not a writable FAP stream: use {', '.join(WRITABLE)}")
+    options = {name: getattr(arguments, name) for name in ("decimals", "quantiser", "refresh")}
+    api.write_stream(path, stream, progress=when_slow(), **options)
 
 
-def _described(stream: FapStream, *, out: Path | None = None, damage: list[str] | None = None) -> Result:
+def _described(stream: FapStream, recording: Recording | None = None, *, out: Path | None = None) -> Result:
     """What a stream holds, for people and as JSON."""
     from .. import api
 
@@ -185,7 +185,9 @@ def _described(stream: FapStream, *, out: Path | None = None, damage: list[str] 
         "visemes": len(stream.visemes),
         "expressions": len(stream.expressions),
         "ranges": {number: [min(stated[number]), max(stated[number])] for number in used},
-        "damage": damage or [],
+        "format": None if recording is None else str(recording.format),
+        "assumed": [] if recording is None else list(recording.assumed),
+        "damage": [] if recording is None else [str(problem) for problem in recording.damage],
         "out": out,
     }
     if out is not None:
@@ -203,38 +205,3 @@ def _described(stream: FapStream, *, out: Path | None = None, damage: list[str] 
     ]
     wrote = [f"wrote {out}: {data['kilobits_per_second']:.1f} kilobits per second"] if out is not None else []
     return Result(data, [title, *extra, *peaks, *wrote])
-
-
-def _tables(arguments: argparse.Namespace) -> Result:
-    """Write Face Animation Tables: the effect of every FAP on every vertex, for players without muscles."""
-    from .. import api
-
-    suffix = arguments.out.suffix.lower()
-    writers = {
-        ".json": api.write_animation_tables,
-        ".wrl": api.write_face_def_tables,
-        ".txt": api.write_face_def_tables,
-    }
-    if suffix not in writers:
-        raise UsageError(f"--out must end in {', '.join(writers)}")
-    options = {"faps": arguments.faps} if arguments.faps else {}
-    face = face_of(arguments)
-    tables = api.face_animation_tables(
-        face, steps=arguments.steps, others=arguments.others, progress=when_slow(), **options
-    )
-    writers[suffix](arguments.out, tables)
-    rows = {
-        number: {
-            "name": api.fap(number).name,
-            "vertices": len(table.vertices),
-            "rms_mm": 1e3 * table.error.rms if table.error else None,
-            "largest_mm": 1e3 * table.error.largest if table.error else None,
-        }
-        for number, table in tables.tables.items()
-    }
-    lines = [f"{len(rows)} tables of {len(tables.vertices)} vertices; error between borders, rms and largest:"]
-    lines += [
-        f"F{number:<3} {row['name']:<24} {row['vertices']:6d} vertices {row['rms_mm']:7.3f} {row['largest_mm']:7.3f} mm"
-        for number, row in rows.items()
-    ]
-    return Result({"out": arguments.out, "tables": rows}, [*lines, f"wrote {arguments.out}"])

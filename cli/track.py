@@ -53,9 +53,7 @@ def _track(arguments: argparse.Namespace) -> Result:
         from .. import track
     except ImportError as absent:
         raise RisoriusError(OUTSIDE_BLENDER) from absent
-    writers = {".fap": api.write_fap, ".json": api.write_fap_json}
-    write = writers.get(arguments.out.suffix.lower())
-    if write is None:
+    if arguments.out.suffix.lower() not in WRITABLE:
         raise UsageError(f"--out must end in {' or '.join(WRITABLE)}")
     neutral = _neutral(arguments.neutral)
     pictures = track.open_pictures(arguments.source, fps=arguments.fps, seconds=arguments.seconds)
@@ -71,7 +69,7 @@ def _track(arguments: argparse.Namespace) -> Result:
         name=pictures.name,
         **options,
     )
-    write(arguments.out, found.stream)
+    api.write_stream(arguments.out, found.stream)
     if arguments.confidence is not None:
         _write_confidence(arguments.confidence, found)
     return _described(found, arguments.out)

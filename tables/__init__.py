@@ -18,7 +18,7 @@ A cell that breaks its rule raises a `FormatError` that names the file, the key 
 
 from .cells import Cells
 from .csv_table import CsvRow, numbered_lines, parsed_number, read_csv, row_cells, split_cells
-from .json_table import read_json
+from .json_table import checked_document, read_json
 from .keyed_table import KeyedTable
 from .toml_table import TomlTable, read_toml, toml_number, toml_text
 
@@ -27,6 +27,7 @@ __all__ = [
     "CsvRow",
     "KeyedTable",
     "TomlTable",
+    "checked_document",
     "numbered_lines",
     "parsed_number",
     "read_csv",

@@ -17,11 +17,16 @@ def read_json(path: str | Path, *, kind: str, version: int) -> KeyedTable:
     ------
     FormatError : unreadable, not JSON, or another kind or version of document.
     """
-    file = Path(path)
     try:
-        document = json.loads(read_bytes(file).decode("utf-8-sig"))
+        document = json.loads(read_bytes(path).decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:  # UnicodeDecodeError is a ValueError
-        raise FormatError(file, f"is not valid JSON: {error}") from error
+        raise FormatError(path, f"is not valid JSON: {error}") from error
+    return checked_document(path, document, kind=kind, version=version)
+
+
+def checked_document(path: str | Path, document: object, *, kind: str, version: int) -> KeyedTable:
+    """A document that has been read; errors as `read_json`."""
+    file = Path(path)
     if not isinstance(document, dict) or (document.get("format"), document.get("version")) != (kind, version):
         raise FormatError(file, f'must be an object with "format": "{kind}", "version": {version}', key="format")
     return KeyedTable(file, document)

@@ -85,6 +85,14 @@ def read_fap(path: str | Path) -> FapStream:
     return _stream(frames, fps=fps, name=name, version=version)
 
 
+def looks_like_fap(text: str) -> bool:
+    """Whether a text begins as a .fap file does: with a header, and a mask of flags below it."""
+    lines = [line.split() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")][:2]
+    if len(lines) < 2 or len(lines[0]) < 3 or lines[0][0] not in VERSIONS:
+        return False
+    return len(lines[1]) >= FAP_COUNT and set(lines[1]) <= {"0", "1"}
+
+
 def write_fap(path: str | Path, stream: FapStream, *, decimals: int = 0) -> None:
     """Write a stream as a .fap file, whole or not at all.
 

@@ -18,7 +18,7 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import FormatError, ParameterError
 from ...files import write_whole
-from ...tables import KeyedTable, read_json
+from ...tables import KeyedTable, checked_document, read_json
 from ..high_level import ExpressionField, VisemeField
 from ..standard import FAP_COUNT, FAPS
 from .fap_stream import FapStream
@@ -58,7 +58,16 @@ def read_fap_json(path: str | Path) -> FapStream:
     ------
     FormatError : names the file, the key and the rule it breaks.
     """
-    document = read_json(path, kind=FORMAT, version=VERSION)
+    return _stream(read_json(path, kind=FORMAT, version=VERSION))
+
+
+def stream_of_document(path: str | Path, document: object) -> FapStream:
+    """The stream of a JSON document that has been read; errors as `read_fap_json`."""
+    return _stream(checked_document(path, document, kind=FORMAT, version=VERSION))
+
+
+def _stream(document: KeyedTable) -> FapStream:
+    """The stream of a checked document."""
     frames = _frames(document)
     visemes, expressions = _fields(document, "visemes"), _fields(document, "expressions")
     try:

@@ -12,7 +12,6 @@ from bpy_extras.io_utils import ImportHelper
 
 from ...errors import FormatError, SceneError
 from ...mpeg4.preset_file import PresetKind, read_preset, write_preset
-from ...mpeg4.streams.fap_file import read_fap
 from ...progress import Work
 from ...scene.bake.baking import BakeResult, bake_motion
 from ...scene.bake.motion import FapMotion, at_rate
@@ -147,8 +146,10 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
 
     def baking(self, context: Any) -> Work[BakeResult]:
         """Simulate the stream at the scene's rate."""
+        from ... import api
+
         obj, path = context.object, Path(bpy.path.abspath(self.filepath))
-        stream = read_fap(path)
+        stream = api.read_stream(path)
         fps = scene_fps(context.scene)
         frames = at_rate(stream.expanded(), stream.fps, fps)
         if len(frames) == 0:

@@ -139,3 +139,21 @@ def test_playing_needs_blender_and_says_so(joy: Path, tmp_path: Path) -> None:
     assert done.returncode == 1
     assert "pip install bpy" in done.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_options_may_stand_before_what_is_done_and_of_may_be_left_out(run_json: Run, joy: Path) -> None:
+    said = run_json("fap", "info", joy, "--fill", "hold")
+    assert run_json("fap", "--fill", "hold", "info", joy) == said
+    assert run_json("fap", "--fill", "hold", joy) == run_json("fap", "of", joy, "--fill", "hold") == said
+
+
+def test_a_trackers_recording_is_a_stream_like_any_other(run_json: Run, tmp_path: Path) -> None:
+    (tmp_path / "a.json").write_text('[{"blendshapes": {"jawOpen": 0}}, {"blendshapes": {"jawOpen": 1}}]')
+    said = run_json("fap", "info", tmp_path / "a.json")
+    assert said["format"] == "mediapipe"
+    assert said["assumed"] == ["the file contains no times: 30 frames per second"]
+    run_json("fap", "convert", tmp_path / "a.json", tmp_path / "a.fba")
+    assert run_json("fap", "info", tmp_path / "a.fba")["format"] == "fba"
+    assert set(run_json("recognise", tmp_path / "a.json")) == set(map(str, api.ARCHETYPES))
+    run_json("export", "csv", tmp_path / "a.fba", "--out", tmp_path / "a.csv")
+    assert run_json("fap", "info", tmp_path / "a.csv")["format"] == "faps"

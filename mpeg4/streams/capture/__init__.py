@@ -1,7 +1,8 @@
 """What trackers write, as FAPs: one file per format, by the tables of presets/capture/.
 
 shapes, columns                      mapping tables: blend shapes and action units in FAPs
-samples, rotation                    times to an even rate; rotations of a head as FAPs 48 to 50
+times, samples                       when rows are, and what that assumes; from these to an even rate
+rotation                             rotations of a head as FAPs 48 to 50
 table_file, json_file                CSV and JSON, with errors that name line and column or frame
 openface, live_link                  action units with pose and gaze; ARKit blend shapes
 mediapipe_scores, landmark_file      MediaPipe's blend shapes, and its landmarks (`face.tracked` reads FAPs off them)
@@ -11,7 +12,7 @@ key_names                            which shape keys a preset of names asks for
 
 from .columns import ColumnTable, arkit_columns, load_columns
 from .fap_csv import holds_faps, read_fap_csv, write_fap_csv
-from .json_file import JsonFrame, read_json_frames
+from .json_file import JsonFrame, frames_of, read_json_document, read_json_frames
 from .key_names import KeyShape, load_key_names
 from .landmark_file import Landmarks, holds_landmarks, landmarks_from_csv, landmarks_from_json
 from .live_link import read_arkit
@@ -31,6 +32,7 @@ __all__ = [
     "Samples",
     "TableFile",
     "arkit_columns",
+    "frames_of",
     "holds_faps",
     "holds_landmarks",
     "landmarks_from_csv",
@@ -40,6 +42,7 @@ __all__ = [
     "load_shapes",
     "read_arkit",
     "read_fap_csv",
+    "read_json_document",
     "read_json_frames",
     "read_openface",
     "read_scores",

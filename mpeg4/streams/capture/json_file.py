@@ -13,8 +13,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ....errors import FormatError
 from ....files import read_bytes
+from .times import Times
 
 #: Names of one frame's entries: what it is -> how it is called.
 NAMES: Mapping[str, tuple[str, ...]] = {
@@ -64,12 +67,11 @@ def read_json_frames(path: str | Path) -> list[JsonFrame]:
     ------
     FormatError : names the file, the line or the frame, and the remedy.
     """
-    file = Path(path)
-    try:
-        text = read_bytes(file).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
-    document = _parsed(file, text)
+    return frames_of(Path(path), read_json_document(path))
+
+
+def frames_of(file: Path, document: Any) -> list[JsonFrame]:
+    """The frames of a document that has been read; errors as `read_json_frames`."""
     listed = document.get("frames", [document]) if isinstance(document, dict) else document
     if not isinstance(listed, list) or not listed:
         raise FormatError(file, "must contain a list of frames, or an object with that list under 'frames'")
@@ -81,8 +83,13 @@ def read_json_frames(path: str | Path) -> list[JsonFrame]:
     return frames
 
 
-def _parsed(file: Path, text: str) -> Any:
-    """The whole text as JSON, or each line of it."""
+def read_json_document(path: str | Path) -> Any:
+    """The whole file as JSON, or the list of its lines in JSON Lines; errors as `read_json_frames`."""
+    file = Path(path)
+    try:
+        text = read_bytes(file).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
     try:
         return json.loads(text)
     except (json.JSONDecodeError, RecursionError) as error:
@@ -109,8 +116,8 @@ def _line(file: Path, number: int, line: str) -> Any:
         raise FormatError(file, f"is not valid JSON ({error}): is the file cut off here?", line=number) from error
 
 
-def times_of(frames: list[JsonFrame], rate: float) -> list[float]:
-    """Seconds of each frame; at `rate` where the file says none.
+def times_of(frames: list[JsonFrame], rate: float | None, usual: float) -> Times:
+    """Times of each frame from the first on; where the file says none, as `Times.even`.
 
     Raises
     ------
@@ -125,8 +132,8 @@ def times_of(frames: list[JsonFrame], rate: float) -> list[float]:
             seconds.append(frame.number_at("time", plain if plain is not None else thousandths))
             seconds[-1] *= 1.0 if plain is not None else 1e-3
     if all(math.isnan(second) for second in seconds):
-        return [number / rate for number in range(len(frames))]
+        return Times.even(len(frames), rate, usual)
     for number, frame in enumerate(frames):
         if math.isnan(seconds[number]) or (number > 0 and seconds[number] <= seconds[number - 1]):
             raise frame.refuse("time", "must be later than the frame before: sort the frames by time")
-    return [second - seconds[0] for second in seconds]
+    return Times(np.array(seconds)).from_first()

@@ -18,6 +18,7 @@ from ....arrays import Floats
 from ....errors import FormatError, ParameterError
 from .json_file import JsonFrame, times_of
 from .table_file import TableFile
+from .times import Times
 
 #: Landmarks beyond this are in pixels; within it they are shares of the picture (a face may stick out a little).
 NORMALISED = 4.0
@@ -39,10 +40,12 @@ class Landmarks:
     times : (T,) seconds, rising.
     positions : (T, N, 3) to the right of the picture (the left of a subject who faces it), up, and towards the camera;
         the picture's height is 1, or it is in pixels. NaN where no face was seen.
+    assumed : what the file does not say and was assumed, in words for people.
     """
 
     times: Floats
     positions: Floats
+    assumed: tuple[str, ...] = ()
 
 
 def landmarks_from_json(frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, rate: float | None = None) -> Landmarks:
@@ -70,7 +73,8 @@ def landmarks_from_json(frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, 
             raise frame.refuse("landmarks", f"must be {count} as in other frames, but they are {len(entries)}")
         for number, entry in enumerate(entries):
             row[number] = _position(frame, number, entry)
-    return Landmarks(np.array(times_of(frames, rate or USUAL_RATE)), _upright(raw, aspect))
+    times = times_of(frames, rate, USUAL_RATE)
+    return Landmarks(times.seconds, _upright(raw, aspect), times.assumed)
 
 
 def _listed(frame: JsonFrame) -> list[Any]:
@@ -107,12 +111,11 @@ def holds_landmarks(table: TableFile) -> bool:
 
 def landmarks_from_csv(table: TableFile, *, aspect: float = 16.0 / 9.0, rate: float | None = None) -> Landmarks:
     """The landmarks of a CSV file; parameters and errors as `landmarks_from_json`."""
-    raw, times = _long(table) if _is_long(table) else _wide(table)
-    if np.isnan(times).all():
-        times = np.arange(len(raw)) / (rate or USUAL_RATE)
-    if (np.diff(times) <= 0.0).any() or np.isnan(times).any():
+    raw, seconds = _long(table) if _is_long(table) else _wide(table)
+    times = Times.even(len(raw), rate, USUAL_RATE) if np.isnan(seconds).all() else Times(seconds).from_first()
+    if (np.diff(times.seconds) <= 0.0).any() or np.isnan(times.seconds).any():
         raise FormatError(table.path, "has times that do not increase from frame to frame: sort the rows by time")
-    return Landmarks(times - times[0], _upright(raw, aspect))
+    return Landmarks(times.seconds, _upright(raw, aspect), times.assumed)
 
 
 def _wide_columns(table: TableFile) -> dict[tuple[int, int], str]:

@@ -21,6 +21,7 @@ from .columns import arkit_columns
 from .samples import Samples
 from .shapes import CAPTURE_PRESETS, fap_frame
 from .table_file import TableFile
+from .times import Times
 
 TIMECODE = re.compile(r"(\d+):(\d{1,2}):(\d{1,2})[:;](\d+(?:\.\d+)?)")
 
@@ -50,7 +51,8 @@ def read_arkit(table: TableFile, *, rate: float | None = None, preset: Path | No
     frames = columns.frames(scores)
     turned = _rotations(table, preset or CAPTURE_PRESETS / "live_link.toml")
     frames = np.where(np.isnan(frames), turned, frames)
-    return Samples(_times(table, rate), frames)
+    times = _times(table, rate)
+    return Samples(times.seconds, frames, times.assumed)
 
 
 def _rotations(table: TableFile, preset: Path) -> Floats:
@@ -66,27 +68,27 @@ def _rotations(table: TableFile, preset: Path) -> Floats:
     return frames
 
 
-def _times(table: TableFile, rate: float | None) -> Floats:
-    """(T,) seconds from the first row on."""
+def _times(table: TableFile, rate: float | None) -> Times:
+    """Times from the first row on."""
     if rate is not None and not (math.isfinite(rate) and rate > 0.0):
         raise ParameterError("rate", "must be a positive number of frames per second", rate)
     units: Mapping[str, float] = dict(TIME_COLUMNS)
     name = next((name for name in units if name in table), None)
-    times: Floats = np.arange(len(table.rows)) / (rate or USUAL_RATE)
     if "timecode" in table:
         times = _timecodes(table, rate)
     elif name is not None:
-        times = table.numbers(name) * units[name]
-    for row in range(1, len(times)):
-        if not times[row] > times[row - 1]:
+        times = Times(table.numbers(name) * units[name])
+    else:
+        times = Times.even(len(table.rows), rate, USUAL_RATE)
+    for row in range(1, len(times.seconds)):
+        if not times.seconds[row] > times.seconds[row - 1]:
             problem = "has a time that is not later than the one before: sort the rows by time"
             raise FormatError(table.path, problem, line=table.lines[row])
-    since: Floats = times - times[0]
-    return since
+    return times.from_first()
 
 
-def _timecodes(table: TableFile, rate: float | None) -> Floats:
-    """(T,) seconds of the timecodes."""
+def _timecodes(table: TableFile, rate: float | None) -> Times:
+    """Times of the timecodes."""
     parts = []
     for text, line in zip(table.texts("timecode"), table.lines, strict=True):
         match = TIMECODE.fullmatch(text)
@@ -96,5 +98,5 @@ def _timecodes(table: TableFile, rate: float | None) -> Floats:
         parts.append([float(part) for part in match.groups()])
     hours, minutes, seconds, frames = np.array(parts).T
     counted = rate or max(USUAL_RATE, float(np.floor(frames.max())) + 1.0)
-    times: Floats = 3600.0 * hours + 60.0 * minutes + seconds + frames / counted
-    return times
+    assumed = () if rate is not None else (f"its timecode counts {counted:g} frames per second",)
+    return Times(3600.0 * hours + 60.0 * minutes + seconds + frames / counted, assumed)

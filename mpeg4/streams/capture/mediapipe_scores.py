@@ -39,7 +39,8 @@ def read_scores(frames: list[JsonFrame], *, rate: float | None = None) -> Sample
     columns = {name: np.array([score.get(name, math.nan) for score in scores]) for name in known}
     values = arkit_columns().frames(columns)
     values[:, 47:50] = head_faps(np.stack([rotation_of(frame) for frame in frames]))
-    return Samples(np.array(times_of(frames, rate or USUAL_RATE)), values)
+    times = times_of(frames, rate, USUAL_RATE)
+    return Samples(times.seconds, values, times.assumed)
 
 
 def _scores(frame: JsonFrame) -> dict[str, float]:

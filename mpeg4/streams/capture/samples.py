@@ -28,10 +28,12 @@ class Samples:
     ----------
     times : (T,) seconds, rising.
     frames : (T, 68) FAP units; NaN where unknown.
+    assumed : what the file does not say and was assumed, in words for people.
     """
 
     times: Floats
     frames: Floats
+    assumed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.times.shape != (len(self.frames),) or len(self.times) == 0:

@@ -12,7 +12,7 @@ decoder     bytes become a stream, from the next start code on where some are da
 Source: ISO/IEC 14496-2, face and body animation, gathered second-hand (docs/formats.md says what was not available).
 """
 
-from .decoder import Decoded, decode_fba, read_fba
+from .decoder import Decoded, begins_as_fba, decode_fba, read_fba
 from .encoder import encode_fba, write_fba
 
-__all__ = ["Decoded", "decode_fba", "encode_fba", "read_fba", "write_fba"]
+__all__ = ["Decoded", "begins_as_fba", "decode_fba", "encode_fba", "read_fba", "write_fba"]

@@ -63,6 +63,11 @@ def read_fba(path: str | Path, *, strict: bool = False) -> FapStream:
     return decode_fba(read_bytes(file), path=file, strict=strict).stream
 
 
+def begins_as_fba(data: bytes) -> bool:
+    """Whether bytes begin with an FBA start code."""
+    return int.from_bytes(data[:4]) in (SEQUENCE_START, OLD_SEQUENCE_START)
+
+
 def decode_fba(
     data: bytes,
     *,
@@ -102,7 +107,7 @@ def decode_fba(
 def _decoded(reading: _Reading, progress: Report | None) -> Iterator[str]:
     """Decode all frames; yields what is wrong, and goes on at the next start code."""
     bits = reading.bits
-    if int.from_bytes(bits.data[:4]) in (SEQUENCE_START, OLD_SEQUENCE_START):
+    if begins_as_fba(bits.data):
         bits.position = reading.start = 32
     else:
         yield "does not begin with an FBA start code (00 00 01 BA): is it an MPEG-4 face stream?"

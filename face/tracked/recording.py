@@ -1,0 +1,173 @@
+"""Files of FAPs over time, and of what trackers saw, read and written: one way for every format.
+
+`read_stream` and `write_stream` are for whoever wants the stream; `read_recording` also tells what the file is, what it
+does not say and had to be assumed, and what of it is damaged.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import FormatError, ParameterError
+from ...files import read_bytes
+from ...mpeg4 import FapStream, decode_fba, read_fap, write_fap, write_fap_json, write_fba
+from ...mpeg4.streams.capture import Samples, write_fap_csv
+from ...mpeg4.streams.fap_json import stream_of_document
+from ...progress import Report
+from .captured import ASPECT, Told, samples_of_json, samples_of_table
+from .formats import WRITABLE, Opened, StreamFormat, open_stream
+
+
+@dataclass(frozen=True)
+class Recording:
+    """A file as it was read.
+
+    Attributes
+    ----------
+    stream : its FAPs at an even rate; what is not known in it is masked.
+    format : what the file was taken for.
+    assumed : what it does not say and was assumed, in words for people.
+    damage : what of an .fba file could not be decoded; the frames it cost are masked.
+    """
+
+    stream: FapStream
+    format: StreamFormat
+    assumed: tuple[str, ...] = ()
+    damage: tuple[FormatError, ...] = ()
+
+
+def read_recording(
+    path: str | Path,
+    format: str | StreamFormat | None = None,
+    *,
+    fps: float | None = None,
+    rate: float | None = None,
+    aspect: float = ASPECT,
+    neutral: tuple[float, float] | None = None,
+    strict: bool = False,
+    progress: Report | None = None,
+) -> Recording:
+    """A file of any format, with what was assumed to read it.
+
+    Parameters
+    ----------
+    path : .fap or .fba; FAPs as JSON or CSV; OpenFace CSV; ARKit, Live Link Face or MediaPipe blend shapes (CSV, JSON);
+        MediaPipe landmarks (CSV, JSON).
+    format : which of these; None: what the file contains tells, then its ending.
+    fps : frames per second of the stream; None: those of the file. At another rate, visemes and expressions are FAPs.
+    rate : frames per second of a tracker's file that states no times, or whose timecode counts in others than 60.
+    aspect : landmarks only: the picture's width over its height.
+    neutral : landmarks only: seconds from and to which the face is neutral; None: its usual shape is.
+    strict : .fba only: refuse any damage.
+    progress : .fba only: called as it is decoded.
+
+    Raises
+    ------
+    FormatError : names the file, line and column, frame or byte, and the remedy.
+    ParameterError : an option outside its rule.
+    """
+    if rate is not None and not (np.isfinite(rate) and rate > 0.0):
+        raise ParameterError("rate", "must be a positive number of frames per second", rate)
+    opened = open_stream(path, None if format is None else StreamFormat.of(format))
+    if opened.format is StreamFormat.FBA:
+        decoded = decode_fba(read_bytes(path), path=path, strict=strict, progress=progress)
+        return Recording(_at(decoded.stream, fps), StreamFormat.FBA, damage=decoded.damage)
+    if opened.format is StreamFormat.FAP:
+        return Recording(_at(read_fap(path), fps), StreamFormat.FAP)
+    told = Told(rate, aspect, neutral)
+    if opened.table is not None:
+        samples = samples_of_table(opened.table, opened.format, told)
+    elif opened.recorded is not None:
+        samples = samples_of_json(opened.recorded, opened.format, told)
+    else:
+        return Recording(_at(stream_of_document(path, opened.document), fps), StreamFormat.JSON)
+    frames, per_second = samples.evenly(fps)
+    stream = FapStream(frames=frames, fps=per_second, name=_name(opened))
+    return Recording(stream, opened.format, samples.assumed)
+
+
+def read_stream(
+    path: str | Path,
+    format: str | StreamFormat | None = None,
+    *,
+    fps: float | None = None,
+    rate: float | None = None,
+    aspect: float = ASPECT,
+    neutral: tuple[float, float] | None = None,
+) -> FapStream:
+    """The stream of a file of any format; parameters and errors as `read_recording`."""
+    return read_recording(path, format, fps=fps, rate=rate, aspect=aspect, neutral=neutral).stream
+
+
+def read_capture(
+    path: str | Path,
+    *,
+    kind: str | StreamFormat | None = None,
+    fps: float | None = None,
+    rate: float | None = None,
+    aspect: float = ASPECT,
+    neutral: tuple[float, float] | None = None,
+) -> FapStream:
+    """The stream of a tracker's file: the older name of `read_stream`, whose `format` is called `kind` here."""
+    return read_stream(path, kind, fps=fps, rate=rate, aspect=aspect, neutral=neutral)
+
+
+def write_stream(
+    path: str | Path,
+    stream: FapStream,
+    format: str | StreamFormat | None = None,
+    *,
+    decimals: int = 0,
+    quantiser: int = 1,
+    refresh: float = 10.0,
+    progress: Report | None = None,
+) -> None:
+    """Write a stream, whole or not at all.
+
+    Parameters
+    ----------
+    format : "fap", "fba", "json" or "faps" (CSV); None: as the file's ending says.
+    decimals : .fap only: of the values.
+    quantiser, refresh, progress : .fba only; see `encode_fba`.
+
+    Raises
+    ------
+    FormatError : an ending or format that is not written; the file cannot be written.
+    ParameterError : an option, or a value of the stream, outside its rule.
+    """
+    chosen = _ENDINGS.get(Path(path).suffix.lower()) if format is None else StreamFormat.of(format)
+    if chosen is StreamFormat.FAP:
+        write_fap(path, stream, decimals=decimals)
+    elif chosen is StreamFormat.FBA:
+        write_fba(path, stream, quantiser=quantiser, refresh=refresh, progress=progress)
+    elif chosen is StreamFormat.JSON:
+        write_fap_json(path, stream)
+    elif chosen is StreamFormat.FAPS:
+        write_fap_csv(path, stream)
+    else:
+        raise FormatError(path, f"is not a writable FAP stream: use {', '.join(WRITABLE)}")
+
+
+_ENDINGS = {
+    ".fap": StreamFormat.FAP,
+    ".fba": StreamFormat.FBA,
+    ".json": StreamFormat.JSON,
+    ".csv": StreamFormat.FAPS,
+}
+
+
+def _at(stream: FapStream, fps: float | None) -> FapStream:
+    """The stream at another rate."""
+    if fps is None or fps == stream.fps or not len(stream.frames):
+        return stream
+    times = np.arange(len(stream.frames)) / stream.fps
+    frames, per_second = Samples(times, stream.expanded()).evenly(fps)
+    return FapStream(frames=frames, fps=per_second, name=stream.name)
+
+
+def _name(opened: Opened) -> str:
+    """What the stream of a tracker's file is called: the file's name, in one printable line."""
+    return "".join(letter for letter in opened.path.stem if letter.isprintable()) or "capture"
