@@ -2,4 +2,5 @@
 
 solvers    a frame of the skin's solvers
 preview    one update of the live preview (Blender)
+redraw     one redraw of the panel in a file of many objects (Blender)
 """
