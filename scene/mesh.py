@@ -170,7 +170,7 @@ def new_mesh(name: str, vertices: Floats, corners: Ints, sizes: Ints) -> Mesh:
     return mesh
 
 
-def flatten_polygons(polygons: Sequence[Sequence[int]] | Ints) -> tuple[Ints, Ints]:
+def flatten_polygons(polygons: Sequence[Sequence[int]] | Sequence[Ints] | Ints) -> tuple[Ints, Ints]:
     """Polygons as an (F, n) array or a sequence of index sequences -> corners (L,) and sizes (F,)."""
     sizes = np.fromiter((len(polygon) for polygon in polygons), dtype=np.int64, count=len(polygons))
     corners = np.fromiter((index for polygon in polygons for index in polygon), dtype=np.int64, count=int(sizes.sum()))

@@ -76,7 +76,7 @@ class Layers:
     bone: float = 30.0
     fascia: float = 1.0
     ligaments: float = 1.0
-    bending: float = regions.BENDING_LENGTH
+    bending: float = tissue_of().bending_length
     insertion: Insertion = Insertion.ANATOMY
 
     def deep(self, muscle: str) -> bool:
@@ -114,7 +114,7 @@ def on_bone(skin: OuterSkin) -> Floats:
 
 def firmness(skin: OuterSkin) -> Floats:
     """(n,) by how much scalp, nose bridge, nose base, chin pad and neck are held more firmly than the cheek, 1/m^2."""
-    return np.asarray(regions.anchor(skin) - 1.0 / regions.ANCHOR_LENGTH**2)
+    return np.asarray(regions.anchor(skin) - 1.0 / tissue_of().anchor_length**2)
 
 
 def bed_matrix(skin: OuterSkin, layers: Layers, membrane: float) -> Sparse:
@@ -132,7 +132,7 @@ def two_layer_matrix(skin: OuterSkin, layers: Layers) -> Sparse:
     """(6n, 6n) stiffness of dermis, fat and fascia, N/m; three unknowns a node, dermis first."""
     membrane = tissue_of().membrane
     depth = fat_depth(skin, layers.depth * layers.fat_share * soft_tissue_depth(skin))
-    squared = regions.correction_bending(skin) * (layers.bending / regions.BENDING_LENGTH) ** 2
+    squared = regions.correction_bending(skin) * (layers.bending / tissue_of().bending_length) ** 2
     bending = sparse.kron(bending_matrix(skin.laplacian, skin.areas, squared), np.eye(3), format="csr")
     tied = diagonal_matrix(np.repeat(layers.ligaments * membrane * firmness(skin) * skin.areas, 3))
     dermis = membrane * (membrane_matrix(skin, skin.positions) + bending) + tied
