@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -24,7 +25,8 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
         draft.write_bytes(data)
         os.replace(draft, file)
     except OSError as error:
-        draft.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):  # what keeps the draft from being written may keep it from being removed
+            draft.unlink()
         raise FormatError(file, f"cannot be written ({error.strerror}): choose a folder you may write to") from error
 
 

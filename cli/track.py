@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import csv
-import io
 import math
 import re
 import sys
@@ -12,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import RisoriusError
-from ..files import write_whole
+from ..tables import write_csv
 from .options import verb
 from .progress import ShowProgress
 from .result import Result, UsageError
@@ -87,11 +85,10 @@ def _neutral(text: str | None) -> tuple[float, float] | str | None:
 
 def _write_confidence(path: Path, found: Track) -> None:
     """A row per frame, a column per FAP."""
-    out = io.StringIO()
-    writer = csv.writer(out)
-    writer.writerow(["frame", *(f"F{number}" for number in range(1, found.confidence.shape[1] + 1))])
-    writer.writerows([index, *(f"{value:.3f}" for value in row)] for index, row in enumerate(found.confidence))
-    write_whole(path, out.getvalue())
+    heading = ["frame", *(f"F{number}" for number in range(1, found.confidence.shape[1] + 1))]
+    write_csv(
+        path, heading, ([index, *(f"{value:.3f}" for value in row)] for index, row in enumerate(found.confidence))
+    )
 
 
 def _described(found: Track, out: Path) -> Result:

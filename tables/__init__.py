@@ -17,7 +17,7 @@ A cell that breaks its rule raises a `FormatError` that names the file, the key 
 """
 
 from .cells import Cells
-from .csv_table import CsvRow, numbered_lines, parsed_number, read_csv, row_cells, split_cells
+from .csv_table import CsvRow, numbered_lines, parsed_number, read_csv, row_cells, split_cells, write_csv
 from .json_table import checked_document, read_json
 from .keyed_table import KeyedTable
 from .toml_table import TomlTable, read_toml, toml_number, toml_text
@@ -37,4 +37,5 @@ __all__ = [
     "split_cells",
     "toml_number",
     "toml_text",
+    "write_csv",
 ]

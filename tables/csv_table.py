@@ -7,11 +7,12 @@ row: a cell holds no line break.
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
+import io
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from ..errors import FormatError
-from ..files import read_bytes
+from ..files import read_bytes, write_whole
 from .cells import Cells
 
 
@@ -61,6 +62,20 @@ def read_csv(path: str | Path, *columns: str) -> list[CsvRow]:
             )
     rows = [(number, row_cells(file, len(heading), number, line)) for number, line in lines[1:]]
     return [CsvRow(file, dict(zip(heading, cells, strict=True)), number) for number, cells in rows]
+
+
+def write_csv(path: str | Path, heading: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
+    """Write a CSV file, whole or not at all.
+
+    Raises
+    ------
+    FormatError : it cannot be written.
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(heading)
+    writer.writerows(rows)
+    write_whole(path, out.getvalue())
 
 
 def numbered_lines(text: str) -> list[tuple[int, str]]:

@@ -35,6 +35,9 @@ def test_an_older_file_stays_where_the_new_one_cannot_be_put(tmp_path: Path, mon
 def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"nowhere.*cannot be written"):
         write_whole(tmp_path / "nowhere" / "a", "new")
+    (tmp_path / "file").write_text("old")
+    with pytest.raises(FormatError, match=r"a: cannot be written \(Not a directory\)"):
+        write_whole(tmp_path / "file" / "a", "new")
 
 
 def test_a_file_that_cannot_be_read_is_named_with_the_remedy(tmp_path: Path) -> None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from types import MappingProxyType
 
 import numpy as np
 
@@ -79,7 +81,7 @@ def read_landmarks(landmarks: Landmarks, *, neutral: tuple[float, float] | None 
     ------
     ParameterError, ModelError : see `landmarks.read_points`.
     """
-    preset, points = _mediapipe()
+    preset, points = _preset(), landmark_numbers()
     tracked = {name: index for name, index in points.items() if index < landmarks.positions.shape[1]}
     stretch = None
     if neutral is not None:
@@ -98,8 +100,13 @@ def read_landmarks(landmarks: Landmarks, *, neutral: tuple[float, float] | None 
 
 
 @lru_cache(maxsize=1)
-def _mediapipe() -> tuple[TomlTable, dict[str, int]]:
-    """The preset of MediaPipe's landmarks, and feature point -> landmark."""
-    preset = read_toml(CAPTURE_PRESETS / "mediapipe_landmarks.toml")
-    tables = read_toml(TOPOLOGIES / preset.text("topology")).table("points"), preset.table("pupils")
-    return preset, {name: table.integer(name) for table in tables for name in table}
+def _preset() -> TomlTable:
+    """What MediaPipe's landmarks are and can tell."""
+    return read_toml(CAPTURE_PRESETS / "mediapipe_landmarks.toml")
+
+
+@lru_cache(maxsize=1)
+def landmark_numbers() -> Mapping[str, int]:
+    """Feature point -> MediaPipe's landmark."""
+    tables = read_toml(TOPOLOGIES / _preset().text("topology")).table("points"), _preset().table("pupils")
+    return MappingProxyType({name: table.integer(name) for table in tables for name in table})

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Floats
 from ...errors import ParameterError
-from ...files import write_whole
 from ...progress import Progress, Report
+from ...tables import write_csv
 from ..standard import FAP_COUNT, FAPS
 from .profile import ARCHETYPES, Archetype
 from .recognition import Rule, recognise, shown_strength
@@ -104,8 +102,4 @@ def write_belief_csv(path: str | Path, track: BeliefTrack) -> None:
         time = [f"{number:.0f}", f"{index / track.fps:.4f}"]
         figures = [f"{belief:.6g}" for belief in track.beliefs[index]]
         rows.append([*time, *figures, best or "", f"{track.strengths[index]:.4f}", *values])
-    out = io.StringIO()
-    writer = csv.writer(out)
-    writer.writerow([*head, *(f"F{number}_{FAPS[number].name}" for number in seen)])
-    writer.writerows(rows)
-    write_whole(path, out.getvalue())
+    write_csv(path, [*head, *(f"F{number}_{FAPS[number].name}" for number in seen)], rows)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from ...errors import FormatError, ParameterError
-from ...files import write_whole
+from ...files import read_bytes, write_whole
 from ..high_level import ExpressionField, VisemeField
 from ..standard import FAP_COUNT
 from .fap_stream import FapStream
@@ -120,10 +120,7 @@ def write_fap(path: str | Path, stream: FapStream, *, decimals: int = 0) -> None
 
 def _lines(file: Path) -> Iterator[tuple[int, str]]:
     """Lines that say something, with their numbers. Old files name Windows paths in whatever code page."""
-    try:
-        data = file.read_bytes()
-    except OSError as error:
-        raise FormatError(file, f"cannot be read ({error.strerror})") from error
+    data = read_bytes(file)
     if b"\0" in data:
         raise FormatError(file, "is binary, but a .fap file is text: is it an .fba stream?", offset=data.index(b"\0"))
     try:

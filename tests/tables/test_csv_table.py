@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from risorius.errors import FormatError
 from risorius.resources import STANDARD
-from risorius.tables import parsed_number, read_csv
+from risorius.tables import parsed_number, read_csv, write_csv
 
 
 @pytest.fixture
@@ -48,6 +48,14 @@ def test_damage_is_refused_with_its_place(path: Path, content: bytes, told: str)
 def test_a_missing_table_of_ours_is_a_damaged_installation() -> None:
     with pytest.raises(FormatError, match=r"cannot be read .*: install Risorius again"):
         read_csv(STANDARD / "absent.csv")
+
+
+def test_what_is_written_is_read_back(path: Path) -> None:
+    write_csv(path, ["fap", "reason"], [[3, 'wide, "open"'], [4, ""]])
+    assert path.read_bytes() == b'fap,reason\n3,"wide, ""open"""\n4,\n'
+    assert [(row.integer("fap"), row.text("reason", "")) for row in read_csv(path)] == [(3, 'wide, "open"'), (4, "")]
+    with pytest.raises(FormatError, match="cannot be written"):
+        write_csv(path / "below", ["fap"], [])
 
 
 @pytest.mark.parametrize(("text", "number"), [("3", 3), ("-2.5", -2.5), ("1e3", 1000.0), ("1_0", None), ("x", None)])

@@ -6,7 +6,6 @@ its volume does not lock (B-bar: T. J. R. Hughes, Int. J. Numer. Methods Eng. 15
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +14,7 @@ from risorius.errors import ModelError
 from risorius.face.mesh.template import MM
 from risorius.face.skin.outer import OuterSkin, smoothstep
 from risorius.physics.mesh import Sparse, triangulate
+from risorius.tables import read_csv
 from scipy import sparse
 
 DEPTHS = Path(__file__).with_name("soft_tissue_depth.csv")
@@ -45,13 +45,12 @@ def soft_tissue_depth(skin: OuterSkin) -> Floats:
     ------
     ModelError : a face without any of the table's feature points.
     """
-    with DEPTHS.open(encoding="utf-8") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    known = [row for row in rows if all(name in skin.points for name in row["feature_points"].split())]
+    rows = read_csv(DEPTHS, "feature_points", "depth")
+    known = [row for row in rows if all(name in skin.points for name in row.texts("feature_points"))]
     if not known:
         raise ModelError("the face has none of the feature points of soft_tissue_depth.csv: give some")
-    places = np.array([np.mean([skin.points[n] for n in row["feature_points"].split()], axis=0) for row in known])
-    depths = np.array([float(row["depth"]) * MM for row in known])
+    places = np.array([np.mean([skin.points[n] for n in row.texts("feature_points")], axis=0) for row in known])
+    depths = np.array([row.number("depth") * MM for row in known])
     away = ((skin.positions[:, None] - places) ** 2).sum(axis=2)
     weight = 1.0 / (away + (4 * MM) ** 2) ** 1.5
     lid = near_lids(skin)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import itertools
 import time
 from collections.abc import Callable, Mapping
@@ -14,6 +13,7 @@ import numpy as np
 from fit.heads import SharedHeads
 from risorius.api import Face
 from risorius.arrays import Floats
+from risorius.tables import read_csv
 
 from .faces import IDENTITIES
 from .poses import Measured
@@ -63,20 +63,19 @@ class Combination:
 @cache
 def units() -> Mapping[int, Unit]:
     """units.csv by number."""
-    with UNITS.open(encoding="utf-8") as file:
-        return {
-            int(row["au"]): Unit(row["name"], row["shape"], float(row["weight"] or 0.0)) for row in csv.DictReader(file)
-        }
+    return {
+        row.integer("au"): Unit(row.text("name"), row.text("shape", ""), row.number("weight", 0.0))
+        for row in read_csv(UNITS)
+    }
 
 
 @cache
 def combinations() -> tuple[Combination, ...]:
     """combinations.csv in order."""
-    with COMBINATIONS.open(encoding="utf-8") as file:
-        return tuple(
-            Combination(row["emotion"], row["source"], dict(_unit(text) for text in row["units"].split()))
-            for row in csv.DictReader(file)
-        )
+    return tuple(
+        Combination(row.text("emotion"), row.text("source"), dict(_unit(text) for text in row.texts("units")))
+        for row in read_csv(COMBINATIONS)
+    )
 
 
 def _unit(text: str) -> tuple[int, float]:

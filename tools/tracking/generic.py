@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from tomllib import loads
 
 import numpy as np
 from risorius.arrays import Floats
 from risorius.face.mesh.template import MM
-from risorius.face.tracked.captured import read_landmarks
+from risorius.face.tracked.captured import landmark_numbers, read_landmarks
 from risorius.face.tracked.landmarks import LandmarkReading
 from risorius.track import find_landmarks, open_pictures
 from risorius.track.generic_face import TABLE
-
-PRESETS = TABLE.parent
 
 HEADING = """\
 # The generic neutral face as MediaPipe's face mesh sees it: mm to the subject's left, up, forward; origin feature point
@@ -29,7 +26,7 @@ def write_generic_face(neutral: Path) -> dict[str, float]:
     """Write the table from the pictures in a folder; the spread of each point in mm."""
     heads = sorted(folder for folder in neutral.iterdir() if folder.is_dir())
     faces = [_seen_face(folder) for folder in heads]
-    numbers = _landmark_numbers()
+    numbers = landmark_numbers()
     names = sorted(faces[0], key=lambda name: tuple(map(int, name.split("."))))
     stack = np.array([[face[name] for name in names] for face in faces]) / MM
     stack -= stack[:, [names.index("9.15")]]
@@ -48,13 +45,6 @@ def _seen_face(folder: Path) -> dict[str, Floats]:
     """Feature points of one neutral head as it is seen, in head space."""
     reading: LandmarkReading = read_landmarks(find_landmarks(open_pictures([folder])))
     return dict(reading.neutral)
-
-
-def _landmark_numbers() -> dict[str, int]:
-    """Feature point -> landmark."""
-    preset = loads((PRESETS / "mediapipe_landmarks.toml").read_text(encoding="utf-8"))
-    points = loads((PRESETS.parent / "topologies" / preset["topology"]).read_text(encoding="utf-8"))["points"]
-    return {**points, **preset["pupils"]}
 
 
 def _symmetric(face: Floats, names: list[str]) -> Floats:

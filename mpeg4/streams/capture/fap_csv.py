@@ -6,14 +6,12 @@ F03_open_jaw to F68_pull_r_ear in FAP units (1e-5 rad for angles).
 
 from __future__ import annotations
 
-import csv
-import io
 from pathlib import Path
 
 import numpy as np
 
 from ....errors import FormatError
-from ....files import write_whole
+from ....tables import write_csv
 from ...standard import FAP_COUNT, FAPS
 from ..fap_stream import FapStream
 from .samples import Samples
@@ -29,14 +27,12 @@ def write_fap_csv(path: str | Path, stream: FapStream) -> None:
     ------
     FormatError : the file cannot be written.
     """
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["frame", "timestamp", "confidence", "success", *COLUMNS.values()])
+    rows = []
     for index, values in enumerate(stream.expanded()):
         known = int(not np.isnan(values).all())
         cells = ["" if np.isnan(values[n - 1]) else f"{values[n - 1]:.6g}" for n in COLUMNS]
-        writer.writerow([index + 1, f"{index / stream.fps:.6f}", known, known, *cells])
-    write_whole(path, out.getvalue())
+        rows.append([index + 1, f"{index / stream.fps:.6f}", known, known, *cells])
+    write_csv(path, ["frame", "timestamp", "confidence", "success", *COLUMNS.values()], rows)
 
 
 def holds_faps(table: TableFile) -> bool:
