@@ -20,7 +20,7 @@ from .drive.inverse import Inverse, Kernel, kernel_of
 from .mechanism import EVERY, Mechanism
 from .mechanisms.jaw import Jaw, build_jaw
 from .mechanisms.lids import Eye, build_eye
-from .mesh.face_mesh import FaceMesh
+from .mesh.face_mesh import COPY, FaceMesh
 from .mesh.fap_rows import FapRows, displacement_rows
 from .mesh.fap_units import unit_length
 from .mesh.openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, find_opening, outer_faces
@@ -260,4 +260,4 @@ class Anatomy:
         landmarks = self.mesh.landmarks
         pivot = landmarks["7.1"] if "7.1" in landmarks else self.warp(TEMPLATE_POINTS["7.1"])
         brow = float(landmarks["4.3"][1] + landmarks["4.4"][1]) / 2.0
-        return build_head_turn(self.mesh.positions, pivot, brow)
+        return build_head_turn(self.mesh.positions, pivot, brow, self.mesh.parts != COPY)

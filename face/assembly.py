@@ -48,6 +48,8 @@ class Assembly:
         anatomy.loose_parts.follow(moved)
         for ball in anatomy.eyeballs:
             moved[ball.index] = ball.displacement(faps)
+        seams = anatomy.mesh.seams
+        moved[seams.copies] = moved[seams.leads[seams.copies]]
         return anatomy.mesh.head_frame.to_face(anatomy.head_turn.apply(rest + moved, faps))
 
     def _folded(self, displacement: Floats, request: Request) -> Floats:

@@ -20,11 +20,12 @@ from .drive.request import Drive, EmotionShares, Request, silent_faps
 from .measure import features, measure
 from .mechanism import Mechanism, named
 from .mesh.checks import checked_axes, checked_parts, checked_polygons, checked_vertices, with_pupils
-from .mesh.face_mesh import FaceMesh
+from .mesh.face_mesh import COPY, FaceMesh
 from .mesh.fap_units import Fapu, fapu
 from .mesh.head_frame import head_frame_of
 from .mesh.parts import Part
 from .mesh.points import FeaturePoints, PointSource, bind_points, check_sides
+from .mesh.weld import weld
 from .muscles.placement import PlacedMuscle
 from .pose import Pose, Poser, Sketch
 from .requests import checked_drive, checked_emotions, checked_request, checked_stream
@@ -85,8 +86,8 @@ class Face:
     `anatomy` is for the rooms of `face` alone: what others need of it, a property gives in the face's own coordinates.
     """
 
-    def __init__(self, vertices: Floats, anatomy: Anatomy) -> None:
-        self._vertices = vertices
+    def __init__(self, vertices: Floats, polygons: Sequence[Ints], anatomy: Anatomy) -> None:
+        self._vertices, self._polygons = vertices, polygons
         self.anatomy = anatomy
 
     @classmethod
@@ -103,7 +104,8 @@ class Face:
 
         Parameters
         ----------
-        vertices : (V, 3) metres, any orientation and scale.
+        vertices : (V, 3) metres, any orientation and scale. Vertices at one place that are one, as importers leave them
+            at seams, move as one (`mesh.weld`).
         polygons : (F, 3|4) ints, or a sequence of index sequences (three corners or more).
         points : feature point -> vertex index, or position (3,) on the surface (bound by barycentric weights). 3.5 and
             3.6 may be left out; they are then placed in the middle of each eye's opening.
@@ -117,7 +119,8 @@ class Face:
         """
         array = checked_vertices(vertices)
         faces = checked_polygons(polygons, len(array))
-        sources, triangles = with_pupils(points, array), mesh.fans(faces)[0]
+        seams = weld(array, faces)
+        sources, triangles = seams.of_leads(with_pupils(points, array)), mesh.fans(seams.polygons)[0]
         skin = None if parts is None or np.shape(parts) != (len(array),) else np.asarray(parts) == Part.SKIN
         bound = bind_points(sources, array, triangles, skin)
         positions = bound.positions()
@@ -126,11 +129,12 @@ class Face:
         check_sides(landmarks)
         units = fapu(positions, head_frame.axes)
         head = head_frame.to_head(array)
-        given = checked_parts(parts, head, faces, landmarks, bound)
+        given = checked_parts(parts, head, seams.polygons, landmarks, bound)
         if parts is None:
             bound = bind_points(sources, array, triangles, given == Part.SKIN)
-        face_mesh = FaceMesh(head, faces, given, bound, landmarks, head_frame, units)
-        return cls(array, Anatomy(face_mesh))
+        given[seams.copies] = COPY
+        face_mesh = FaceMesh(head, seams.polygons, given, bound, landmarks, head_frame, units, seams)
+        return cls(array, faces, Anatomy(face_mesh))
 
     def without(self, *mechanisms: str | Mechanism) -> Face:
         """The same face with some mechanisms left out, to show what each is worth.
@@ -143,7 +147,8 @@ class Face:
         ParameterError : an unknown mechanism; lists the known ones.
         """
         whole = self.anatomy
-        return Face(self._vertices, Anatomy(whole.mesh, whole.mechanisms - named(mechanisms), whole=whole))
+        left = Anatomy(whole.mesh, whole.mechanisms - named(mechanisms), whole=whole)
+        return Face(self._vertices, self._polygons, left)
 
     @property
     def mechanisms(self) -> frozenset[Mechanism]:
@@ -157,18 +162,19 @@ class Face:
 
     @property
     def polygons(self) -> Sequence[Ints]:
-        """Vertex indices of each polygon."""
-        return self.anatomy.mesh.polygons
+        """Vertex indices of each polygon, as given."""
+        return self._polygons
 
     @property
     def points(self) -> FeaturePoints:
-        """Feature points bound to the mesh."""
+        """Feature points bound to the mesh; of vertices at one place, to the first."""
         return self.anatomy.mesh.points
 
     @property
     def parts(self) -> Ints:
         """(V,) numbers of `Part`."""
-        return self.anatomy.mesh.parts
+        face_mesh = self.anatomy.mesh
+        return face_mesh.parts[face_mesh.seams.leads]
 
     @property
     def axes(self) -> Floats:
@@ -178,16 +184,17 @@ class Face:
     @property
     def outer_skin(self) -> Ints:
         """(n,) vertices of the skin that shows: without the lining of mouth and eyes."""
-        return self.anatomy.given_skin.index
+        return self.anatomy.mesh.with_copies(self.anatomy.given_skin.index)
 
     @property
     def eyeballs(self) -> tuple[EyeballPlace, ...]:
         """Its eyeballs at rest; none where the mesh has none."""
-        placed = self.anatomy.mesh.head_frame
-        return tuple(
-            EyeballPlace(ball.index, placed.to_face(ball.centre), ball.gaze @ placed.axes, ball.iris, ball.pupil)
-            for ball in self.anatomy.eyeballs
-        )
+        face_mesh, placed = self.anatomy.mesh, self.anatomy.mesh.head_frame
+        found = []
+        for ball in self.anatomy.eyeballs:
+            vertices, gaze = face_mesh.with_copies(ball.index), ball.gaze @ placed.axes
+            found.append(EyeballPlace(vertices, placed.to_face(ball.centre), gaze, ball.iris, ball.pupil))
+        return tuple(found)
 
     @property
     def is_mask(self) -> bool:
@@ -198,6 +205,11 @@ class Face:
     def units(self) -> Fapu:
         """FAP units in metres."""
         return self.anatomy.mesh.units
+
+    @property
+    def scale(self) -> float:
+        """How large the face is: its size over that of a life-size one in metres."""
+        return self.anatomy.mesh.head_frame.scale
 
     @property
     def muscles(self) -> Mapping[str, PlacedMuscle]:

@@ -11,6 +11,7 @@ mesh, head            meshes to arrays and back; the default head
 faces, companions     from objects to a face: the head, and what belongs to it
 fingerprint           which object it is, and which face
 parts_found           parts of a face's mesh, told and corrected
+progress              the progress of long work, where scripts look for it
 refusals              what Risorius refuses to touch, and the remedy
 node_graph            node groups built in a few words
 materials             materials and worlds with nodes

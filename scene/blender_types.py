@@ -197,6 +197,8 @@ class ShapeKey(Protocol):
     slider_min: float
     slider_max: float
     mute: bool
+    vertex_group: str
+    relative_key: ShapeKey
     data: Items[object]
 
 
@@ -431,6 +433,8 @@ class NlaTrack(Protocol):
 
     name: str
     strips: NlaStrips
+    mute: bool
+    is_solo: bool
 
 
 class NlaTracks(Items[NlaTrack], Protocol):
@@ -446,6 +450,7 @@ class AnimData(Protocol):
     action: Action | None
     action_slot: Slot | None  # from Blender 4.4 on
     use_tweak_mode: bool
+    use_nla: bool
     nla_tracks: NlaTracks
 
 

@@ -6,16 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from ..arrays import Floats
 from ..errors import SceneError
 from ..progress import Progress, Work, part_of
+from .bake.shape_keys import write_shape
 from .bake.target import Target
 from .bake.writing import STILL
 from .blender_types import Object
 from .faces import FaceSource, face_of
-from .mesh import keys_of, write_key_vertices
+from .mesh import keys_of
 from .refusals import own_mesh
 
 
@@ -64,7 +63,7 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
         moving = {
             name: piece.local_positions(moved)
             for name, moved in shapes.items()
-            if piece is source.pieces[0] or np.abs(moved[piece.slice]).max(initial=0.0) > STILL
+            if piece is source.pieces[0] or piece.moves(moved, STILL * face.scale)
         }
         _write(piece.obj, moving)
     return WrittenKeys(tuple(shapes), there)
@@ -79,7 +78,8 @@ def _taken(source: FaceSource, wanted: Mapping[str, object]) -> tuple[str, ...]:
 def _write(obj: Object, shapes: Mapping[str, Floats]) -> None:
     """Shape keys at rest, positions (V, 3) in the mesh's own coordinates."""
     for name, positions in shapes.items():
-        block = keys_of(obj).key_blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
-        block.slider_min, block.slider_max, block.value = 0.0, 1.0, 0.0
-        write_key_vertices(block, positions)
+        keys = keys_of(obj)
+        block = keys.key_blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
+        block.slider_min, block.slider_max = 0.0, 1.0
+        write_shape(keys, block, positions)
     obj.data.update_tag()

@@ -18,6 +18,7 @@ from . import mesh as meshes
 from .blender_types import Mesh, Object, Scene
 from .companions import Companion, placements, refuse_twice
 from .fingerprint import Fingerprint, fingerprint
+from .points.stored import store_points as store_points
 from .points.stored import stored_points
 from .refusals import refuse_broken_vertices, refuse_unreadable
 
@@ -54,6 +55,10 @@ class Piece:
     def slice(self) -> slice[int, int, None]:
         """This piece's rows of the joined arrays."""
         return slice(self.first, self.first + len(self.rest))
+
+    def moves(self, displacements: Floats, least: float) -> bool:
+        """Whether joined displacements (..., all vertices, 3) move this piece by more than `least` metres."""
+        return bool(np.abs(displacements[..., self.slice, :]).max(initial=0.0) > least)
 
     def local_positions(self, displacements: Floats) -> Floats:
         """(V, 3) positions in the mesh's own coordinates from joined displacements (all vertices, 3) in metres."""

@@ -15,6 +15,7 @@ import bpy
 from ..errors import SceneError
 from .bake import action as actions
 from .bake import shape_keys
+from .bake.tracks import CLIP_TAG, add_strip
 from .blender_types import Action, Key, Object, Scene
 from .pictures.film import refuse_unwritable_output
 
@@ -65,7 +66,7 @@ def export_gltf(objects: Sequence[Object], path: str | Path) -> Exported:
 def clips_of(head: Object) -> dict[str, Action]:
     """Clip name -> action of every clip that is baked on a head."""
     own = actions.own_actions(shape_keys.own_face(head.data))
-    return {str(action[actions.CLIP_TAG]): action for action in own}
+    return {str(action[CLIP_TAG]): action for action in own}
 
 
 @contextmanager
@@ -130,7 +131,7 @@ def _lay_out(keys: Key | None, clips: dict[str, Action]) -> None:
     for name, action in clips.items():
         track = animation.nla_tracks.new()
         track.name = name
-        actions.add_strip(track, action)
+        add_strip(track, action)
     for block in keys.key_blocks:
         block.value = 0.0
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ...arrays import Floats, Ints
+from ...arrays import Bools, Floats, Ints
 from ...mpeg4 import ANGLE_UNIT
 from ..figures import Length, Pair, read_figures
 from ..skin.outer import smoothstep
@@ -82,11 +82,14 @@ class HeadTurn:
         return turn, shift
 
 
-def build_head_turn(positions: Floats, pivot: Floats, brow_height: float) -> HeadTurn:
-    """The head's turn on a mesh (V, 3) in head space; a head without a neck turns as a whole."""
+def build_head_turn(positions: Floats, pivot: Floats, brow_height: float, read: Bools) -> HeadTurn:
+    """The head's turn on a mesh (V, 3) in head space; a head without a neck turns as a whole.
+
+    `read` (V,) are the vertices that may tell how it is turned.
+    """
     low = float(positions[:, 1].min())
     y = positions[:, 1]
     (root, over), (behind, above) = HEAD.neck, HEAD.occiput
     weights = np.ones(len(positions)) if low > HEAD.neckless else smoothstep((y - root) / over)
-    skull = np.flatnonzero((y > brow_height + HEAD.crown) | ((positions[:, 2] < behind) & (y > above)))
+    skull = np.flatnonzero(read & ((y > brow_height + HEAD.crown) | ((positions[:, 2] < behind) & (y > above))))
     return HeadTurn(pivot=pivot, weights=weights, skull=skull)

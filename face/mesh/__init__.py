@@ -2,6 +2,7 @@
 
 checks                    vertices, polygons, parts and axes of a caller, checked
 face_mesh                 all of it, checked and turned into head space
+weld                      which vertices at one place are one
 head_frame                where the head is, which way it looks
 fap_units                 its FAP units
 points, own_lip           feature points bound to the mesh

@@ -5,10 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ...arrays import Floats, Ints
 from .fap_units import Fapu
 from .head_frame import HeadFrame
 from .points import FeaturePoints
+from .weld import Weld
+
+#: The part of a vertex that another one stands for: it belongs to nothing, and goes where that one goes.
+COPY = -1
 
 
 @dataclass(frozen=True)
@@ -17,7 +23,8 @@ class FaceMesh:
 
     Attributes
     ----------
-    positions : (V, 3) metres. polygons : vertex index arrays. parts : (V,) numbers of `Part`.
+    positions : (V, 3) metres. polygons : vertex index arrays, seams welded. parts : (V,) numbers of `Part`, or `COPY`.
+    seams : which vertices are one.
     points : bound feature points (their positions in the face's own coordinates).
     landmarks : feature point -> (3,) in head space.
     head_frame, units : where the head is, and its FAP units.
@@ -30,3 +37,8 @@ class FaceMesh:
     landmarks: Mapping[str, Floats]
     head_frame: HeadFrame
     units: Fapu
+    seams: Weld
+
+    def with_copies(self, vertices: Ints) -> Ints:
+        """Some vertices (n,) and their copies."""
+        return np.flatnonzero(np.isin(self.seams.leads, vertices)) if len(self.seams.copies) else vertices

@@ -47,7 +47,7 @@ class Creases:
     def __init__(self, face: Face, rows: Sequence[CreaseRow] | None = None) -> None:
         """Place the creases of a table (the built-in one) on a face."""
         anatomy, skin = face.anatomy, face.anatomy.given_skin
-        self.rest, self.index = face.vertices, skin.index
+        self.rest, self.index, self.leads = face.vertices, skin.index, anatomy.mesh.seams.leads
         #: (V, 3) resting vertices in head space, metres: where a renderer takes its noise from.
         self.head_positions = anatomy.mesh.positions
         self.edges = unique_edges(face.polygons)
@@ -113,7 +113,7 @@ class Creases:
         """(V, 2) places of all vertices from those of the outer skin (n, 2)."""
         spread = np.zeros((len(self.rest), 2))
         spread[self.index] = places
-        return spread
+        return spread[self.leads]
 
     def _along(self, positions: Floats) -> Floats:
         """(E, 3) from end to end of every edge."""

@@ -43,7 +43,7 @@ timeline. If the mesh has no feature points yet, find the face first"""
         cues, before = performance.cues_of(performance.ARCHETYPES), set(shape_keys.read_own(obj.data).clips)
         fps, creases = bake.scene_fps(context.scene), creases_wanted(obj)
         try:
-            return (yield from performance.pose_all(target, cues, fps, creases))
+            return (yield from performance.pose_all(target, cues, fps, creases, first_frame=context.scene.frame_start))
         except GeneratorExit:
             made = set(shape_keys.read_own(obj.data).clips) - before
             if made:
@@ -58,8 +58,10 @@ timeline. If the mesh has no feature points yet, find the face first"""
             self.report({"WARNING"}, remark)
         scene, apex = context.scene, result[0].frame_range
         last = performance.line_up(target_of(context.object), result)
-        scene.frame_start, scene.frame_end = performance.FIRST_FRAME, max(last, int(scene.frame_end))
         if not bpy.app.background:
             scene.frame_set(round(sum(apex) / 2.0))
             turn_to_face(context, read_kept(context.object))
-        return f"{context.object.name}: six emotions, frames 1 to {last}; press the space bar over the viewport to play"
+        if last > scene.frame_end:
+            self.report({"WARNING"}, f"The scene ends at frame {scene.frame_end}: set End to {last} to play all six")
+        frames = f"frames {scene.frame_start} to {last}"
+        return f"{context.object.name}: six emotions, {frames}; press the space bar over the viewport to play"

@@ -10,7 +10,7 @@ import bpy
 from ...errors import SceneError
 from ...progress import Work, part_of
 from ...scene import bake, gltf, refusals
-from ...scene.bake import action, shape_keys
+from ...scene.bake import shape_keys, tracks
 from ...scene.pictures import film
 from ...scene.pictures.look import Camera, Engine, Look
 from ...scene.points.found import Finding
@@ -152,6 +152,6 @@ def frame_range(context: Any) -> tuple[int, int]:
     """First and last frame: of the clip that the face plays, or of the scene."""
     scene, keys = context.scene, context.object.data.shape_keys
     playing = keys.animation_data.action if keys is not None and keys.animation_data is not None else None
-    if scene.risorius.film.frames == "CLIP" and playing is not None and action.FACE_TAG in playing:
+    if scene.risorius.film.frames == "CLIP" and playing is not None and tracks.FACE_TAG in playing:
         return int(playing.frame_start), int(playing.frame_end)
     return int(scene.frame_start), int(scene.frame_end)

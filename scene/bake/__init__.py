@@ -7,6 +7,7 @@ performance, strips         several expressions; a timeline
 motion                      what a motion bake simulates
 compress                    a motion as few shapes times weights
 shape_keys, action, notes   Risorius' own keys; clips as actions; what a bake notes on them
+tracks                      how clips play: as the keys' action, or on NLA tracks beside one another
 remarks                     what an animator should know about a bake
 """
 

@@ -16,12 +16,11 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ParameterError
-from ..blender_types import Action, Key, NlaStrip, NlaTrack
-from ..fcurves import add_keyframes, key_curves, key_slot
+from ..blender_types import Action, Key
+from ..fcurves import add_keyframes, key_curves
+from . import tracks
 from .shape_keys import own_names_of
-
-FACE_TAG, CLIP_TAG = "risorius_face", "risorius_clip"
-TRACK_NAME = "Risorius"
+from .tracks import CLIP_TAG, FACE_TAG
 
 
 @dataclass(frozen=True)
@@ -67,8 +66,9 @@ def remove_curves(action: Action, key_names: Iterable[str]) -> None:
 
 
 def own_actions(face: str) -> list[Action]:
-    """All clips of one face."""
-    return [action for action in bpy.data.actions if face and action.get(FACE_TAG) == face]
+    """All clips of one face that this file holds: those of a linked file are that file's own."""
+    local = (action for action in bpy.data.actions if action.library is None and action.override_library is None)
+    return [action for action in local if face and action.get(FACE_TAG) == face]
 
 
 def _used_elsewhere(action: Action, keys: Iterable[Key]) -> bool:
@@ -132,52 +132,10 @@ def _silence(frame: float) -> Curve:
     return Curve(np.array([frame]), np.zeros(1), linear=True)
 
 
-def play(keys: Key, action: Action) -> str | None:
-    """Let a shape key datablock play the clip; a user's own action stays, and the clip goes on an NLA track then.
-
-    Returns
-    -------
-    A remark for the user where the clip went on a track, else None.
-    """
-    animation = keys.animation_data or keys.animation_data_create()
-    current = animation.action
-    if current is None or FACE_TAG in current:
-        animation.action = action
-        if hasattr(animation, "action_slot"):
-            animation.action_slot = key_slot(action)
-        return None
-    track = next((t for t in animation.nla_tracks if t.name == TRACK_NAME), None)
-    if track is None:
-        track = animation.nla_tracks.new()
-        track.name = TRACK_NAME
-    for strip in list(track.strips):
-        track.strips.remove(strip)
-    add_strip(track, action)
-    return f"the action {current.name} stays; the clip plays on the NLA track {TRACK_NAME}"
-
-
-def add_strip(track: NlaTrack, action: Action) -> NlaStrip:
-    """Put a clip on an NLA track, at its own frames. Outside them it holds its ends, which are at rest.
-
-    A strip that said nothing there would leave the face as the last frame shown had it.
-    """
-    strip = track.strips.new(action.name, int(action.frame_start), action)
-    if hasattr(strip, "action_slot"):
-        strip.action_slot = key_slot(action)
-    strip.frame_start = action.frame_start
-    strip.extrapolation = "HOLD_FORWARD" if len(track.strips) > 1 else "HOLD"
-    return strip
-
-
 def frames_of(action: Action) -> tuple[float, float]:
     """First and last frame of a clip."""
     start, end = action.frame_range
     return float(start), float(end)
-
-
-def is_own_track(track: NlaTrack) -> bool:
-    """Whether an NLA track is ours; Blender numbers tracks of one name."""
-    return str(track.name).partition(".")[0] == TRACK_NAME
 
 
 def remove_clip(face: str, clip: str, *, keys: Iterable[Key], key_names: Iterable[str]) -> None:
@@ -226,5 +184,5 @@ def _detach(keys: Key, action: Action) -> None:
         for strip in list(track.strips):
             if strip.action == action:
                 track.strips.remove(strip)
-        if is_own_track(track) and not track.strips:
+        if tracks.is_own(track) and not track.strips:
             animation.nla_tracks.remove(track)

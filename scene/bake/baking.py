@@ -17,6 +17,7 @@ from ...progress import Progress, Work
 from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of
 from . import action as actions
+from . import shape_keys
 from .compress import TOLERANCE, compress
 from .motion import Motion
 from .notes import Note
@@ -115,7 +116,7 @@ def bake_motion(
     start : first frame in Blender's timeline.
     fps : frames per second of the motion; by default the scene's.
     drive : as for `Face.simulate`.
-    tolerance : metres.
+    tolerance : metres on a life-size face; in proportion on one of another size.
     creases, note : as for `bake_expression`.
 
     Raises
@@ -133,11 +134,11 @@ def bake_motion(
         displacements[index] = positions - face.vertices
         yield Progress(0.1 + 0.75 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
     yield Progress(0.87, "Compressing the motion to shape keys")
-    packed = compress(displacements, tolerance=tolerance)
+    packed = compress(displacements, tolerance=tolerance * face.scale)
     if len(packed.shapes) == 0:
         raise SceneError(source.head.name, "nothing moves in this motion: increase its activation or its duration")
     yield Progress(0.97, "Writing the shape keys")
-    names = [f"{clip} {number + 1:02d}" for number in range(len(packed.shapes))]
+    names = [shape_keys.fitting(clip, f" {number + 1:02d}") for number in range(len(packed.shapes))]
     times = start + np.arange(count, dtype=np.float64)
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
     marks = crease_marks.prepare(source, creases)

@@ -9,7 +9,7 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import ParameterError
 
-#: Every vertex stays within this of the simulated motion, metres.
+#: Every vertex of a life-size face stays within this of the simulated motion, metres; of others in proportion.
 TOLERANCE = 1e-4
 
 

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from ..blender_types import Action
-from .action import CLIP_TAG, own_actions
+from .action import own_actions
+from .tracks import CLIP_TAG
 
 KIND_TAG, SETTINGS_TAG = "risorius_kind", "risorius_settings"
 

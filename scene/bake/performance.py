@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import ParameterError
 from ...progress import Work, part_of
-from . import action as actions
+from . import tracks
 from .baking import BakeResult, bake_expression
 from .target import Target
 from .timing import ClipTiming
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 ARCHETYPES = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
 #: Seconds of rest before, between and after expressions.
 PAUSE = 0.2
-#: Frame at which it begins.
+#: Frame at which it begins in a scene of its own.
 FIRST_FRAME = 1
 
 
@@ -41,12 +41,14 @@ def cues_of(words: Sequence[str]) -> list[Cue]:
     return cues
 
 
-def pose_all(target: Target, cues: Sequence[Cue], fps: float, creases: bool | None) -> Work[list[BakeResult]]:
-    """One shape key per cue, each clip at its cue's time."""
+def pose_all(
+    target: Target, cues: Sequence[Cue], fps: float, creases: bool | None, *, first_frame: int = FIRST_FRAME
+) -> Work[list[BakeResult]]:
+    """One shape key per cue, each clip at its cue's time from `first_frame` on."""
     results = []
     for index, cue in enumerate(cues):
         timing = ClipTiming(
-            start=FIRST_FRAME + cue.start * fps, onset=cue.onset, apex=cue.apex, offset=cue.offset, fps=fps
+            start=first_frame + cue.start * fps, onset=cue.onset, apex=cue.apex, offset=cue.offset, fps=fps
         )
         work = bake_expression(
             target,
@@ -64,18 +66,16 @@ def pose_all(target: Target, cues: Sequence[Cue], fps: float, creases: bool | No
 def line_up(target: Target, results: Sequence[BakeResult]) -> int:
     """Put the clips one after another on an NLA track of every mesh of the face; returns the last frame.
 
-    What the track held before goes; an action of the user's own stays as it is, on top.
+    Other clips stay on our tracks; an action of the user's own stays as it is, on top.
     """
+    clips = [bpy.data.actions[result.action] for result in results]
     for obj in target.objects():
         animation = obj.data.shape_keys.animation_data if obj.data.shape_keys is not None else None
         if animation is None:
             continue
-        if animation.action is not None and actions.FACE_TAG in animation.action:
+        if animation.action is not None and tracks.FACE_TAG in animation.action:
             animation.action = None
-        for track in [track for track in animation.nla_tracks if track.name == actions.TRACK_NAME]:
-            animation.nla_tracks.remove(track)
-        track = animation.nla_tracks.new()
-        track.name = actions.TRACK_NAME
-        for result in results:
-            actions.add_strip(track, bpy.data.actions[result.action])
+        tracks.take_off(animation, clips)
+        for clip in clips:
+            tracks.place(animation, clip)
     return int(np.ceil(max(result.frame_range[1] for result in results)))

@@ -14,10 +14,13 @@ from dataclasses import dataclass, field, replace
 import bpy
 
 from ...arrays import Floats
-from ..blender_types import Key, Mesh, Object
-from ..mesh import keys_of, write_key_vertices
+from ..blender_types import Key, Mesh, Object, ShapeKey
+from ..mesh import key_vertices, keys_of, write_key_vertices
 
 RECORD = "risorius"
+
+#: Blender keeps this many bytes of a shape key's name, in UTF-8; a Japanese letter takes three.
+NAME_BYTES = 63
 
 
 @dataclass(frozen=True)
@@ -72,8 +75,20 @@ def _write_own(keys: Key, own: OwnKeys) -> None:
     keys[RECORD] = json.dumps(stored)
 
 
+def fitting(name: str, suffix: str = "") -> str:
+    """A name and its suffix as Blender can keep them: the name is cut where they are too long together."""
+    room = NAME_BYTES - len(suffix.encode())
+    return name.encode()[:room].decode(errors="ignore") + suffix
+
+
+def shortened(name: str) -> tuple[str, ...]:
+    """A remark where a name is longer than Blender can keep."""
+    short = fitting(name)
+    return () if short == name else (f"the name is longer than Blender keeps: the shape key is called {short}",)
+
+
 def free_names(wanted: Sequence[str], meshes: Iterable[Mesh], clip: str) -> tuple[str, ...]:
-    """`wanted` key names, numbered where a mesh already has such a key that is not `clip`'s own."""
+    """`wanted` key names as Blender can keep them, numbered where a mesh already has a key that is not `clip`'s own."""
     taken: set[str] = set()
     for mesh in meshes:
         if mesh.shape_keys is not None:
@@ -81,9 +96,9 @@ def free_names(wanted: Sequence[str], meshes: Iterable[Mesh], clip: str) -> tupl
             taken |= {block.name for block in mesh.shape_keys.key_blocks} - ours
     chosen: list[str] = []
     for name in wanted:
-        candidate, number = name, 1
+        candidate, number = fitting(name), 1
         while candidate in taken:
-            candidate, number = f"{name}.{number:03d}", number + 1
+            candidate, number = fitting(name, f".{number:03d}"), number + 1
         taken.add(candidate)
         chosen.append(candidate)
     return tuple(chosen)
@@ -112,12 +127,25 @@ def write_keys(
     for name, positions in shapes.items():
         block = keys.key_blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
         block.slider_min, block.slider_max = slider_min, 1.0
-        block.value = 0.0
-        write_key_vertices(block, positions)
+        write_shape(keys, block, positions)
     own = replace(own, face=face or own.face or uuid.uuid4().hex, clips={**own.clips, clip: tuple(shapes)})
     _write_own(keys, own)
     obj.data.update_tag()
     return own
+
+
+def write_shape(keys: Key, block: ShapeKey, positions: Floats) -> None:
+    """Give a shape key positions (V, 3) that show at value 1, and value 0.
+
+    What it was relative to, limited to or muted by counts no longer. Keys relative to it go on adding what they added.
+    """
+    before = key_vertices(block)
+    for other in keys.key_blocks:
+        if other != block and other.relative_key == block:
+            write_key_vertices(other, key_vertices(other) + positions - before)
+    block.relative_key, block.vertex_group, block.mute = keys.reference_key, "", False
+    block.value = 0.0
+    write_key_vertices(block, positions)
 
 
 def remove_keys(obj: Object, clips: Iterable[str] | None = None) -> tuple[str, ...]:

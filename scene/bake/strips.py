@@ -23,6 +23,7 @@ from .baking import BakeResult
 from .notes import BakeKind, Note, read_notes
 from .remarks import remarks
 from .target import Target
+from .tracks import FACE_TAG, TRACK_NAME, add_strip, is_own
 from .writing import clear, write_baked
 
 if TYPE_CHECKING:
@@ -122,9 +123,9 @@ def line_up(keys: Key, clips: Sequence[Action]) -> None:
     A user's own action stays where it is and plays on top.
     """
     animation = keys.animation_data or keys.animation_data_create()
-    if animation.action is not None and actions.FACE_TAG in animation.action:
+    if animation.action is not None and FACE_TAG in animation.action:
         animation.action = None
-    for track in [track for track in animation.nla_tracks if actions.is_own_track(track)]:
+    for track in [track for track in animation.nla_tracks if is_own(track)]:
         animation.nla_tracks.remove(track)
     tracks: list[NlaTrack] = []
     for action in sorted(clips, key=lambda clip: float(clip.frame_start)):
@@ -132,8 +133,8 @@ def line_up(keys: Key, clips: Sequence[Action]) -> None:
         place = next(free, None)
         if place is None:
             place = animation.nla_tracks.new()
-            place.name = actions.TRACK_NAME
+            place.name = TRACK_NAME
             tracks.append(place)
-        strip = actions.add_strip(place, action)
+        strip = add_strip(place, action)
         strip.blend_type = "REPLACE" if place == tracks[0] else "ADD"
     bpy.context.view_layer.update()

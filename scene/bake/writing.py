@@ -5,23 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ...arrays import Floats
 from ..blender_types import Action, Mesh
 from ..creases import marks as crease_marks
-from ..faces import FaceSource
+from ..faces import FaceSource, face_of
 from ..mesh import keys_of
 from ..refusals import own_mesh, refuse_unwritable
 from . import action as actions
-from . import shape_keys
+from . import shape_keys, tracks
 from .notes import Note, write_note
 from .target import Target
 
 if TYPE_CHECKING:
     from ...face.products.creases import Creases
 
-#: A piece that moves less than this everywhere gets no shape keys, metres.
+#: A piece of a life-size face that moves less than this everywhere gets no shape keys, metres.
 STILL = 1e-7
 
 
@@ -58,8 +56,8 @@ def write_baked(
     if target.make_single_user:
         for obj in source.objects:
             own_mesh(obj)
-    head = source.pieces[0]
-    moving = [p for p in source.pieces if p is head or np.abs(displacements[:, p.slice]).max(initial=0.0) > STILL]
+    head, least = source.pieces[0], STILL * face_of(source).scale
+    moving = [piece for piece in source.pieces if piece is head or piece.moves(displacements, least)]
     members = [obj.data for obj in source.objects]
     free = shape_keys.free_names(names, members, clip)
     retired = {name for mesh in members for name in shape_keys.read_own(mesh).clips.get(clip, ())}
@@ -83,8 +81,8 @@ def write_baked(
     if note is not None:
         write_note(action, note)
     crease_marks.settle(source, creases)
-    said = {actions.play(datablock, action) for datablock in datablocks}
-    return Written(action, free, tuple(sorted(remark for remark in said if remark)))
+    said = {remark for datablock in datablocks for remark in tracks.play(datablock, action)}
+    return Written(action, free, tuple(sorted(said)) + shape_keys.shortened(clip))
 
 
 def _settle(members: list[Mesh]) -> str:

@@ -46,7 +46,7 @@ def model(whole: Face, left_out: Sequence[Mechanism], layers: Layers | None) -> 
         anatomy.tissue = LayeredTissue(anatomy.skin, layers, deep)
     anatomy.relaxation = LowStrain(anatomy.skin, anatomy.tissue, anatomy.actuators)
     _ = anatomy.inverse
-    return Face(whole.vertices, anatomy), time.process_time() - start
+    return Face(whole.vertices, whole.polygons, anatomy), time.process_time() - start
 
 
 def line(label: str, found: Explained, seconds: float) -> str:

@@ -14,7 +14,7 @@ from risorius.errors import ModelError
 from risorius.operators.points import first, look, overlay, question
 from risorius.progress import Progress, run
 from risorius.scene import bake, mesh
-from risorius.scene.bake import action, performance, shape_keys
+from risorius.scene.bake import performance, shape_keys, tracks
 from risorius.scene.points import bound as points_bound
 from risorius.scene.points import kept as points_kept
 from risorius.scene.points.found import Finding
@@ -33,16 +33,18 @@ def questioned(obj: Any, score: float = 1.2) -> Finding:
 def test_six_emotions_stand_one_after_another_on_the_timeline(head: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(performance, "ARCHETYPES", ("joy", "fear"))
     points_kept.forget_points(head)
+    bpy.context.scene.frame_start, bpy.context.scene.frame_end = 11, 20
     assert bpy.ops.risorius.bake_six() == {"FINISHED"}
     assert points_kept.has_points(head)
     (track,) = head.data.shape_keys.animation_data.nla_tracks
-    assert [strip.action[action.CLIP_TAG] for strip in track.strips] == ["joy", "fear"]
+    assert [strip.action[tracks.CLIP_TAG] for strip in track.strips] == ["joy", "fear"]
     assert head.data.shape_keys.animation_data.action is None
     for strip, name in zip(track.strips, ("joy", "fear"), strict=True):
         bpy.context.scene.frame_set(round((strip.frame_start + strip.frame_end) / 2.0))
         values = {key.name: round(key.value, 3) for key in head.data.shape_keys.key_blocks[1:]}
         assert values == {other: float(other == name) for other in ("joy", "fear")}
-    assert bpy.context.scene.frame_end >= track.strips[-1].frame_end
+    assert (bpy.context.scene.frame_start, bpy.context.scene.frame_end) == (11, 20)
+    assert track.strips[0].frame_start >= 11
 
 
 def test_lining_up_again_takes_the_place_of_what_was_there(head: Any) -> None:
