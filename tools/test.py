@@ -38,8 +38,11 @@ REPORTS = OUT / "test-reports"
 TIME_LIMIT = 3000
 """Seconds for the whole run: for a hang that no test's own limit sees. A quiet machine needs a fifth of it."""
 
-PURE = ("tests", "--ignore=tests/blender", "--ignore=tests/gui", "--ignore=tests/tools/release/test_install.py")
-IN_BLENDER = ("tests/blender", "tests/test_layers.py", "tests/tools/release/test_install.py")
+INSTALL = "tests/tools/release/test_install.py"
+PURE = ("tests", "--ignore=tests/blender", "--ignore=tests/gui", f"--ignore={INSTALL}")
+IN_BLENDER = ("tests/blender", "tests/test_layers.py")
+#: What is set up once for several tests comes first: the end of the queue is shared out among all processes.
+INSTALLED = (INSTALL, *IN_BLENDER)
 
 ALL_CORES = ("-n", "auto", "--maxprocesses", "8", "--dist", "worksteal")
 """Tests in as many processes as there are cores; each goes on with the faces that it has built."""
@@ -49,7 +52,7 @@ WINDOW_LIMIT = ("--timeout", "1800")
 """A test's own limit in a window: the first one sets the window's Blender up."""
 SMOKE, NOT_SLOW = ("-m", "smoke"), ("-m", "not slow", "--durations", "5", "--durations-min", "1")
 
-ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 """One thread per process: many threads on small matrices only fight each other."""
 
 
@@ -167,18 +170,18 @@ def newest_blender(bounds: Bounds) -> Count:
         except NoSharedBlenderError as no_tool:
             raise AbsentError(f"{no_python}\nThe shared Blender would do, but {no_tool}") from no_python
     else:
-        return counted([python], "bpy-5.3", *IN_BLENDER, *SMOKE, *ALL_CORES, *BLENDER_LIMIT, bounds=bounds)
+        return counted([python], "bpy-5.3", *INSTALLED, *SMOKE, *ALL_CORES, *BLENDER_LIMIT, bounds=bounds)
     package = {"PYTHONPATH": str(ensure_link())}
     environment, probing = {**os.environ, **package}, [*shared, "-c", "import bpy, risorius"]
     probe = subprocess.run(probing, env=environment, capture_output=True, text=True, check=False)
     if probe.returncode:
         raise AbsentError(f"the shared Blender 5.3 cannot be set up: {probe.stderr.strip()[-300:]}")
-    return counted(shared, "bpy-5.3", *IN_BLENDER[:2], *SMOKE, bounds=bounds, **package)
+    return counted(shared, "bpy-5.3", *IN_BLENDER, *SMOKE, bounds=bounds, **package)
 
 
 def smoke(environment: str) -> Callable[[Bounds], Count]:
     """The smoke tests on one Blender."""
-    return pytest(environment, environment, *IN_BLENDER, *SMOKE, *ALL_CORES, *BLENDER_LIMIT)
+    return pytest(environment, environment, *INSTALLED, *SMOKE, *ALL_CORES, *BLENDER_LIMIT)
 
 
 CHECKS = (
@@ -195,7 +198,7 @@ STEPS = (
     ),
     Step("pure", "tests without Blender", pytest("dev", "pure", *PURE, *ALL_CORES), environments=("dev", "blender")),
     Step(
-        "bpy-4.5", "tests on Blender 4.5", pytest("bpy-4.5", "bpy-4.5", *IN_BLENDER, *ALL_CORES, *BLENDER_LIMIT),
+        "bpy-4.5", "tests on Blender 4.5", pytest("bpy-4.5", "bpy-4.5", *INSTALLED, *ALL_CORES, *BLENDER_LIMIT),
         environments=("bpy-4.5",),
     ),
     Step("bpy-4.2", "smoke tests on Blender 4.2", smoke("bpy-4.2"), environments=("bpy-4.2",)),

@@ -107,6 +107,7 @@ def test_lids_stay_out_of_the_eyeballs_and_lips_out_of_the_teeth(
     assert teeth <= 0.2e-3
 
 
+@pytest.mark.slow
 def test_a_cornea_that_turns_under_a_closed_lid_lifts_it(any_face: Callable[[str], Face]) -> None:
     face = any_face("ict")
     closed = np.full(68, np.nan)

@@ -14,6 +14,8 @@ from places import ROOT
 
 bpy = pytest.importorskip("bpy", reason="needs the bpy module")
 
+pytestmark = [pytest.mark.smoke, pytest.mark.slow]
+
 #: The zip for this Blender.
 RANGE = "5.1" if bpy.app.version >= (5, 1) else "4.2"
 
@@ -94,7 +96,6 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
     return said
 
 
-@pytest.mark.smoke
 def test_zip_brings_scipy_and_never_numpy(installed: dict[str, object]) -> None:
     assert str(installed["scipy"]).startswith(str(installed["settings"]))
     wheels = installed["wheels"]
@@ -102,14 +103,12 @@ def test_zip_brings_scipy_and_never_numpy(installed: dict[str, object]) -> None:
     assert {name.split("/")[-1].split("-")[0] for name in wheels} == {"scipy"}
 
 
-@pytest.mark.smoke
 def test_installed_extension_bakes(installed: dict[str, object]) -> None:
     assert installed["bake"] == ["FINISHED"]
     assert len(installed["keys"]) > 1  # type: ignore[arg-type]
     assert installed["animated"]
 
 
-@pytest.mark.smoke
 def test_unregister_leaves_blender_as_found_and_the_bake_in_place(installed: dict[str, object]) -> None:
     assert installed["before"] == installed["after"] == []
     assert installed["registered"] == installed["again"] != []
