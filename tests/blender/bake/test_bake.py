@@ -128,6 +128,7 @@ def test_seed_and_variant_reach_the_solver(head: Any) -> None:
     assert np.abs(shapes[0] - shapes[2]).max() > 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_one_undo_takes_a_bake_back(head: Any) -> None:
     bpy.ops.ed.undo_push(message="start")

@@ -63,6 +63,7 @@ def test_they_are_the_users_own(head: Any, few: Path) -> None:
     assert key_names(head) == ["Basis", "jawOpen", "smile"]
 
 
+@pytest.mark.slow
 def test_keys_of_the_same_names_are_refused_or_replaced(head: Any, few: Path) -> None:
     head.shape_key_add(name="Basis", from_mix=False)
     own = head.shape_key_add(name="smile", from_mix=False)
@@ -99,6 +100,7 @@ def test_a_blend_file_and_its_keys(few: Path, tmp_path: Path) -> None:
         blendshape_file(tmp_path / "a.fbx", names=few)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(importlib.util.find_spec("io_scene_gltf2") is None, reason="no glTF in this Blender")
 def test_gltf_keeps_names_and_shapes(few: Path, tmp_path: Path) -> None:
     """Out and in again: the morph targets move the same vertices by as much."""

@@ -175,6 +175,7 @@ def test_clearing_everything_takes_the_creases_too(plain: Any) -> None:
     assert traces(plain) == ["resting positions"]  # the user's own setting
 
 
+@pytest.mark.slow
 def test_a_material_that_draws_them_asks_for_them(plain: Any) -> None:
     node = plain.data.materials[0].node_tree.nodes.new("ShaderNodeGroup")
     node.node_tree = crease_nodes.drawing_group()

@@ -47,6 +47,7 @@ def test_six_emotions_stand_one_after_another_on_the_timeline(head: Any, monkeyp
     assert track.strips[0].frame_start >= 11
 
 
+@pytest.mark.slow
 def test_lining_up_again_takes_the_place_of_what_was_there(head: Any) -> None:
     made = run(bake.bake_expression(bake.Target(head), api.expression("joy").frame(), clip="joy", timing=TIMING))
     for _ in range(2):
@@ -55,6 +56,7 @@ def test_lining_up_again_takes_the_place_of_what_was_there(head: Any) -> None:
         assert len(track.strips) == 1
 
 
+@pytest.mark.slow
 def test_a_bake_finds_the_face_itself(head: Any) -> None:
     points_kept.forget_points(head)
     assert bpy.ops.risorius.bake_expression() == {"FINISHED"}

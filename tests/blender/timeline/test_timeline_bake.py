@@ -116,6 +116,7 @@ def test_what_is_out_of_date_says_so_until_it_is_baked_again(head: Any) -> None:
     assert not stale_clips(head, scene)
 
 
+@pytest.mark.slow
 def test_a_baked_expression_is_out_of_date_only_for_its_own_word(head: Any) -> None:
     scene, emotion = bpy.context.scene, head.risorius.emotion
     bpy.ops.risorius.bake_expression()
@@ -127,6 +128,7 @@ def test_a_baked_expression_is_out_of_date_only_for_its_own_word(head: Any) -> N
     assert dict(stale_clips(head, scene)) == {"joy": BakeKind.EXPRESSION}
 
 
+@pytest.mark.slow
 def test_a_bake_that_fails_or_is_cancelled_changes_nothing(head: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     from risorius.operators.bake.ops import strips_work
 

@@ -44,6 +44,7 @@ def cut(head: HeadMesh, path: list[int]) -> tuple[np.ndarray, list[list[int]], n
 
 
 @pytest.mark.parametrize("drive", ["natural", "exact"])
+@pytest.mark.slow
 def test_a_seam_that_polygons_without_area_close_stays_closed(head: HeadMesh, face: Face, drive: str) -> None:
     cheek = int(np.linalg.norm(head.vertices - face.points["5.3"].position, axis=1).argmin())
     vertices, polygons, parts, twin = cut(head, seam(head, cheek, 8))
