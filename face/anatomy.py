@@ -31,9 +31,9 @@ from .muscles.placement import PlacedMuscle, place_muscles
 from .muscles.table import muscles_of
 from .response.actuators import Actuators
 from .response.followers import InnerSkin, LooseParts
-from .response.living_skin import Relaxation
 from .response.pulls import Pulls, pulls_of
-from .response.sheet import Tissue
+from .response.relaxation import Relaxation
+from .response.sheet import ElasticSheet
 from .skin.fine import SOLVED, fine_skin
 from .skin.outer import OuterSkin
 
@@ -112,9 +112,9 @@ class Anatomy:
         return fine_skin(self.given_skin, SOLVED)[0]
 
     @cached_property
-    def tissue(self) -> Tissue:
+    def sheet(self) -> ElasticSheet:
         """Its elastic response."""
-        return Tissue(self.skin) if self._same_skin is None else self._same_skin.tissue
+        return ElasticSheet(self.skin) if self._same_skin is None else self._same_skin.sheet
 
     @cached_property
     def jaw(self) -> Jaw:
@@ -147,7 +147,7 @@ class Anatomy:
     def pulls(self) -> Pulls:
         """What the muscles do to the skin."""
         if self._same_pulls is None:
-            return pulls_of(self.skin, self.tissue, self.muscles)
+            return pulls_of(self.skin, self.sheet, self.muscles)
         return self._same_pulls.pulls.of({muscle.name for muscle in self.muscles})
 
     @cached_property
@@ -158,7 +158,7 @@ class Anatomy:
     @cached_property
     def relaxation(self) -> Relaxation:
         """The skin's equilibrium under the muscles."""
-        return Relaxation(self.skin, self.tissue, self.actuators)
+        return Relaxation(self.skin, self.sheet, self.actuators)
 
     @cached_property
     def rows(self) -> FapRows:
@@ -191,7 +191,7 @@ class Anatomy:
             return self._same_skin.kernel.first(len(rows))
         own = self.mesh.points.matrix(rows.names)[:, self.skin.index]
         shape = (len(rows), self.skin.vertex_count)
-        return kernel_of(rows, sparse.csr_array((own.data, own.indices, own.indptr), shape=shape), self.tissue)
+        return kernel_of(rows, sparse.csr_array((own.data, own.indices, own.indptr), shape=shape), self.sheet)
 
     @cached_property
     def inverse(self) -> Inverse:

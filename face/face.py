@@ -29,7 +29,7 @@ from .mesh.weld import weld
 from .muscles.placement import PlacedMuscle
 from .pose import Pose, Poser, Sketch
 from .requests import checked_drive, checked_emotions, checked_request, checked_stream
-from .response.living_skin import Memory
+from .response.relaxation import Memory
 from .simulate import Simulation
 
 

@@ -17,9 +17,10 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ParameterError
 from ..physics.implicit import ImplicitSolver
+from ..physics.oscillator import Oscillator
 from ..physics.rk2 import Rk2Solver
 from ..physics.skin import State
-from ..physics.tissue import Tissue
+from ..physics.tissue import Tissue, as_tissue
 from .anatomy import Anatomy
 from .bodies.contact import Contact, Slack
 from .bodies.surroundings import Look, Surroundings
@@ -27,7 +28,7 @@ from .mechanisms.jaw import JawMotion
 from .mechanisms.lid_movers import LidMove
 from .posture import Posture
 from .response.actuators import Amounts
-from .response.living_skin import living_skin, mandible
+from .response.spring_skin import spring_skin
 
 
 class Integrator(StrEnum):
@@ -123,12 +124,12 @@ class FaceMotion:
         if integrator not in list(Integrator):
             raise ParameterError("integrator", f"must be one of {', '.join(Integrator)}", integrator)
         self.anatomy = anatomy
-        self.skin = living_skin(anatomy.skin, tissue)
+        self.skin = spring_skin(anatomy.skin, tissue)
         self.substeps = substeps
         self.length = duration / substeps
         solver = ImplicitSolver if integrator == Integrator.IMPLICIT else Rk2Solver
         self.solver: ImplicitSolver | Rk2Solver = solver(self.skin, self.length)
-        self._jaw_step = mandible(tissue).propagator(self.length)
+        self._jaw_step = _jaw_oscillator(tissue).propagator(self.length)
 
     def at_rest(self, setpoint: Setpoint) -> MovingFace:
         """The face at rest where a setpoint has it."""
@@ -162,7 +163,7 @@ class FaceMotion:
 
     def _anchors(self, setpoint: Setpoint, jaw: Floats) -> Floats:
         """(n, 3) where a jaw (3,), lids and contact would carry skin that no muscle pulls."""
-        carried = self.anatomy.actuators.kinematic(Amounts(np.zeros(0), setpoint.lids, _jaw_motion(jaw)))
+        carried = self.anatomy.actuators.carried(Amounts(np.zeros(0), setpoint.lids, _jaw_motion(jaw)))
         return np.asarray(self.skin.rest + carried + setpoint.pushed)
 
     def _swung(self, jaw: Floats, start: Floats, end: Floats) -> Floats:
@@ -180,3 +181,9 @@ class FaceMotion:
 def _jaw_motion(jaw: Floats) -> JawMotion:
     """A mandible's angle and slides (3,) by name."""
     return JawMotion(*jaw.tolist())
+
+
+def _jaw_oscillator(tissue: str | Tissue) -> Oscillator:
+    """How the mandible follows what is asked of it."""
+    figures = as_tissue(tissue)
+    return Oscillator(figures.jaw_frequency, figures.jaw_damping_ratio)

@@ -20,7 +20,7 @@ from .drive.plan import Plan
 from .drive.request import Request
 from .measure import measure
 from .posture import Balance, Posture
-from .response.living_skin import Memory
+from .response.relaxation import Memory
 
 
 @dataclass(frozen=True, eq=False)

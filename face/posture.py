@@ -23,7 +23,7 @@ from .drive.targets import Targets
 from .figures import Length, read_figures
 from .mechanism import Mechanism
 from .response.actuators import Amounts
-from .response.living_skin import Memory
+from .response.relaxation import Memory
 
 
 @dataclass(frozen=True)
@@ -91,18 +91,18 @@ class Balance:
     def _moved_by_hand(self, targets: Targets, found: Amounts, amounts: Amounts) -> Targets:
         """Targets that want what was set by hand, too: the difference that it makes is not corrected away."""
         actuators = self.anatomy.actuators
-        before, after = (actuators.kinematic(each) + actuators.muscular(each) for each in (found, amounts))
+        before, after = (actuators.carried(each) + actuators.low_strain(each) for each in (found, amounts))
         change = np.asarray(self.anatomy.inverse.matrix @ (after - before).ravel())
         return replace(targets, displacements=targets.displacements + change)
 
     def _pulled(self, plan: Plan, amounts: Amounts, memory: Memory | None) -> Posture:
         """The posture that amounts alone make, in balance with the muscles' forces."""
         anatomy = self.anatomy
-        carried = anatomy.actuators.kinematic(amounts)
+        carried = anatomy.actuators.carried(amounts)
         return Posture(
             amounts,
             carried,
-            elastic=anatomy.relaxation.muscular(amounts, memory=memory),
+            elastic=anatomy.relaxation.pulled(amounts, memory=memory),
             pushed=np.zeros_like(carried),
             surroundings=Surroundings(amounts.jaw, {b.side: b.look(plan.request.faps) for b in anatomy.eyeballs}),
             lip_share=lip_share(plan.evened),

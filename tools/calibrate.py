@@ -63,7 +63,7 @@ class Bench:
         self.anatomy = face.anatomy
         self.shapes = scanned_shapes(face)
         self.balance = Balance(self.anatomy)
-        self.anatomy.inverse.kernel = np.ascontiguousarray(self.anatomy.inverse.kernel)
+        self.anatomy.inverse.skin_responses = np.ascontiguousarray(self.anatomy.inverse.skin_responses)
         self.anatomy.actuators.fields = np.ascontiguousarray(self.anatomy.actuators.fields)
         alive = {m.row.name for m in self.anatomy.actuators.muscles}
         self.rows: dict[str, MuscleRow] = {n: row for n, row in read_muscles().items() if n in alive}
@@ -71,8 +71,8 @@ class Bench:
 
     def put(self, row: MuscleRow) -> None:
         """Exchange one muscle on both sides."""
-        actuators, inverse, tissue, skin = (
-            self.anatomy.actuators, self.anatomy.inverse, self.anatomy.tissue, self.anatomy.skin
+        actuators, inverse, sheet, skin = (
+            self.anatomy.actuators, self.anatomy.inverse, self.anatomy.sheet, self.anatomy.skin
         )  # fmt: skip
         old = self.rows[row.name]
         self.rows[row.name] = row
@@ -83,7 +83,7 @@ class Bench:
         if _same_field(old, row):
             return
         forces = np.stack([force_density(skin, m) * skin.areas[:, None] for m in placed])
-        shown = tissue.show(tissue.relax(forces))
+        shown = sheet.show(sheet.relax(forces))
         for muscle, field in zip(placed, shown, strict=True):
             k = self.place[muscle.name]
             actuators.fields[k] = field / max(np.linalg.norm(field, axis=1).max(), 1e-12)

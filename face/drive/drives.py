@@ -45,9 +45,17 @@ class DriveRules:
 
 DRIVES: Mapping[Drive, DriveRules] = MappingProxyType(
     {
-        Drive.NATURAL: DriveRules(plan_naturally, natural_targets, True, Correction.CONTACT, folds=True),
-        Drive.EXACT: DriveRules(Plan.as_asked, exact_targets, True, Correction.FAPS, folds=False),
-        Drive.MUSCLES: DriveRules(Plan.as_asked, exact_targets, True, Correction.NONE, folds=False),
-        Drive.POINTS: DriveRules(Plan.as_asked, exact_targets, False, Correction.FAPS, folds=False),
+        Drive.NATURAL: DriveRules(
+            plan=plan_naturally, targets=natural_targets, muscles=True, correction=Correction.CONTACT, folds=True
+        ),
+        Drive.EXACT: DriveRules(
+            plan=Plan.as_asked, targets=exact_targets, muscles=True, correction=Correction.FAPS, folds=False
+        ),
+        Drive.MUSCLES: DriveRules(
+            plan=Plan.as_asked, targets=exact_targets, muscles=True, correction=Correction.NONE, folds=False
+        ),
+        Drive.POINTS: DriveRules(
+            plan=Plan.as_asked, targets=exact_targets, muscles=False, correction=Correction.FAPS, folds=False
+        ),
     }
 )

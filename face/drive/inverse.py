@@ -18,7 +18,7 @@ from ...physics.mesh import Sparse
 from ..figures import Length, Share, read_figures
 from ..mesh.fap_rows import FapRows
 from ..response.actuators import OPENING, SLIDES, Actuators, Amounts
-from ..response.sheet import Tissue
+from ..response.sheet import ElasticSheet
 from .bounded_least_squares import bounded_least_squares
 from .targets import Targets
 
@@ -59,11 +59,11 @@ class Kernel(NamedTuple):
         return Kernel(self.matrix[:count], self.responses[:count])
 
 
-def kernel_of(rows: FapRows, reader: Sparse, tissue: Tissue) -> Kernel:
+def kernel_of(rows: FapRows, reader: Sparse, sheet: ElasticSheet) -> Kernel:
     """The kernel of rows whose points a (m, n) `reader` reads off the outer skin."""
     matrix = rows.matrix(reader)
-    loads = np.asarray(matrix.todense()).reshape(len(rows), tissue.skin.vertex_count, 3)
-    return Kernel(matrix, np.ascontiguousarray(tissue.point_responses(loads)))
+    loads = np.asarray(matrix.todense()).reshape(len(rows), sheet.skin.vertex_count, 3)
+    return Kernel(matrix, np.ascontiguousarray(sheet.point_responses(loads)))
 
 
 class Inverse:
@@ -71,8 +71,8 @@ class Inverse:
 
     def __init__(self, rows: FapRows, actuators: Actuators, kernel: Kernel) -> None:
         self.rows, self.actuators = rows, actuators
-        self.matrix, self.kernel = kernel
-        self.compliance: Floats = np.asarray(self.matrix @ self.kernel.reshape(len(rows), -1).T)
+        self.matrix, self.skin_responses = kernel
+        self.compliance: Floats = np.asarray(self.matrix @ self.skin_responses.reshape(len(rows), -1).T)
         self.compliance = (self.compliance + self.compliance.T) / 2.0
         self._scale = len(rows) / np.trace(self.compliance)
 
@@ -126,7 +126,7 @@ class Inverse:
         """(m,) exact response of the rows to an opening of the jaw (metres at the chin), per metre."""
         amounts = np.zeros(self.actuators.count)
         amounts[OPENING] = opening
-        return np.asarray(self.matrix @ self.actuators.kinematic(self.actuators.amounts(amounts)).ravel()) / opening
+        return np.asarray(self.matrix @ self.actuators.carried(self.actuators.amounts(amounts)).ravel()) / opening
 
     def correction(self, residual: Floats, doubts: Floats) -> Floats:
         """(n, 3) elastic displacement that takes the rows the rest of the way (m,), in metres; NaN rows are free.
@@ -139,4 +139,4 @@ class Inverse:
         compliance = self.compliance[np.ix_(known, known)] * self._scale
         loose = (doubts[known] / SKIN.share) ** 2 + 1e-9
         weights = linalg.solve(compliance + np.diag(loose), residual[known], assume_a="pos") * self._scale
-        return np.tensordot(weights, self.kernel[known], axes=1)
+        return np.tensordot(weights, self.skin_responses[known], axes=1)

@@ -45,7 +45,7 @@ def lip_middles(rows: FapRows, faps: Floats) -> tuple[Floats, Floats]:
     jaw_aside = abs(float(np.nan_to_num(faps[JAW_ASIDE_FAP - 1]))) * jaw_unit
     if jaw_aside >= FIGURES.free:
         return targets, doubts
-    for row in np.flatnonzero(rows.numbers == 0).tolist():
+    for row in np.flatnonzero(rows.unnamed).tolist():
         left, right = CORNERS[rows.names[row]]
         if left not in place or right not in place or np.isnan(faps[[left - 1, right - 1]]).any():
             continue

@@ -83,10 +83,9 @@ def natural_targets(rows: FapRows, plan: Plan) -> Targets:
     doubts = np.where(np.isin(rows.numbers, LOWER_LIP_FAPS), NATURAL.lower_lip, doubts)
     doubts = np.where(beyond, 0.0, doubts)
     middles, loose = lip_middles(rows, plan.goal)
-    hidden = rows.numbers == 0
     return Targets(
-        displacements=np.where(hidden, middles, np.where(beyond, asked, goal)),
-        doubts=np.where(hidden, loose, doubts),
+        displacements=np.where(rows.unnamed, middles, np.where(beyond, asked, goal)),
+        doubts=np.where(rows.unnamed, loose, doubts),
         corrected=np.ones(len(rows), dtype=bool),
         carried=np.zeros(len(rows), dtype=bool),
         muscles=plan.muscles,
@@ -98,15 +97,15 @@ def natural_targets(rows: FapRows, plan: Plan) -> Targets:
 def exact_targets(rows: FapRows, plan: Plan) -> Targets:
     """What is asked, exactly; what must go with it, softly and by muscles; the rest where the jaw carries it."""
     faps = plan.goal
-    full, silent, hidden = filled(faps), np.isnan(rows.select(faps)), rows.numbers == 0
+    full, silent = filled(faps), np.isnan(rows.select(faps))
     middles, loose = lip_middles(rows, full)
-    displacements = np.where(hidden, middles, rows.select(full))
-    carried = np.isnan(displacements) & ~hidden
+    displacements = np.where(rows.unnamed, middles, rows.select(full))
+    carried = np.isnan(displacements) & ~rows.unnamed
     doubts = np.where(carried, EXACT.carried, np.where(silent, EXACT.filled, 0.0))
     return Targets(
         displacements=np.where(carried, 0.0, displacements),
-        doubts=np.where(hidden, loose, doubts),
-        corrected=~silent | hidden,
+        doubts=np.where(rows.unnamed, loose, doubts),
+        corrected=~silent | rows.unnamed,
         carried=carried,
         muscles={},
         opening=USUAL.opening_asked if _asks(faps, 3) else USUAL.opening_silent,

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from ...arrays import Floats, Ints
+from ...arrays import Bools, Floats, Ints
 from ...mpeg4 import FAPS
 from ...physics.mesh import Sparse
 from .fap_units import Fapu, unit_length
@@ -44,6 +44,11 @@ class FapRows:
     def row_of(self) -> dict[int, int]:
         """FAP number -> row."""
         return {int(number): row for row, number in enumerate(self.numbers) if number}
+
+    @cached_property
+    def unnamed(self) -> Bools:
+        """(m,) rows that no FAP names."""
+        return np.asarray(self.numbers == 0)
 
     def select(self, faps: Floats) -> Floats:
         """(m,) the rows' displacements in metres asked for by FAPs (68,) in FAP units; NaN where silent."""

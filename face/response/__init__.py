@@ -4,7 +4,7 @@ regions                   how firmly each place is held, how stiffly it bends
 sheet                     the skin's elastic answer to forces
 pulls                     what of the muscles' pull shows
 actuators                 muscles, lids and jaw as one list
-living_skin               the biphasic springs with mass and damping
+spring_skin, relaxation   biphasic springs with mass and damping; their equilibrium under muscles
 folds                     lines where squeezed skin gives way
 followers                 mouth bag, sockets, lashes, brows and loose pieces
 """

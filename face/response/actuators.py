@@ -108,15 +108,15 @@ class Actuators:
         """No amount of anything."""
         return self.amounts(np.zeros(self.count))
 
-    def kinematic(self, amounts: Amounts) -> Floats:
+    def carried(self, amounts: Amounts) -> Floats:
         """(n, 3) displacement of the outer skin by jaw and lids, as exact rotations."""
         moved = self.jaw.skin(self.skin.positions, amounts.jaw)
         for side in "lr":
             moved = moved + self.lid_field({m: v for (s, m), v in amounts.lids.items() if s == side}, side)
         return moved
 
-    def muscular(self, amounts: Amounts) -> Floats:
-        """(n, 3) displacement of the outer skin by muscles."""
+    def low_strain(self, amounts: Amounts) -> Floats:
+        """(n, 3) displacement of the outer skin by muscles, as if the skin were linear."""
         return np.asarray(np.tensordot(amounts.muscles, self.fields, axes=1), dtype=np.float64)
 
     def contractions(self, amounts: Amounts) -> dict[str, float]:

@@ -13,7 +13,7 @@ from ..muscles.insertion import force_density
 from ..muscles.placement import PlacedMuscle
 from ..skin.fine import SUMMED, fine_skin
 from ..skin.outer import OuterSkin
-from .sheet import Tissue
+from .sheet import ElasticSheet
 
 
 @dataclass(frozen=True)
@@ -37,10 +37,10 @@ class Pulls:
         return Pulls(muscles, self.sheets[kept], self.fields[kept])
 
 
-def pulls_of(skin: OuterSkin, tissue: Tissue, muscles: Sequence[PlacedMuscle]) -> Pulls:
+def pulls_of(skin: OuterSkin, sheet: ElasticSheet, muscles: Sequence[PlacedMuscle]) -> Pulls:
     """What muscles do to a skin."""
-    sheets = tissue.relax(_forces(skin, muscles))
-    shown = tissue.show(sheets)
+    sheets = sheet.relax(_forces(skin, muscles))
+    shown = sheet.show(sheets)
     peak = np.linalg.norm(shown, axis=2).max(axis=1)
     alive = peak > 0.0
     scale = (1.0 / peak[alive])[:, None, None]

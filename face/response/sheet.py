@@ -20,7 +20,7 @@ from ..skin.outer import OuterSkin
 from . import regions
 
 
-class Tissue:
+class ElasticSheet:
     """K, W and the point corrections of one face; prefactored on first use."""
 
     def __init__(self, skin: OuterSkin) -> None:

@@ -60,7 +60,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
         1.5,
     ),  # how coarse a mesh may be; averages over vertices
     "response/followers.py": (0.02, 1e-4, 4.0),  # ties that keep matrices regular; a kernel's norm
-    "response/living_skin.py": (5e-5,),  # how near a sketch comes
+    "response/relaxation.py": (5e-5,),  # how near a sketch comes
     "skin/fine.py": (6.0, 3.5),  # how finely skin is split
     "skin/outer.py": (3.0,),  # the smooth step
 }

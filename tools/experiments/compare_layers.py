@@ -22,7 +22,7 @@ from risorius.api import Face, Mechanism
 from risorius.arrays import Floats
 from risorius.face.anatomy import Anatomy
 from risorius.face.response.actuators import Amounts
-from risorius.face.response.living_skin import Memory, Relaxation
+from risorius.face.response.relaxation import Memory, Relaxation
 
 from .two_layer_skin import Insertion, LayeredTissue, Layers
 
@@ -32,9 +32,9 @@ W = (Mechanism.SLIDING, Mechanism.BULGE)
 class LowStrain(Relaxation):
     """Muscles as their linear fields, for a fair comparison: two layers have no biphasic equilibrium yet."""
 
-    def muscular(self, amounts: Amounts, *, memory: Memory | None = None) -> Floats:
+    def pulled(self, amounts: Amounts, *, memory: Memory | None = None) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, metres."""
-        return self.actuators.muscular(amounts)
+        return self.actuators.low_strain(amounts)
 
 
 def model(whole: Face, left_out: Sequence[Mechanism], layers: Layers | None) -> tuple[Face, float]:
@@ -43,8 +43,8 @@ def model(whole: Face, left_out: Sequence[Mechanism], layers: Layers | None) -> 
     start = time.process_time()
     if layers is not None:
         deep = np.array([layers.deep(muscle.name) for muscle in anatomy.muscles])
-        anatomy.tissue = LayeredTissue(anatomy.skin, layers, deep)
-    anatomy.relaxation = LowStrain(anatomy.skin, anatomy.tissue, anatomy.actuators)
+        anatomy.sheet = LayeredTissue(anatomy.skin, layers, deep)
+    anatomy.relaxation = LowStrain(anatomy.skin, anatomy.sheet, anatomy.actuators)
     _ = anatomy.inverse
     return Face(whole.vertices, whole.polygons, anatomy), time.process_time() - start
 

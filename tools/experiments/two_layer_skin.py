@@ -20,7 +20,7 @@ import numpy as np
 from risorius.arrays import Bools, Floats
 from risorius.face.mesh.template import MM
 from risorius.face.response import regions
-from risorius.face.response.sheet import Tissue
+from risorius.face.response.sheet import ElasticSheet
 from risorius.face.skin.outer import OuterSkin, smoothstep
 from risorius.physics.elastic import bending_matrix, diagonal_matrix, dirichlet_springs
 from risorius.physics.mesh import Sparse
@@ -171,8 +171,8 @@ class BlockFactor:
         return solution
 
 
-class LayeredTissue(Tissue):
-    """Stands in for `face.tissue.Tissue`: loads on a two-layer skin in, displacements of its dermis out."""
+class LayeredTissue(ElasticSheet):
+    """Stands in for `ElasticSheet`: loads on a two-layer skin in, displacements of its dermis out."""
 
     def __init__(self, skin: OuterSkin, layers: Layers, deep: Bools) -> None:
         """`deep` tells of every muscle whose forces `relax` will be given whether it pulls on the fascia."""

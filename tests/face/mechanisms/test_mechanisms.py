@@ -57,7 +57,7 @@ def contracted(face: Face, *prefixes: str) -> Moved:
     """The low-strain response to every muscle whose name begins so, at its amplitude; a face may have none of them."""
     anatomy = face.anatomy
     chosen = [muscle for name, muscle in face.muscles.items() if name.startswith(prefixes)]
-    pulls = pulls_of(anatomy.skin, anatomy.tissue, chosen)
+    pulls = pulls_of(anatomy.skin, anatomy.sheet, chosen)
     amounts = [muscle.amplitude / MM for muscle in pulls.muscles]
     return Moved(face, np.tensordot(amounts, pulls.fields, axes=1))
 
@@ -67,7 +67,7 @@ def pulled(face: Face, *points: str) -> Moved:
     sheet, load = face.anatomy.skin, np.zeros((1, face.anatomy.skin.vertex_count, 3))
     for point in points:
         load[0, np.argmin(np.linalg.norm(sheet.positions - sheet.points[point], axis=1)), 1] = 1.0
-    return Moved(face, face.anatomy.tissue.point_responses(load)[0])
+    return Moved(face, face.anatomy.sheet.point_responses(load)[0])
 
 
 def place(face: Face, point: str, x: float, y: float, z: float) -> np.ndarray:
@@ -98,13 +98,13 @@ def scalp_at_rest(face: Face) -> float:
 
 def along_the_bone(face: Face) -> float:
     """The forehead pulled along the bone and off it: how much more it gives way along it."""
-    sheet, tissue = face.anatomy.skin, face.anatomy.tissue
-    spot = np.argmin(np.linalg.norm(sheet.positions - place(face, "4.1", 0.0, 18.0, 0.0), axis=1))
-    normal = sheet.normals[spot]
+    skin, sheet = face.anatomy.skin, face.anatomy.sheet
+    spot = np.argmin(np.linalg.norm(skin.positions - place(face, "4.1", 0.0, 18.0, 0.0), axis=1))
+    normal = skin.normals[spot]
     along = np.cross(normal, [1.0, 0.0, 0.0])
-    loads = np.zeros((2, sheet.vertex_count, 3))
+    loads = np.zeros((2, skin.vertex_count, 3))
     loads[:, spot] = along / np.linalg.norm(along), normal
-    given = [response[spot] @ load[spot] for response, load in zip(tissue.point_responses(loads), loads, strict=True)]
+    given = [response[spot] @ load[spot] for response, load in zip(sheet.point_responses(loads), loads, strict=True)]
     return float(given[0] / given[1])
 
 

@@ -7,7 +7,7 @@ import pytest
 from risorius.errors import ParameterError
 from risorius.face.face import Face
 from risorius.face.response.actuators import Amounts
-from risorius.face.response.living_skin import living_skin
+from risorius.face.response.spring_skin import spring_skin
 from risorius.physics.tissue import tissue
 
 
@@ -26,9 +26,9 @@ def test_the_pose_is_an_equilibrium_of_the_biphasic_skin(face: Face) -> None:
     anatomy = face.anatomy
     amounts = smiling(face, 8.0)
     low_strain = np.tensordot(amounts.muscles, anatomy.actuators.sheets, axes=1)
-    force = tissue().membrane * (anatomy.tissue.stiffness @ low_strain)
-    skin = living_skin(anatomy.skin)
-    settled = anatomy.relaxation.settle(amounts)
+    force = tissue().membrane * (anatomy.sheet.stiffness @ low_strain)
+    skin = spring_skin(anatomy.skin)
+    settled = anatomy.relaxation.balance(amounts)
     whole = np.linalg.norm(force)
     assert np.linalg.norm(skin.force(settled) + force) < 0.02 * whole
     assert np.linalg.norm(skin.force(anatomy.skin.positions + low_strain) + force) > 0.15 * whole
@@ -41,16 +41,16 @@ def test_springs_give_more_than_their_bound_until_they_stiffen(face: Face) -> No
     for millimetres in (2.0, 20.0):
         amounts = smiling(face, millimetres)
         gains.append(
-            np.abs(anatomy.relaxation.muscular(amounts)).max() / np.abs(anatomy.actuators.muscular(amounts)).max()
+            np.abs(anatomy.relaxation.pulled(amounts)).max() / np.abs(anatomy.actuators.low_strain(amounts)).max()
         )
     assert 1.1 < gains[0] < 1.3
     assert gains[1] < gains[0] - 0.05
 
 
 def test_no_contraction_is_rest(face: Face) -> None:
-    assert np.abs(face.anatomy.relaxation.muscular(smiling(face, 0.0))).max() == 0.0
+    assert np.abs(face.anatomy.relaxation.pulled(smiling(face, 0.0))).max() == 0.0
 
 
 def test_an_unknown_tissue_is_refused(face: Face) -> None:
     with pytest.raises(ParameterError, match="tissue"):
-        living_skin(face.anatomy.skin, "rubber")
+        spring_skin(face.anatomy.skin, "rubber")
