@@ -33,7 +33,7 @@ from .response.relaxation import Memory
 from .simulate import Simulation
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Clip:
     """A simulated clip: positions (T, V, 3) in the face's coordinates, frames per second."""
 
@@ -41,7 +41,7 @@ class Clip:
     fps: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class EyeballPlace:
     """An eyeball at rest, in the face's coordinates.
 

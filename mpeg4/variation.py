@@ -156,7 +156,7 @@ class Liveliness:
         return Overlay(np.where(np.isnan(moved), eyes, moved), closure, known.blink)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Overlay:
     """What is laid over frames of FAPs.
 

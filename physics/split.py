@@ -11,7 +11,7 @@ from ..arrays import Ints
 from .mesh import Polygons, Sparse, by_size, pair_keys, unique_edges
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Split:
     """One split of a mesh with V vertices, E sides and F polygons.
 

@@ -30,7 +30,7 @@ KEPT_FACES = 3
 _faces: list[tuple[Fingerprint, Face]] = []
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Piece:
     """One object of a face: vertices `first` to ``first + count`` of the joined arrays.
 
@@ -67,7 +67,7 @@ class Piece:
         return positions
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FaceSource:
     """What a face is built from: the pieces and their joined arrays, in metres.
 

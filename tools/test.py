@@ -40,7 +40,7 @@ TIME_LIMIT = 3000
 
 INSTALL = "tests/tools/release/test_install.py"
 PURE = ("tests", "--ignore=tests/blender", "--ignore=tests/gui", f"--ignore={INSTALL}")
-IN_BLENDER = ("tests/blender", "tests/test_layers.py")
+IN_BLENDER = ("tests/blender", "tests/test_layers.py", "tests/test_values.py")
 #: What is set up once for several tests comes first: the end of the queue is shared out among all processes.
 INSTALLED = (INSTALL, *IN_BLENDER)
 

@@ -29,7 +29,7 @@ USUAL_RATE = 25.0
 MISSING = "tracking needs MediaPipe: run `pip install risorius[track]` with Python 3.11 or 3.12"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pictures:
     """Pictures in the order of time, read as they are asked for.
 

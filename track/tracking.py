@@ -23,7 +23,7 @@ GENERIC = "generic"
 LEAST = 0.3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Track:
     """What pictures say.
 

@@ -61,7 +61,7 @@ def lip_share(asked: Floats) -> float:
     return lower / (upper + lower)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Slack:
     """How far a pose passes contact, which skin on its way there may too: margins and bodies, in `Contact`'s order."""
 

@@ -36,7 +36,7 @@ TURN, RISE = np.radians(1.5), 0.5e-3
 GAP = 5
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Front:
     """The front of a row of teeth in head space, the mandible at rest.
 
@@ -82,7 +82,7 @@ def build_front(vertices: Floats, triangles: Ints) -> Front:
     return Front(axis, bottom, np.asarray(ndimage.grey_closing(reach, size=(GAP, GAP), mode="nearest")))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DentalArch:
     """One row of teeth behind the skin of the lips.
 

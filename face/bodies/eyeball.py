@@ -36,7 +36,7 @@ NARROWEST = 0.1
 ON_PUPIL = (0.05, 1.02)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Eyeball:
     """One eyeball: turns about its centre, comes forward, widens its pupil.
 

@@ -25,7 +25,7 @@ SPACING = 0.25e-3
 TIE = 1e-6
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Ball:
     """The surface of one eyeball.
 
@@ -91,7 +91,7 @@ def modelled_ball(rest: Look, vertices: Floats, triangles: Ints) -> Ball:
     return Ball(rest, np.column_stack([radii, radii[:, 0]]))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class EyeballSurface:
     """One eyeball behind the skin of its lids.
 

@@ -30,7 +30,7 @@ class HeadFigures:
 HEAD = read_figures("bodies.head", HeadFigures)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HeadTurn:
     """The head on its spine: pitch, yaw and roll about 7.1, the neck following down to its root.
 

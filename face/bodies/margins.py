@@ -68,7 +68,7 @@ def _spread(positions: Floats, arc: Ints, weight: Floats) -> Sparse:
     return sparse.csr_array((share[row, column], (touched[row], column)), shape=(len(positions), len(arc)))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Meeting:
     """Two margins of one opening that may meet.
 

@@ -10,7 +10,7 @@ from ...arrays import Floats, Ints
 from ..mechanisms.jaw import JawMotion
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Look:
     """Where one eyeball is and looks: centre (3,) in head space, gaze (3,) a unit vector."""
 

@@ -31,7 +31,7 @@ FIGURES = read_figures("bodies.tongue", TongueFigures)
 APART = 0.1
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Tongue:
     """The tongue: tip and body move, borders roll up; its root stays with the mandible.
 

@@ -63,7 +63,7 @@ class Region(Enum):
     EAR = "ear"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cage:
     """The whole cage: the left half followed by the right half's own nodes.
 

@@ -21,7 +21,7 @@ MEASURED_EYE_RINGS = ("E4", "E3", "E2")
 MEASURED_MOUTH_RINGS = ("M4", "M3", "M2", "M1")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class EyeballFigures:
     """Left eyeball: centre (3,) and radii of ball, iris and pupil, metres; `limbus` is the ring's share of the iris."""
 
@@ -32,7 +32,7 @@ class EyeballFigures:
     limbus: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LidMarginFigures:
     """The rim of the left lids, metres.
 
@@ -53,7 +53,7 @@ class LidMarginFigures:
     opening: Floats
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TeethFigures:
     """One dental arch, metres: an ellipse x = half_width sin t, y = back - depth cos t.
 
@@ -74,7 +74,7 @@ class TeethFigures:
     groove: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TongueFigures:
     """Tongue: an ellipsoid, metres.
 
@@ -91,7 +91,7 @@ class TongueFigures:
     back_drop: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BrowFigures:
     """Left brow, metres.
 
@@ -130,7 +130,7 @@ class PointFigures:
     uv: tuple[float, float] | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HeadFigures:
     """Everything measured or chosen about the default head.
 

@@ -27,7 +27,7 @@ class Material:
     roughness: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HeadMesh:
     """A head: skin first, then eyeballs, teeth, tongue and brows; quads throughout, outward winding.
 

@@ -17,7 +17,7 @@ from ...arrays import Bools, Floats, Ints
 from ...errors import SolverError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class QuadEdges:
     """The edges of a quad mesh.
 
@@ -33,7 +33,7 @@ class QuadEdges:
     border: Bools
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Subdivision:
     """One Catmull-Clark step.
 

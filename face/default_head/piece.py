@@ -10,7 +10,7 @@ from ...arrays import Floats, Ints
 from ..mesh.parts import Part
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Piece:
     """One connected, closed quad mesh.
 

@@ -18,7 +18,7 @@ from .rings import computed_nodes
 _MIRROR = np.array([-1.0, 1.0, 1.0])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HeadSkin:
     """The finished skin.
 

@@ -34,7 +34,7 @@ CLICK_DRIFT, CLICK_RATIO = 8e-3, 1.5
 CLICK_SNAP = 4e-3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FoundPoints:
     """Feature points found on a mesh.
 
@@ -113,7 +113,7 @@ def find_points_steps(
     return (yield from part_of(_fitted_points(start, clicked), 0.6, 1.0))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LocatedPoints:
     """Where the template's points come to lie before it is bent: `positions`, and the gate's `score` and `relief`."""
 

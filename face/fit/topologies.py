@@ -27,7 +27,7 @@ from ...tables import TomlTable, read_toml, toml_text
 FOLDER = PRESETS / "topologies"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TopologyPoint:
     """A feature point as a mean of vertices: indices (k,), weights (k,) that add up to 1."""
 

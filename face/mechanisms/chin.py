@@ -24,7 +24,7 @@ from ..figures import Extent, Share, read_figures
 from ..skin.outer import OuterSkin, gaussian
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ChinFigures:
     """Of the chin's pad (presets/anatomy/regions.toml)."""
 

@@ -19,7 +19,7 @@ from ..skin.outer import OuterSkin, smoothstep
 from .separation import upper_lip_side
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HingeFigures:
     """Where the mandible turns (presets/anatomy/jaw.toml, as those below)."""
 
@@ -53,7 +53,7 @@ class FollowFigures:
     floor_below: Pair
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FloorFigures:
     """The floor of the mouth, squeezed between mandible and neck, bulges."""
 
@@ -63,7 +63,7 @@ class FloorFigures:
     below_lip: Pair
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HollowFigures:
     """The cheek beside the mouth, stretched between the jaws, hollows and slips up over the mandible."""
 
@@ -89,7 +89,7 @@ class JawMotion:
     forward: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Jaw:
     """The mandible of one face in head space.
 

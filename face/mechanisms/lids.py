@@ -19,7 +19,7 @@ from ..skin.outer import OuterSkin, smoothstep
 from .lid_movers import LidMove
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BallFigures:
     """The eyeball of a face that has none (presets/anatomy/lids.toml, as those below)."""
 
@@ -83,7 +83,7 @@ _MOVES = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Eye:
     """One eye in head space.
 

@@ -27,7 +27,7 @@ from ..skin.outer import OuterSkin, gaussian, smoothstep
 from .separation import upper_lip_side
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class NoseFigures:
     """Of the nose's region and of what holds its skin (presets/anatomy/regions.toml)."""
 

@@ -17,7 +17,7 @@ from .weld import Weld
 COPY = -1
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FaceMesh:
     """The neutral mesh of a face in head space.
 

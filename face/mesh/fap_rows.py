@@ -20,7 +20,7 @@ from .points import FeaturePoints
 LIP_MIDDLES = ("2.2", "2.3", "8.1", "8.2")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FapRows:
     """The displacement FAPs that a face's points can show.
 

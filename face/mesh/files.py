@@ -19,7 +19,7 @@ from ...errors import FormatError
 SUFFIXES = (".npz", ".obj")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MeshFile:
     """A mesh as read: `vertices` (V, 3) float64 and `polygons`, a tuple of tuples of vertex indices."""
 

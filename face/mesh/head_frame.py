@@ -29,7 +29,7 @@ FRAME_POINTS = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HeadFrame:
     """A similarity between a face's own coordinates and head space.
 

@@ -29,7 +29,7 @@ LIDS = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Opening:
     """One opening of the skin: the vertex paths (indices into the mesh) of its upper and lower margin."""
 

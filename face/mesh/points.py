@@ -36,7 +36,7 @@ NEAR_VERTICES = 24
 SAME_DISTANCE = 1e-9
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BoundPoint:
     """One feature point: weights (k,) over vertices (k,), or a free position that follows nothing."""
 

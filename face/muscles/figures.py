@@ -35,7 +35,7 @@ def _turned(value: Floats, turn: Floats, warp: TemplateWarp) -> Floats:
     return value * turn
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Figure:
     """One figure of a row.
 

@@ -25,7 +25,7 @@ class TableError:
     largest: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AnimationTable:
     """One FAP's table.
 
@@ -74,7 +74,7 @@ class AnimationTable:
         return np.asarray(self.unit * np.tensordot(covered, self.slopes, axes=1), dtype=np.float64)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AnimationTables:
     """The tables of one face.
 

@@ -18,7 +18,7 @@ COURSE = 49
 _MIRROR = np.array([-1.0, 1.0, 1.0])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Line:
     """The outer skin about one line.
 

@@ -40,7 +40,7 @@ class Look(StrEnum):
     UNSEEN = "unseen"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CreaseRow:
     """One row of the table of creases; lengths in metres of head space.
 

@@ -27,7 +27,7 @@ from .crease_table import CREASES, CreaseRow, Look, read_creases
 MOST_ROUNDS = 12
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Crease:
     """One crease on one face.
 

@@ -13,7 +13,7 @@ from ...arrays import Floats, Ints
 from ..face import Face
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MuscleLines:
     """One muscle as s strands of n points.
 

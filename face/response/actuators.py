@@ -41,7 +41,7 @@ JAW = read_figures("jaw.motion", JawFigures)
 SMALL = 1e-3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Amounts:
     """How much of each actuator: muscles (k,) in metres, lid moves in metres, jaw."""
 

@@ -46,7 +46,7 @@ class FoldFigures:
 FOLDS = read_figures("folds.every", FoldFigures)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FoldRow:
     """One row of the table of folds; lengths in metres of head space.
 
@@ -102,7 +102,7 @@ def _resample(line: Floats, count: int) -> Floats:
     return np.column_stack([np.interp(places, along, line[:, axis]) for axis in range(3)])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PlacedFold:
     """One fold on one face.
 

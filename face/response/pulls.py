@@ -16,7 +16,7 @@ from ..skin.outer import OuterSkin
 from .sheet import ElasticSheet
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pulls:
     """Muscles and their fields on the outer skin, per metre of amount.
 

@@ -29,7 +29,7 @@ TOLERANCE = 1e-7
 SKETCHED = 5e-5
 
 
-@dataclass
+@dataclass(eq=False)
 class Memory:
     """The balance found last: what its springs' stiffening added to the low-strain response, (n, 3) metres."""
 

@@ -15,7 +15,7 @@ from ..skin.outer import OuterSkin, gaussian
 from . import regions
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LooseFigures:
     """Where deep soft tissue hangs loose (presets/anatomy/skin.toml)."""
 

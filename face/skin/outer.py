@@ -48,7 +48,7 @@ def gaussian(positions: Floats, centre: Floats, radii: Floats | float) -> Floats
     return value
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class OuterSkin:
     """The visible skin in head space.
 

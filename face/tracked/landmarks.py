@@ -29,7 +29,7 @@ EYES = {"3.5": (23, 25, ("3.7", "3.11")), "3.6": (24, 26, ("3.8", "3.12"))}
 UNIT_POINTS = ("3.1", "3.3", "9.15", "2.2", "8.3", "8.4")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pose3:
     """Similarities from head space to where a face was seen: ``seen = scale * point @ rotation.T + shift``.
 
@@ -49,7 +49,7 @@ class Pose3:
         return back
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LandmarkReading:
     """What tracked points say.
 

@@ -17,7 +17,7 @@ from .profile import ARCHETYPES, Archetype
 from .recognition import Rule, recognise, shown_strength
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BeliefTrack:
     """What each frame of a stream shows.
 

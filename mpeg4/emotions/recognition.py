@@ -55,7 +55,7 @@ class Rule(StrEnum):
     ROBUST = "robust"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Class:
     """What recognition works on: FAP indices, centres and widths of one profile, (k,) each."""
 

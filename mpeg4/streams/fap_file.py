@@ -28,7 +28,7 @@ LARGEST = 1e7  # FAP units: sixteen turns of the head, and far beyond any length
 LARGEST_NUMBER = 2**31 - 1  # of a frame
 
 
-@dataclass
+@dataclass(eq=False)
 class _Frame:
     """One frame as it stands in the file."""
 

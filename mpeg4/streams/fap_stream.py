@@ -23,7 +23,7 @@ def _undecided() -> Bools:
     return np.zeros((0, FAP_COUNT), dtype=np.bool_)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FapStream:
     """FAP frames at a fixed rate.
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...api import Profile
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Wanted:
     """What the user wants a face to show.
 

@@ -23,7 +23,7 @@ from .shape_keys import own_names_of
 from .tracks import CLIP_TAG, FACE_TAG
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Curve:
     """Keyframes of one shape key: `frames` (N,) and `values` (N,); `linear` between them, else eased."""
 

@@ -29,7 +29,7 @@ from .writing import Written, write_baked
 if TYPE_CHECKING:
     from ...api import EmotionShares
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BakeResult:
     """What a bake has written.
 

@@ -13,7 +13,7 @@ from ...errors import ParameterError
 TOLERANCE = 1e-4
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Shapes:
     """A motion as ``displacement[t] = sum_k weights[t, k] * shapes[k]``.
 

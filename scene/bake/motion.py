@@ -58,7 +58,7 @@ class CueMotion:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FapMotion:
     """A stream of FAPs (T, 68), NaN where silent, and the emotions (T, 6) behind it where they are known."""
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ...api import EmotionShares
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ClipShape:
     """One clip of a timeline.
 

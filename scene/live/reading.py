@@ -34,7 +34,7 @@ STEADY = ("3.7", "3.8", "3.11", "3.12", "9.12", "10.7", "10.8", "10.9", "10.10")
 RESTING = 0.2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Reading:
     """What a face shows at one moment.
 

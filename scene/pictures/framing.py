@@ -16,7 +16,7 @@ from ..points.stored import stored_points
 EYES_LEFT, EYES_RIGHT, CHIN = ("3.7", "3.11"), ("3.8", "3.12"), "2.1"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Framing:
     """A face in the world, in Blender units.
 

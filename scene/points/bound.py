@@ -33,7 +33,7 @@ SMALLEST_SHARE = 1e-6
 Held: TypeAlias = tuple[tuple[int, ...], tuple[float, ...]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Surface:
     """The resting surface of a mesh, to look up places on."""
 

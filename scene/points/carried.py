@@ -27,7 +27,7 @@ KEPT = 2
 _kept: OrderedDict[bytes, Carried] = OrderedDict()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Carried:
     """The resting places of the vertices that show: (V', 3), the triangles between them, and a tree to look them up."""
 

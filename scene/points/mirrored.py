@@ -18,7 +18,7 @@ TRIED = 800
 ALIKE, WITHIN = 0.9, 6e-3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MirrorPlane:
     """A plane: unit normal (3,) and distance from the origin along it, in the mesh's own coordinates."""
 

@@ -43,7 +43,7 @@ class Stage:
     rest_gate: tuple[float, float] | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Wishes:
     """Where some of the skin shall come to.
 

@@ -49,7 +49,7 @@ RIM_POINTS: Mapping[str, tuple[str, str]] = {
 ERRORS_FILE = PRESETS / "anatomy" / "point_errors.csv"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Carried:
     """Feature points in template coordinates: positions (3,), and confidences in [0, 1]."""
 

@@ -33,7 +33,7 @@ BELIEVED, FAR = 0.7, 0.15
 POINTS = 60_000
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _SideView:
     """A head seen from one side: `relief` and `depth` (rows up, columns to the back) from the corner `low` (y, z)."""
 

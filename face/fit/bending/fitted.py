@@ -25,7 +25,7 @@ CLOSEST = Stage(6, (3.0, 0.15), (6e-3, 5e-3), (12e-3, 8e-3))
 STRETCH_FROM, STRETCH_TEMPLES, TEMPLES = -75e-3, -40e-3, 50e-3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Fit:
     """The template bent onto a head.
 

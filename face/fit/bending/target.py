@@ -29,7 +29,7 @@ OPENINGS = ((-52e-3, -np.inf, -55e-3), (52e-3, -40e-3, 55e-3))
 TURNED_AWAY = 0.3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Target:
     """The outside of a head, in template coordinates.
 

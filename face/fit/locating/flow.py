@@ -38,7 +38,7 @@ class Pass(NamedTuple):
     smooth: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Flow:
     """How far each place of the template's picture is from its counterpart.
 

@@ -9,7 +9,7 @@ import numpy as np
 from ....arrays import Floats
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HeadPose:
     """A rotation, a place and a size along each of the head's axes.
 

@@ -49,7 +49,7 @@ class Guess:
     cost: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Picture:
     """The template's depths (ROWS, COLUMNS) and weights; weight 0 where it has none."""
 
@@ -57,7 +57,7 @@ class _Picture:
     weight: Floats
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _View:
     """One window of one picture: axes (3, 3), size, where the template's origin lies across the picture."""
 

@@ -14,7 +14,7 @@ from ....physics.mesh import Polygons, triangulate, vertex_normals
 _TINY = 1e-30
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Surface:
     """A triangulated mesh.
 
@@ -48,7 +48,7 @@ class Surface:
         return Surface(self.vertices, self.triangles[chosen], self.normals)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cloud:
     """Points on a surface: positions (N, 3), unit normals (N, 3), and the triangle (N,) that each lies on."""
 

@@ -38,7 +38,7 @@ LEVEL, LEVEL_REACH, LIP_POINTS = 1.0e-3, 5e-3, 12_000
 SHALLOW = 6e-3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Expected:
     """Where the template's rim (N, 3), and its skin round the opening (M, 3), lie now."""
 
@@ -46,7 +46,7 @@ class Expected:
     outside: Floats
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Margin:
     """The rim of an opening, from its corner on the subject's right along the upper edge.
 

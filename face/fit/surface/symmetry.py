@@ -22,7 +22,7 @@ WORSE, PLANES = 1.35, 3
 SAME_COSINE = 0.97
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SymmetryPlane:
     """The plane normal . x = offset; `misfit` is the mean mirrored distance over the radius of the surface."""
 

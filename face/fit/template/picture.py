@@ -24,7 +24,7 @@ SLOPE_BLUR, DEPTH_BLUR, SLOPE = 5e-3, 3e-3, 1.6
 BOTTOM, TOP, FRONT, OUTSIDE = -115e-3, 85e-3, -20e-3, 0.3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Picture:
     """What is seen from the front; rows upward, columns to the subject's left.
 

@@ -29,7 +29,7 @@ CLOUD_SIZE = 60_000
 FACE_FRONT = -45e-3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Ring:
     """A closed line of cage nodes round an opening, and one farther out on the skin.
 
@@ -45,7 +45,7 @@ class Ring:
     second_corner: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FitTemplate:
     """The default head as something to lay onto a mesh; metres, x left, y back, z up.
 

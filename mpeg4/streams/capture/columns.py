@@ -23,7 +23,7 @@ from .shapes import CAPTURE_PRESETS, load_shapes
 MOST = 0.5
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ColumnTable:
     """What columns of scores say in FAPs.
 

@@ -31,7 +31,7 @@ INDEX_NAMES = ("landmark", "landmark_id", "landmark_index", "index", "id")
 FEWEST, MOST = 468, 1000
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Landmarks:
     """Landmarks over time.
 

@@ -20,7 +20,7 @@ SNAP = 1e-3
 MOST_FRAMES = 1_000_000
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Samples:
     """FAPs at times of a recording's own.
 

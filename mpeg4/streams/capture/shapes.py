@@ -25,7 +25,7 @@ SHAPE_KEYS = ("mirror", "faps", "contractions", "over", "source")
 SIDEWAYS = {Motion.LEFT: Motion.RIGHT, Motion.RIGHT: Motion.LEFT}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CaptureShape:
     """One blend shape at full strength.
 

@@ -9,7 +9,7 @@ import numpy as np
 from ....arrays import Floats
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Times:
     """Times of a recording's rows.
 

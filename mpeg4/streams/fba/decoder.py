@@ -39,7 +39,7 @@ class Decoded:
     damage: tuple[FormatError, ...]
 
 
-@dataclass
+@dataclass(eq=False)
 class _Reading:
     """What has been decoded so far."""
 

@@ -14,7 +14,7 @@ from .channels import FAP_CHANNELS, LARGEST_LIMIT_CODE, Channel, Limits, channel
 from .syntax import first_frame_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Picture:
     """One coded frame: values and flags of all channels that its mask sends, in order; flags follow FAP 1 and 2."""
 
