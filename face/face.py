@@ -242,7 +242,7 @@ class Face:
         ----------
         frame : (68,) FAP units, index = FAP number - 1; NaN = the profile is silent: anatomy decides, not zero.
         drive : "natural" (default), "exact", "muscles" or "points"; see `Drive`.
-        emotion : archetype -> share, where the word behind the frame is known (`Profile.weights`); natural mode only.
+        emotion : archetype -> share, where the word behind the frame is known (`Profile.weights`); natural drive only.
         contractions : muscle name -> 0..1, set by hand.
 
         Raises

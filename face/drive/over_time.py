@@ -11,10 +11,9 @@ from ...arrays import Floats
 from ...errors import ParameterError
 from ...mpeg4 import ARCHETYPES, FAP_COUNT, Cue, Liveliness, Overlay, sequence, strengths
 from .drives import DRIVES
+from .natural.planning import LID_FAPS
 from .plan import Plan, blended
 from .request import ByHand, Contractions, Drive, Request
-
-LID_FAPS = (19, 20, 21, 22)
 
 
 def stream_plans(stream: Floats, drive: Drive, weights: Floats | None) -> Iterator[Plan]:

@@ -16,7 +16,7 @@ from .lip_middles import lip_middles
 from .plan import Plan
 
 #: The middle of the inner lower lip and its sides.
-LOWER_LIP_FAPS = (5, 10, 11)
+INNER_LOWER_LIP_FAPS = (5, 10, 11)
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def natural_targets(rows: FapRows, plan: Plan) -> Targets:
     goal, asked = rows.select(plan.goal), rows.select(plan.evened)
     beyond = np.isnan(goal) & ~np.isnan(asked)
     doubts = np.where(np.isnan(asked), NATURAL.silent, NATURAL.asked)
-    doubts = np.where(np.isin(rows.numbers, LOWER_LIP_FAPS), NATURAL.lower_lip, doubts)
+    doubts = np.where(np.isin(rows.numbers, INNER_LOWER_LIP_FAPS), NATURAL.lower_lip, doubts)
     doubts = np.where(beyond, 0.0, doubts)
     middles, loose = lip_middles(rows, plan.goal)
     return Targets(

@@ -12,7 +12,7 @@ from .choice import Choice, Hand
 from .dragging import Dragging
 from .geometry import Corner, Wheel, under
 from .picture import draw_wheel
-from .view import FOOT, MARGIN, free_of, reason_faceless, scale_of
+from .view import FOOT, MARGIN, free_of, no_face_reason, scale_of
 
 
 class _Shown(NamedTuple):
@@ -40,7 +40,7 @@ class RISORIUS_OT_pick_emotion(Dragging, bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Where there is a face."""
-        reason = reason_faceless(context)
+        reason = no_face_reason(context)
         if reason is not None:
             cls.poll_message_set(reason)
         return reason is None
@@ -86,7 +86,7 @@ def _draw() -> None:
 
 def _menu(menu: Any, context: Any) -> None:
     """In the Object menu, where Blender's search finds it."""
-    if reason_faceless(context) is None:
+    if no_face_reason(context) is None:
         menu.layout.operator_context = "INVOKE_REGION_WIN"
         menu.layout.separator()
         menu.layout.operator(RISORIUS_OT_pick_emotion.bl_idname)

@@ -31,7 +31,7 @@ def scale_of(context: Any) -> float:
     return float(context.preferences.system.ui_scale)
 
 
-def reason_faceless(context: Any) -> str | None:
+def no_face_reason(context: Any) -> str | None:
     """Why there is nothing to choose an emotion for in the context's viewport, or None."""
     obj, space = context.object, context.space_data
     if space is None or space.type != "VIEW_3D":
@@ -47,7 +47,7 @@ def reason_hidden(context: Any) -> str | None:
     """Why there is no wheel in the context's viewport, or None."""
     if not context.window_manager.risorius.wheel.show:
         return "The emotion wheel is hidden: show it in the Emotion panel"
-    reason = reason_faceless(context)
+    reason = no_face_reason(context)
     if reason is None and not context.space_data.show_gizmo:
         return "The viewport's gizmos are hidden: turn them on"
     return reason

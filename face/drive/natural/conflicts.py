@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....arrays import Bools, Floats
+from ...bodies.contact import LOWER_LIP_FAPS
 from ...figures import Length, Share, read_figures
 from .synergies import JAW_FAP, Synergies
 
-LOWER_LIP_FAPS = (5, 10, 11, 52, 57, 58)
 CORNER_STRETCH_FAPS = (6, 7, 53, 54)
 CORNER_RAISE_FAPS = (12, 13, 59, 60)
 UPPER_LID_FAPS = (19, 20)

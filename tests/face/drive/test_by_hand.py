@@ -80,3 +80,9 @@ def test_a_tissue_of_its_own_moves_like_the_bundled_one_of_the_same_figures(face
     plain = list(face.performance([cue], 20.0))
     np.testing.assert_array_equal(named[3], given[3])
     assert np.abs(named[3] - plain[3]).max() > 1e-5
+
+
+def test_a_contraction_beyond_its_muscle_is_refused_in_a_performance_too(face: api.Face) -> None:
+    cue = api.Cue(api.expression("joy"), onset=0.2, apex=0.8, offset=0.2)
+    with pytest.raises(ParameterError, match=r"contraction of mentalis_l.*0\.\.1"):
+        list(face.performance([cue], 10.0, contractions=[{"mentalis_l": 1.5}]))

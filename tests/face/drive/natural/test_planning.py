@@ -1,4 +1,4 @@
-"""The natural mode: symmetry, ranges, silence, known words, and plans that are blended."""
+"""The natural drive: symmetry, ranges, silence and known words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tables of the natural mode: what is wrong with one is named."""
+"""The tables of the natural drive: what is wrong with one is named."""
 
 from __future__ import annotations
 
