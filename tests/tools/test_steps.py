@@ -17,6 +17,7 @@ import pytest
 from environments import Environment, NoPythonError, SetUpError
 from places import ROOT
 from running import Bounds, Count, read_report, run
+from steps import Step, perform
 
 SOON = 60.0
 
@@ -112,7 +113,7 @@ def step(runner: ModuleType, name: str, count: Count | Exception, **options: Any
         within.say(f"{name} ends")
         return count
 
-    return runner.Step(name, f"does {name}", end, **options)
+    return Step(name, f"does {name}", end, **options)
 
 
 def test_exit_code_and_last_line_tell_of_a_failing_step(
@@ -148,7 +149,7 @@ def test_a_blender_that_cannot_be_had_is_skipped_with_its_reason(
         raise NoPythonError("Found no Python 3.11.")
 
     monkeypatch.setattr(runner, "ensure", ensure)
-    blender = runner.Step("old", "tests on an old Blender", runner.smoke("bpy-4.2"), environments=("bpy-4.2",))
+    blender = Step("old", "tests on an old Blender", runner.smoke("bpy-4.2"), environments=("bpy-4.2",))
     monkeypatch.setattr(runner, "STEPS", (step(runner, "one", Count(1), environments=()), blender))
     assert runner.main([]) == 0
     said = capsys.readouterr().out.splitlines()
@@ -173,7 +174,7 @@ def test_what_steps_beside_write_is_printed_whole(
 
         return end
 
-    ahead, beside = (runner.Step(name, name, meeting(name), aside=name == "beside") for name in ("ahead", "beside"))
+    ahead, beside = (Step(name, name, meeting(name), aside=name == "beside") for name in ("ahead", "beside"))
     monkeypatch.setattr(runner, "STEPS", (beside, ahead))
     assert runner.main([]) == 0
     said = capsys.readouterr().out.splitlines()
@@ -225,7 +226,7 @@ def test_without_its_python_the_shared_blender_runs_the_newest(
         "import pytest\nimport risorius\npytestmark = pytest.mark.smoke\ndef test_a(): pass\ndef test_b(): assert 0\n"
     )
     monkeypatch.setattr(runner, "IN_BLENDER", (str(tests), "-q"))
-    result = runner.perform(runner.Step("new", "new", runner.newest_blender), bounds())
+    result = perform(Step("new", "new", runner.newest_blender), bounds())
     assert (str(result.count), result.absent) == ("1 passed, 1 failed, 0 skipped", "")
 
 
@@ -240,6 +241,6 @@ def test_without_either_it_is_skipped_and_said_why(
         return shared_blender(tmp_path, missing="bpy53")
 
     monkeypatch.setattr(runner, "shared_blender", shared)
-    result = runner.perform(runner.Step("new", "new", runner.newest_blender), bounds())
+    result = perform(Step("new", "new", runner.newest_blender), bounds())
     assert str(result.count) == "0 passed, 0 failed, 1 skipped"
     assert reason in result.absent
