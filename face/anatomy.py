@@ -17,7 +17,7 @@ from .bodies.eyeball import Eyeball, build_eyeball
 from .bodies.head_turn import HeadTurn, build_head_turn
 from .bodies.tongue import Tongue, build_tongue
 from .drive.inverse import Inverse, Kernel, kernel_of
-from .mechanism import EVERY, Mechanism
+from .mechanism import EVERY, MUSCLE_GROUPS, Mechanism
 from .mechanisms.jaw import Jaw, build_jaw
 from .mechanisms.lids import Eye, build_eye
 from .mesh.face_mesh import COPY, FaceMesh
@@ -43,11 +43,23 @@ def _vertex_of(points: FeaturePoints) -> dict[str, int]:
     return {n: int(p.vertices[np.argmax(p.weights)]) for n, p in points.items() if p.is_bound}
 
 
-#: Mechanisms that the skin's answer to forces depends on, and those that the muscles' forces depend on besides.
-OF_THE_SKIN = frozenset(
-    {Mechanism.BENDING, Mechanism.FIRMNESS, Mechanism.SLIDING, Mechanism.BULGE, Mechanism.SEPARATION}
-)
-OF_THE_PULLS = OF_THE_SKIN | {Mechanism.FADING, Mechanism.SCALP, Mechanism.SUPERFICIAL}
+#: Mechanisms without which the muscles pull on the skin as before. A mechanism that is not named here is taken to
+#: change everything.
+BESIDE_THE_PULLS = frozenset(MUSCLE_GROUPS) | {
+    Mechanism.FOLDS,
+    Mechanism.FLAT_PULLS,
+    Mechanism.JAW,
+    Mechanism.FLOOR,
+    Mechanism.HOLLOW,
+    Mechanism.LIDS,
+    Mechanism.LID_SLIDE,
+    Mechanism.CONTACT,
+    Mechanism.LIP_MIDDLE,
+    Mechanism.CORRECTION,
+    Mechanism.BIPHASIC,
+}
+#: Mechanisms without which the skin answers forces as before.
+BESIDE_THE_SKIN = BESIDE_THE_PULLS | {Mechanism.FADING, Mechanism.SUPERFICIAL, Mechanism.SCALP}
 
 
 class Anatomy:
@@ -62,8 +74,8 @@ class Anatomy:
         """
         self.mesh, self.mechanisms = face_mesh, mechanisms
         lost: frozenset[Mechanism] = frozenset() if whole is None else whole.mechanisms - mechanisms
-        self._same_skin = None if lost & OF_THE_SKIN else whole
-        self._same_pulls = None if lost & OF_THE_PULLS else whole
+        self._same_skin = whole if lost <= BESIDE_THE_SKIN else None
+        self._same_pulls = whole if lost <= BESIDE_THE_PULLS else None
 
     @cached_property
     def warp(self) -> TemplateWarp:

@@ -8,8 +8,8 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import ParameterError
-from ..face.tracked.captured import read_landmarks
 from ..face.tracked.landmarks import LandmarkReading, Pose3
+from ..face.tracked.mediapipe_landmarks import read_landmarks
 from ..mpeg4 import FapStream
 from ..mpeg4.streams.capture import Landmarks, Samples
 from .generic_face import generic_landmarks, unusual_mouth

@@ -1,7 +1,8 @@
 """What trackers saw becomes FAPs; and files of FAPs over time, whatever their format.
 
-recording    the way in and out: streams and recordings in files of every format
-formats      the formats, and which of them a file has
-captured     a tracker's file as samples of FAPs
-landmarks    tracked points as FAPs, in that person's own units
+recording               the way in and out: streams and recordings in files of every format
+formats, opening        the formats, and which of them a file has
+trackers                the files of trackers, a row each, and how they become samples of FAPs
+mediapipe_landmarks     the landmarks of a face mesh as tracked points
+landmarks               tracked points as FAPs, in that person's own units
 """

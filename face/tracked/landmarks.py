@@ -1,7 +1,8 @@
 """From tracked points to FAPs: the head's pose taken out, a neutral face chosen, FAPs in that person's own units.
 
-For any tracker that gives feature points in three dimensions: files of landmarks (`captured`), or video. Points come as
-(T, P, 3) to the subject's left, up and forward as a camera before the face sees them, at any scale and place.
+For any tracker that gives feature points in three dimensions: files of landmarks (`mediapipe_landmarks`), or video.
+Points come as (T, P, 3) to the subject's left, up and forward as a camera before the face sees them, at any scale and
+place.
 """
 
 from __future__ import annotations

@@ -17,8 +17,9 @@ from ...mpeg4 import FapStream, decode_fba, read_fap, write_fap, write_fap_json,
 from ...mpeg4.streams.capture import Samples, write_fap_csv
 from ...mpeg4.streams.fap_json import stream_of_document
 from ...progress import Report
-from .captured import ASPECT, Told, samples_of_json, samples_of_table
-from .formats import WRITABLE, Opened, StreamFormat, open_stream
+from .formats import WRITABLE, StreamFormat
+from .opening import Opened, open_stream
+from .trackers import ASPECT, Told
 
 
 @dataclass(frozen=True)
@@ -77,13 +78,9 @@ def read_recording(
         return Recording(_at(decoded.stream, fps), StreamFormat.FBA, damage=decoded.damage)
     if opened.format is StreamFormat.FAP:
         return Recording(_at(read_fap(path), fps), StreamFormat.FAP)
-    told = Told(rate, aspect, neutral)
-    if opened.table is not None:
-        samples = samples_of_table(opened.table, opened.format, told)
-    elif opened.recorded is not None:
-        samples = samples_of_json(opened.recorded, opened.format, told)
-    else:
+    if opened.samples is None:
         return Recording(_at(stream_of_document(path, opened.document), fps), StreamFormat.JSON)
+    samples = opened.samples(Told(rate, aspect, neutral))
     frames, per_second = samples.evenly(fps)
     stream = FapStream(frames=frames, fps=per_second, name=_name(opened))
     return Recording(stream, opened.format, samples.assumed)

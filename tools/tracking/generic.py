@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from risorius.arrays import Floats
 from risorius.face.mesh.template import MM
-from risorius.face.tracked.captured import landmark_numbers, read_landmarks
 from risorius.face.tracked.landmarks import LandmarkReading
+from risorius.face.tracked.mediapipe_landmarks import landmark_numbers, read_landmarks
 from risorius.track import find_landmarks, open_pictures
 from risorius.track.generic_face import TABLE
 

@@ -32,6 +32,11 @@ USUAL_RATE = 60.0
 TIME_COLUMNS = (("timestamp", 1.0), ("time", 1.0), ("timestamp_s", 1.0), ("timestamp_ms", 1e-3), ("time_ms", 1e-3))
 
 
+def holds_arkit(table: TableFile) -> bool:
+    """Whether a CSV has columns of ARKit's blend shapes."""
+    return any(name in table for name in arkit_columns().gains)
+
+
 def read_arkit(table: TableFile, *, rate: float | None = None, preset: Path | None = None) -> Samples:
     """The samples of a table of ARKit blend shapes.
 

@@ -29,6 +29,11 @@ GAZE = ("gaze_angle_x", "gaze_angle_y")
 EYES = ((24, 26, "gaze_0"), (23, 25, "gaze_1"))
 
 
+def holds_openface(table: TableFile) -> bool:
+    """Whether a CSV has columns of OpenFace."""
+    return "pose_Rx" in table or any(name in table for name in load_columns().gains)
+
+
 def read_openface(table: TableFile, *, sure: float = SURE) -> Samples:
     """The samples of an OpenFace CSV.
 

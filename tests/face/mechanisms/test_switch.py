@@ -7,6 +7,8 @@ import pytest
 import risorius.api as api
 from risorius.api import Face, Mechanism
 from risorius.errors import ParameterError
+from risorius.face.anatomy import BESIDE_THE_PULLS, BESIDE_THE_SKIN, Anatomy
+from risorius.face.mechanism import EVERY
 
 SILENT = np.full(68, np.nan)
 
@@ -18,7 +20,7 @@ def test_a_face_has_every_mechanism_until_some_are_left_out(face: Face) -> None:
     assert less.without("lids", "jaw").mechanisms == less.mechanisms - {"lids"}
     assert face.mechanisms == frozenset(Mechanism)  # a face never changes
     np.testing.assert_array_equal(less.vertices, face.vertices)
-    assert less.parts is face.parts
+    assert less.anatomy.mesh is face.anatomy.mesh
 
 
 def test_an_unknown_mechanism_is_answered_with_the_known_ones(face: Face) -> None:
@@ -60,3 +62,17 @@ def test_what_is_left_out_cannot_be_contracted_by_hand(face: Face) -> None:
     for name in ("orbicularis_oculi_upper_l", "jaw_open", "zygomaticus_major_l"):
         with pytest.raises(ParameterError, match="muscle must be one of"):
             less.pose(SILENT, drive="muscles", contractions={name: 0.5})
+
+
+#: Mechanisms that no muscle's pull depends on, and those that the skin's own answer does not depend on, either.
+OF_POSES, OF_PULLS = BESIDE_THE_PULLS - frozenset(api.MUSCLE_GROUPS), BESIDE_THE_SKIN - BESIDE_THE_PULLS
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("lost", [OF_POSES, OF_PULLS, {Mechanism.BROW}], ids=["poses", "pulls", "muscles"])
+def test_what_a_lesser_face_takes_from_the_whole_one_is_what_it_would_build(face: Face, lost: set[Mechanism]) -> None:
+    frame = SILENT.copy()
+    frame[[3 - 1, 12 - 1, 13 - 1, 31 - 1, 61 - 1]] = 200.0, 150.0, 120.0, 100.0, 60.0
+    anew = Face(face.vertices, face.polygons, Anatomy(face.anatomy.mesh, EVERY - lost))
+    taken, built = (one.pose(frame).positions for one in (face.without(*lost), anew))
+    np.testing.assert_allclose(taken, built, rtol=0.0, atol=1e-9)

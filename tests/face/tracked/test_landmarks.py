@@ -12,7 +12,6 @@ from places import ROOT
 from risorius import api
 from risorius.errors import ModelError, ParameterError
 from risorius.face.face import Face
-from risorius.face.tracked.captured import read_landmarks
 from risorius.face.tracked.landmarks import (
     NEUTRAL_SHARE,
     LandmarkReading,
@@ -20,6 +19,7 @@ from risorius.face.tracked.landmarks import (
     mean_rotation,
     usual_frames,
 )
+from risorius.face.tracked.mediapipe_landmarks import read_landmarks
 from risorius.mpeg4.streams.capture import Landmarks
 from risorius.mpeg4.streams.capture.rotation import euler_matrix
 from scipy.spatial.transform import Rotation

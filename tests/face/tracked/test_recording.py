@@ -122,9 +122,9 @@ def test_damage_is_told_or_refused(stream: FapStream, tmp_path: Path) -> None:
     ("name", "content", "told"),
     [
         ("a.mp4", b"\x00\x00\x00\x18ftypmp42", r"byte 0: is binary, and not a FAP stream or a recording: use \.fap"),
-        ("a.doc", b"dear sir,\nhello,\n", "has none of the columns of OpenFace"),
+        ("a.doc", b"dear sir,\nhello,\n", r"line 1: has none of the columns of FAPs \(F03_open_jaw\), landmarks"),
         ("a.json", b'{"format": "soup", "version": 1}', 'must be an object with "format": "risorius fap stream"'),
-        ("a.json", b'{"frames": [{"hot": true}]}', "has neither blend shapes nor landmarks"),
+        ("a.json", b'{"frames": [{"hot": true}]}', "has no blend shapes or landmarks in any frame"),
         ("a.fap", b"dear sir", "the header must be"),
     ],
 )
@@ -146,3 +146,6 @@ def test_wrong_requests_are_refused(stream: FapStream, tmp_path: Path) -> None:
         api.read_stream(tmp_path / "a.csv", rate=0.0)
     with pytest.raises(FormatError, match="is not valid JSON"):
         api.read_stream(tmp_path / "a.csv", "json")
+    (tmp_path / "a.json").write_text(json.dumps(FRAMES))
+    with pytest.raises(FormatError, match=r"a\.json: is not a file of the format openface: leave the format out"):
+        api.read_stream(tmp_path / "a.json", "openface")

@@ -267,7 +267,7 @@ def test_mediapipe_frames_without_a_face_are_unknown_and_matrices_turn_the_head(
         ('[{"blendshapes": [{"name": "jawOpen"}, 3]}]', "frame 0, blendshapes"),
         ('[{"blendshapes": {"jawOpen": 0}, "matrix": [1, 2]}]', "frame 0, matrix"),
         ('[{"blendshapes": {"jawOpen": 0}, "t": 1}, {"blendshapes": {"jawOpen": 0}, "t": 1}]', "frame 1, time"),
-        ('[{"faces": 1}]', "neither"),
+        ('[{"faces": 1}]', "has no blend shapes or landmarks in any frame"),
     ],
 )
 def test_damaged_json_names_its_place(text: str, named: str, tmp_path: Path) -> None:

@@ -1,73 +1,19 @@
-"""What trackers saw becomes samples of FAPs."""
+"""MediaPipe's landmarks of a face mesh as FAPs: which of them are feature points, and how sure it is of them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from types import MappingProxyType
 
 import numpy as np
 
 from ...errors import ParameterError
-from ...mpeg4.streams.capture import (
-    CAPTURE_PRESETS,
-    JsonFrame,
-    Landmarks,
-    Samples,
-    TableFile,
-    landmarks_from_csv,
-    landmarks_from_json,
-    read_arkit,
-    read_fap_csv,
-    read_openface,
-    read_scores,
-)
+from ...mpeg4.streams.capture import CAPTURE_PRESETS, Landmarks
 from ...tables import TomlTable, read_toml
-from .formats import StreamFormat
 from .landmarks import LandmarkReading, read_points
 
-#: Width over height of an image, if nobody says it.
-ASPECT = 16.0 / 9.0
-
 TOPOLOGIES = CAPTURE_PRESETS.parent / "topologies"
-
-
-@dataclass(frozen=True)
-class Told:
-    """What a caller knows of a recording that its file may not say; see `recording.read_recording`."""
-
-    rate: float | None = None
-    aspect: float = ASPECT
-    neutral: tuple[float, float] | None = None
-
-
-def samples_of_table(table: TableFile, format: StreamFormat, told: Told) -> Samples:
-    """The samples of a tracker's CSV file, or of a table of FAPs.
-
-    Raises
-    ------
-    FormatError : names line and column. ParameterError, ModelError : see `read_landmarks`.
-    """
-    if format is StreamFormat.LANDMARKS:
-        return _samples(landmarks_from_csv(table, aspect=told.aspect, rate=told.rate), told)
-    if format is StreamFormat.OPENFACE:
-        return read_openface(table)
-    if format is StreamFormat.FAPS:
-        return read_fap_csv(table)
-    return read_arkit(table, rate=told.rate)
-
-
-def samples_of_json(recorded: list[JsonFrame], format: StreamFormat, told: Told) -> Samples:
-    """The samples of a tracker's JSON file; errors as `samples_of_table`, naming the frame."""
-    if format is StreamFormat.LANDMARKS:
-        return _samples(landmarks_from_json(recorded, aspect=told.aspect, rate=told.rate), told)
-    return read_scores(recorded, rate=told.rate)
-
-
-def _samples(landmarks: Landmarks, told: Told) -> Samples:
-    """The samples of landmarks."""
-    return Samples(landmarks.times, read_landmarks(landmarks, neutral=told.neutral).frames, landmarks.assumed)
 
 
 def read_landmarks(landmarks: Landmarks, *, neutral: tuple[float, float] | None = None) -> LandmarkReading:

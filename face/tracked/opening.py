@@ -1,0 +1,91 @@
+"""Which format a file has: told by what it contains, then by its ending."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from ...errors import FormatError
+from ...files import read_bytes
+from ...mpeg4.streams.capture import Samples, frames_of, read_json_document, read_table_file
+from ...mpeg4.streams.fap_file import looks_like_fap
+from ...mpeg4.streams.fba import begins_as_fba
+from .formats import READABLE, StreamFormat
+from .trackers import RECORDINGS, TABLES, Content, Told, Tracker
+
+#: Bytes at a file's beginning that tell FAP files, JSON and tables apart.
+HEAD = 4096
+
+
+@dataclass(frozen=True)
+class Opened:
+    """A file whose format is known, with what had to be read of it to know.
+
+    Attributes
+    ----------
+    path, format : the file and what it is.
+    document : of FAPs as JSON. samples : what a tracker's file says, as FAPs.
+    """
+
+    path: Path
+    format: StreamFormat
+    document: object = None
+    samples: Callable[[Told], Samples] | None = None
+
+
+def open_stream(path: str | Path, format: StreamFormat | None = None) -> Opened:
+    """Recognise a file, or open it as what it is said to be.
+
+    Raises
+    ------
+    FormatError : it cannot be read, or is none of the formats; says what it should contain.
+    """
+    file, data = Path(path), read_bytes(path)
+    ending, head = file.suffix.lower(), data[:HEAD].decode("utf-8-sig", errors="replace")
+    if format in (StreamFormat.FAP, StreamFormat.FBA):
+        return Opened(file, format)
+    if format is None and (begins_as_fba(data) or ending == ".fba"):
+        return Opened(file, StreamFormat.FBA)
+    if format is None and (looks_like_fap(head) or ending == ".fap"):
+        return Opened(file, StreamFormat.FAP)
+    if format is StreamFormat.JSON or head.lstrip().startswith(("{", "[")) or ending in (".json", ".jsonl"):
+        return _json(file, format)
+    if b"\0" in data[:HEAD]:
+        problem = f"is binary, and not a FAP stream or a recording: use {', '.join(READABLE)}"
+        raise FormatError(file, problem, offset=data.index(b"\0"))
+    table = read_table_file(file)
+    unknown = FormatError(file, f"has none of the columns of {_listed(TABLES)}", line=1)
+    return _recognised(file, format, table, TABLES, unknown)
+
+
+def _json(file: Path, format: StreamFormat | None) -> Opened:
+    """FAPs as JSON say so; all other JSON is a tracker's."""
+    document = read_json_document(file)
+    if format is StreamFormat.JSON or (format is None and isinstance(document, dict) and "format" in document):
+        return Opened(file, StreamFormat.JSON, document=document)
+    unknown = FormatError(file, f"has no {_listed(RECORDINGS)} in any frame")
+    return _recognised(file, format, frames_of(file, document), RECORDINGS, unknown)
+
+
+def _recognised(
+    file: Path,
+    format: StreamFormat | None,
+    content: Content,
+    trackers: Sequence[Tracker[Content]],
+    unknown: FormatError,
+) -> Opened:
+    """The file of the tracker that its content tells, or that it is said to be of."""
+    for tracker in trackers:
+        if tracker.holds(content) if format is None else format in tracker.formats:
+            return Opened(file, format or tracker.formats[0], samples=partial(tracker.samples, content))
+    if format is None:
+        raise unknown
+    raise FormatError(file, f"is not a file of the format {format}: leave the format out")
+
+
+def _listed(trackers: Sequence[Tracker[Content]]) -> str:
+    """What files are recognised by, in a sentence."""
+    *others, last = (tracker.example for tracker in trackers)
+    return f"{', '.join(others)} or {last}"
