@@ -1,0 +1,112 @@
+"""Objects, their modifiers, collections of them, and how they are evaluated."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from .animation import Datablock
+from .collections import Items, Matrix, Numbers
+from .meshes import Mesh, ShapeKey, VertexGroup
+from .nodes import NodeTree
+
+
+class Modifier(Protocol):
+    """A modifier; those of nodes have a group."""
+
+    name: str
+    type: str
+    show_viewport: bool
+    show_render: bool
+    show_in_editmode: bool
+    show_expanded: bool
+    node_group: NodeTree | None
+
+
+class Modifiers(Items[Modifier], Protocol):
+    """An object's modifiers."""
+
+    def new(self, name: str, type: str) -> Modifier: ...
+    def remove(self, modifier: Modifier) -> None: ...
+    def move(self, from_index: int, to_index: int) -> None: ...
+
+
+class PropertyLook(Protocol):
+    """How a custom property shows."""
+
+    def update(self, **settings: object) -> None: ...
+
+
+class Object(Datablock, Protocol):
+    """An object. `data` is a mesh only where `type` is "MESH": ask first (`refusals.refuse_unreadable` does)."""
+
+    data: Mesh
+    parent: Object | None
+    location: Numbers
+    matrix_world: Matrix
+    add_rest_position_attribute: bool
+    show_only_shape_key: bool
+
+    @property
+    def type(self) -> str: ...
+    @property
+    def mode(self) -> str: ...
+    @property
+    def dimensions(self) -> Numbers: ...
+    @property
+    def bound_box(self) -> Sequence[Numbers]: ...
+    @property
+    def is_editable(self) -> bool: ...
+    @property
+    def modifiers(self) -> Modifiers: ...
+    @property
+    def vertex_groups(self) -> Items[VertexGroup]: ...
+    def select_set(self, state: bool) -> None: ...
+    def visible_get(self) -> bool: ...
+    def shape_key_add(self, *, name: str, from_mix: bool) -> ShapeKey: ...
+    def shape_key_remove(self, key: ShapeKey) -> None: ...
+    def shape_key_clear(self) -> None: ...
+    def keyframe_insert(self, data_path: str, *, frame: float, group: str) -> bool: ...
+    def id_properties_ui(self, name: str) -> PropertyLook: ...
+    def evaluated_get(self, depsgraph: Depsgraph) -> Object: ...
+    def to_mesh(self) -> Mesh: ...
+    def to_mesh_clear(self) -> None: ...
+    def ray_cast(self, origin: Numbers, direction: Numbers) -> tuple[bool, Numbers, Numbers, int]: ...
+    def closest_point_on_mesh(self, origin: Numbers) -> tuple[bool, Numbers, Numbers, int]: ...
+
+
+class Objects(Items[Object], Protocol):
+    """Objects of a collection."""
+
+    def link(self, obj: Object) -> None: ...
+
+
+class Collections(Items["Collection"], Protocol):
+    """Collections in a collection."""
+
+    def link(self, collection: Collection) -> None: ...
+
+
+class Collection(Datablock, Protocol):
+    """A collection of objects."""
+
+    objects: Objects
+    children: Collections
+
+
+class DepsgraphUpdate(Protocol):
+    """One thing that was evaluated anew."""
+
+    id: EvaluatedDatablock
+
+
+class EvaluatedDatablock(Datablock, Protocol):
+    """A datablock as evaluated."""
+
+    original: Datablock
+
+
+class Depsgraph(Protocol):
+    """Everything as modifiers, keys and drivers make it."""
+
+    updates: Items[DepsgraphUpdate]

@@ -1,0 +1,172 @@
+"""Scenes: how they are rendered, what of them shows."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from .animation import Datablock
+from .collections import Items, Numbers
+from .nodes import World
+from .objects import Collection, Depsgraph, Object
+
+
+class ImageSettings(Protocol):
+    """How pictures are written."""
+
+    media_type: str  # from Blender 5.0 on
+    file_format: str
+    color_mode: str
+
+
+class FFmpegSettings(Protocol):
+    """How films are written."""
+
+    format: str
+    codec: str
+    constant_rate_factor: str
+    ffmpeg_preset: str
+
+
+class RenderSettings(Protocol):
+    """How a scene is rendered."""
+
+    engine: str
+    fps: int
+    fps_base: float
+    filepath: str
+    resolution_x: int
+    resolution_y: int
+    resolution_percentage: int
+    use_compositing: bool
+    use_sequencer: bool
+    use_file_extension: bool
+    use_overwrite: bool
+    use_simplify: bool
+    simplify_subdivision: int
+    image_settings: ImageSettings
+    ffmpeg: FFmpegSettings
+
+    def frame_path(self, *, frame: int) -> str: ...
+
+
+class Shading(Protocol):
+    """How Workbench shades."""
+
+    light: str
+    color_type: str
+    show_cavity: bool
+    cavity_type: str
+    cavity_ridge_factor: float
+    cavity_valley_factor: float
+    curvature_ridge_factor: float
+    curvature_valley_factor: float
+    show_shadows: bool
+    show_specular_highlight: bool
+
+
+class Display(Protocol):
+    """How Workbench renders a scene."""
+
+    render_aa: str
+    shading: Shading
+
+
+class ViewSettings(Protocol):
+    """How a scene's colours become those of the screen."""
+
+    view_transform: str
+    look: str
+    exposure: float
+    gamma: float
+
+
+class UnitSettings(Protocol):
+    """A scene's units."""
+
+    scale_length: float
+
+
+class Cycles(Protocol):
+    """Settings of Cycles."""
+
+    samples: int
+    use_denoising: bool
+
+
+class Cursor(Protocol):
+    """The 3D cursor."""
+
+    location: Numbers
+
+
+class StripElements(Items[object], Protocol):
+    """The pictures of a strip."""
+
+    def append(self, filename: str) -> object: ...
+
+
+class ImageStrip(Protocol):
+    """A strip of pictures."""
+
+    elements: StripElements
+
+
+class SequenceStrips(Items[object], Protocol):
+    """Strips of the video sequencer."""
+
+    def new_image(self, name: str, path: str, channel: int, start: int) -> ImageStrip: ...
+
+
+class SequenceEditor(Protocol):
+    """The video sequencer of a scene."""
+
+    strips: SequenceStrips  # from Blender 4.4 on
+    sequences: SequenceStrips  # before
+
+
+class LayerObjects(Items[Object], Protocol):
+    """Objects of a view layer."""
+
+    active: Object | None
+
+
+class ViewLayer(Protocol):
+    """What of a scene shows."""
+
+    objects: LayerObjects
+    depsgraph: Depsgraph
+
+    def update(self) -> None: ...
+
+
+class Scene(Datablock, Protocol):
+    """A scene."""
+
+    camera: Object | None
+    world: World | None
+    frame_start: int
+    frame_end: int
+    frame_preview_start: int
+    frame_preview_end: int
+    use_preview_range: bool
+    render: RenderSettings
+    display: Display
+    view_settings: ViewSettings
+    unit_settings: UnitSettings
+    cycles: Cycles
+    cursor: Cursor
+
+    @property
+    def collection(self) -> Collection: ...
+    @property
+    def objects(self) -> Items[Object]: ...
+    @property
+    def view_layers(self) -> Items[ViewLayer]: ...
+    @property
+    def frame_current(self) -> int: ...
+    @property
+    def frame_subframe(self) -> float: ...
+    @property
+    def frame_current_final(self) -> float: ...
+    def frame_set(self, frame: int, *, subframe: float = 0.0) -> None: ...
+    def sequence_editor_create(self) -> SequenceEditor: ...
