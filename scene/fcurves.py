@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import Floats
-from .attributes import write_floats
+from .attributes import read_floats, write_floats
 from .blender_types import Action, AnimData, FCurve, FCurves, KeyframeStrip, Slot
 
 
@@ -57,6 +57,13 @@ def is_empty(action: Action) -> bool:
 def _strips(action: Action) -> Sequence[KeyframeStrip]:
     """The keyframe strips of an action with layers."""
     return [strip for layer in action.layers for strip in layer.strips]
+
+
+def shift_keyframes(curve: FCurve, by: float) -> None:
+    """Move all keyframes of an F-curve, handles included, by so many frames."""
+    for what in ("co", "handle_left", "handle_right"):
+        places = read_floats(curve.keyframe_points, what, 2)
+        write_floats(curve.keyframe_points, what, places + np.array([by, 0.0]))
 
 
 def add_keyframes(curve: FCurve, frames: Floats, values: Floats) -> None:

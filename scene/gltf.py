@@ -1,22 +1,26 @@
-"""A face with its clips as glTF: each clip an animation with its own name, over all shape keys.
+"""A face with its clips as glTF: each clip an animation with its own name, over all shape keys, on whole frames from 0.
 
-What is exported is a copy: the user's objects, actions and NLA tracks stay as they are.
+What is exported is a copy: the user's objects, actions and NLA tracks stay as they are. Parents and armatures go with
+it, so that the face stands in the file as it stands in the scene; the user's shape keys keep their values and drivers.
 """
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
+import numpy as np
 
 from ..errors import SceneError
 from .bake import action as actions
 from .bake import shape_keys
 from .bake.tracks import CLIP_TAG, add_strip
 from .blender_types import Action, Key, Object, Scene
+from .fcurves import key_curves, shift_keyframes
 from .pictures.film import refuse_unwritable_output
 
 
@@ -37,7 +41,8 @@ def export_gltf(objects: Sequence[Object], path: str | Path) -> Exported:
 
     Raises
     ------
-    SceneError : nothing is baked, the file cannot be written, or this Blender has no glTF exporter.
+    SceneError : nothing is baked, the file cannot be written, this Blender has no glTF exporter, or its exporter left
+        out the face or a clip.
     """
     path = Path(path)
     head = objects[0]
@@ -60,7 +65,21 @@ def export_gltf(objects: Sequence[Object], path: str | Path) -> Exported:
                 )
         except RuntimeError as problem:
             raise SceneError(str(path), f"could not be exported ({str(problem).strip()[-200:]})") from problem
+    _refuse_incomplete(path, clips)
     return Exported(path, tuple(clips))
+
+
+def _refuse_incomplete(path: Path, clips: dict[str, Action]) -> None:
+    """Refuse a file that holds no mesh, or not every clip."""
+    data = path.read_bytes()
+    if data[:4] == b"glTF":
+        data = data[20 : 20 + int.from_bytes(data[12:16], "little")]
+    document = json.loads(data)
+    missing = sorted(set(clips) - {animation.get("name") for animation in document.get("animations", [])})
+    if not document.get("meshes"):
+        raise SceneError(str(path), "holds no mesh: Blender's exporter left the face out; export it with File > Export")
+    if missing:
+        raise SceneError(str(path), f"lacks the clips {', '.join(missing)}: Blender's exporter left them out")
 
 
 def clips_of(head: Object) -> dict[str, Action]:
@@ -73,31 +92,61 @@ def clips_of(head: Object) -> dict[str, Action]:
 def _copies(objects: Sequence[Object], clips: dict[str, Action]) -> Iterator[Scene]:
     """A scene of copies whose shape keys hold each clip on an NLA track of its name; removed on leaving."""
     scene = bpy.data.scenes.new("Risorius Export")
-    made: list[Object] = []
+    copies: dict[Object, Object] = {}
+    moved = {name: _from_zero(action) for name, action in clips.items()}
     try:
         source = bpy.context.scene
         scene.render.fps, scene.render.fps_base = source.render.fps, source.render.fps_base
         scene.unit_settings.scale_length = source.unit_settings.scale_length
-        names = {}
-        for obj in objects:
-            copy = obj.copy()
-            copy.data = obj.data.copy()
-            made.append(copy)
-            names[copy] = obj.name
-            _strip_modifiers(copy)
-            _lay_out(copy.data.shape_keys, clips)
+        copies |= {obj: obj.copy() for obj in [*objects, *_carriers(objects)]}
+        for copy in copies.values():
             scene.collection.objects.link(copy)
-        lengths = [action.frame_range for action in clips.values()]
-        scene.frame_start = int(min(start for start, _ in lengths))
-        scene.frame_end = int(max(end for _, end in lengths)) + 1
+            copy.parent = None if copy.parent is None else copies[copy.parent]
+            for modifier in copy.modifiers:
+                if modifier.type == "ARMATURE" and modifier.object is not None:
+                    modifier.object = copies[modifier.object]
+        for obj in objects:
+            copies[obj].data = obj.data.copy()
+            _strip_modifiers(copies[obj])
+            _lay_out(copies[obj].data.shape_keys, moved)
+        names = {copy: obj.name for obj, copy in copies.items()}
+        scene.frame_start, scene.frame_end = 0, int(max(action.frame_end for action in moved.values()))
         with _named(names):
             yield scene
     finally:
         bpy.data.scenes.remove(scene)
-        for copy in made:
-            mesh = copy.data
+        meshes = [copy.data for obj, copy in copies.items() if obj in objects and copy.data != obj.data]
+        for copy in copies.values():
             bpy.data.objects.remove(copy)
+        for mesh in meshes:
             bpy.data.meshes.remove(mesh)
+        for action in moved.values():
+            bpy.data.actions.remove(action)
+
+
+def _from_zero(action: Action) -> Action:
+    """A copy of a clip that begins at frame 0 and ends on a whole frame: glTF knows no time before its beginning."""
+    copy = action.copy()
+    start, end = actions.frames_of(action)
+    for curve in key_curves(copy):
+        shift_keyframes(curve, -start)
+    copy.use_frame_range = True
+    copy.frame_start, copy.frame_end = 0.0, float(max(np.ceil(end - start - 1e-4), 1.0))
+    return copy
+
+
+def _carriers(objects: Sequence[Object]) -> list[Object]:
+    """What carries some objects: their parents and armatures, and what carries those."""
+    found: list[Object] = []
+    waiting = list(objects)
+    while waiting:
+        obj = waiting.pop()
+        rigs = [modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE"]
+        new = [other for other in dict.fromkeys((obj.parent, *rigs)) if other is not None]
+        new = [other for other in new if other not in found and other not in objects]
+        found += new
+        waiting += new
+    return found
 
 
 @contextmanager
@@ -125,15 +174,18 @@ def _lay_out(keys: Key | None, clips: dict[str, Action]) -> None:
     """Put every clip on an NLA track of its own name."""
     if keys is None:
         return
-    if keys.animation_data is not None:
-        keys.animation_data_clear()
-    animation = keys.animation_data_create()
+    animation = keys.animation_data or keys.animation_data_create()
+    animation.action = None
+    for track in list(animation.nla_tracks):
+        animation.nla_tracks.remove(track)
     for name, action in clips.items():
         track = animation.nla_tracks.new()
         track.name = name
         add_strip(track, action)
+    own = shape_keys.own_names_of(keys)
     for block in keys.key_blocks:
-        block.value = 0.0
+        if block.name in own:
+            block.value = 0.0
 
 
 @contextmanager

@@ -20,6 +20,7 @@ class Modifier(Protocol):
     show_render: bool
     show_in_editmode: bool
     show_expanded: bool
+    object: Object | None  # of an armature
     node_group: NodeTree | None
 
 
