@@ -69,7 +69,7 @@ def weld(vertices: Floats, polygons: Polygons) -> Weld:
     doubles, covering = _covering(place, loops, sizes)
     if doubles.mean() < DOUBLED:
         doubles, covering = np.zeros_like(doubles), covering[:0]
-    leads = _joined(np.arange(len(vertices)), covering)
+    leads = _joined(np.arange(len(vertices)), np.concatenate([covering, _closed(place, loops, sizes)]))
     kept = np.repeat(~doubles, sizes)
     leads = _joined(leads, _seams(vertices, place, leads[loops[kept]], sizes[~doubles]))
     return Weld(leads, _without_slivers(leads[loops], sizes, doubles))
@@ -120,6 +120,13 @@ def _covering(place: Ints, loops: Ints, sizes: Ints) -> tuple[Bools, Ints]:
         covered[faces[double]] = True
         pairs.append(np.stack([rows[original[double]].ravel(), rows[double].ravel()], axis=1))
     return covered, np.concatenate(pairs)
+
+
+def _closed(place: Ints, loops: Ints, sizes: Ints) -> Ints:
+    """(P, 2) ends of edges without length: polygons without area close the seam between them."""
+    ends = np.stack([loops, _next(loops, sizes)], axis=1)
+    closed: Ints = ends[place[ends[:, 0]] == place[ends[:, 1]]]
+    return closed
 
 
 def _seams(vertices: Floats, place: Ints, loops: Ints, sizes: Ints) -> Ints:
