@@ -5,11 +5,10 @@ props                      the properties that Risorius adds to objects, scenes 
 base, sidebar              what all operators and all panels share
 active, changes            the face that it is all about, and who is told when it is to show something else
 session                    what is known of the faces of the open file
-blender_types, declared    Blender's types and properties as mypy reads them
 requirements               SciPy, which this Blender may lack
 names, translations        lists of names for panels; the interface in other languages
 gizmo_keys                 keymaps of gizmos, put in order
-blender_types, declared    Blender's types and properties, as mypy is to see them
+blender_types, annotated   Blender's types and properties, as mypy is to see them
 
 Features, in the order of the sidebar:
 

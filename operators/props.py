@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Annotated
 
 import bpy
 from bpy.props import PointerProperty
 
+from .annotated import Annotated
 from .bake.props import RISORIUS_PG_bake
 from .emotion.props import RISORIUS_PG_emotion
 from .face.props import RISORIUS_PG_face

@@ -7,6 +7,7 @@ the way unwinds it, too, and leaves Blender as it was.
 
 from __future__ import annotations
 
+import atexit
 from contextlib import ExitStack
 
 import bpy
@@ -14,7 +15,6 @@ import bpy
 from ..scene.faces import forget_faces
 from . import props, translations
 from .classes import CLASSES
-from .declared import declare
 from .parts import overlay as parts_overlay
 from .points import drag as points_drag
 from .points import hover as points_hover
@@ -58,13 +58,15 @@ def register() -> None:
     with ExitStack() as undo:
         undo.callback(forget_faces)
         for cls in CLASSES:
-            declare(cls)
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         for attach in ATTACHED:
             attach(undo)
         command = bpy.utils.register_cli_command("risorius", run_command)
         undo.callback(bpy.utils.unregister_cli_command, command)
+        # A Python that ends with bpy's module would take Blender apart under what is registered, and crash or hang.
+        atexit.register(unregister)
+        undo.callback(atexit.unregister, unregister)
         _registered = undo.pop_all()
 
 

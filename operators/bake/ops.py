@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import StringProperty
@@ -15,6 +15,7 @@ from ...scene.bake.strips import ClipShape, bake_strips
 from ...scene.points.found import Finding
 from ...scene.points.kept import has_points, read_kept
 from ..active import face_reason, target_of
+from ..annotated import Annotated
 from ..base import RisoriusOperator, WorkOperator
 from ..emotion.performance import performance_of
 from ..emotion.profile import wanted_of

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 
 from ...mpeg4.timing import load_timings
+from ..annotated import Annotated
 
 _TIMING = load_timings()["natural"]
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import zlib
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty
@@ -15,6 +15,7 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty
 from ...mpeg4.emotions.archetypes import BASE_WORDS, VARIANTS
 from ...mpeg4.emotions.emotion_presets import WORDS
 from ...mpeg4.emotions.profile import ARCHETYPES
+from ..annotated import Annotated
 from ..changes import changed
 
 #: Blender wants a dynamic enum's strings to be held somewhere.

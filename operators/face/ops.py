@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import StringProperty
@@ -12,6 +12,7 @@ from ...face.mesh.point_files import read_point_file
 from ...scene import refusals
 from ...scene.points.kept import forget_points, has_points
 from ...scene.points.stored import store_points
+from ..annotated import Annotated
 from ..base import RisoriusOperator
 from ..preview import live
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, PointerProperty
 
+from ..annotated import Annotated
 from ..blender_types import Object
 
 

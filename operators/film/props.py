@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
+
+from ..annotated import Annotated
 
 #: From 4.5 on Blender wants to be told that "//" is understood.
 _RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5) else set()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import EnumProperty, StringProperty
@@ -17,6 +17,7 @@ from ...scene.bake.baking import BakeResult, bake_motion
 from ...scene.bake.motion import FapMotion, at_rate
 from ...scene.bake.timing import scene_fps
 from ..active import face_reason, target_of
+from ..annotated import Annotated
 from ..bake.ops import BakeOperator
 from ..bake.settings import creases_wanted
 from ..base import RisoriusOperator

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import StringProperty
 
+from ..annotated import Annotated
 from ..base import RisoriusOperator
 from ..changes import changed
 from .props import by_hand_of, set_by_hand

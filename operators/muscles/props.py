@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty
 
+from ..annotated import Annotated
 from ..blender_types import Entries
 from ..changes import changed
 from ..names import fill_soon

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ...face.mesh.parts import Part
+from ..annotated import Annotated
 from ..points.props import redraw
 
 #: Part -> identifier, name and tooltip of the menu.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 import numpy as np
@@ -18,6 +18,7 @@ from ...scene.points.bound import Surface
 from ...scene.points.found import Finding, find_points
 from ...scene.points.mirrored import MirrorPlane, plane_of_mesh
 from ...scene.points.seen import Visible
+from ..annotated import Annotated
 from ..base import WorkOperator
 from ..requirements import need_scipy
 from .canvas import Canvas, text_width

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 import numpy as np
@@ -22,6 +22,7 @@ from ...scene.points.found import Finding, find_points
 from ...scene.points.kept import KeptPoint, has_points, mesh_counts, read_kept, write_kept
 from ...scene.points.seen import Visible
 from ...scene.points.stored import stored_points
+from ..annotated import Annotated
 from ..base import RisoriusOperator, WorkOperator
 from .props import mark
 from .reasons import no_points_reason, points_reason

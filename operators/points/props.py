@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntProperty
 
 from ...mpeg4 import FEATURE_POINTS
+from ..annotated import Annotated
 from ..blender_types import Entries
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import StringProperty
 
 from ...scene.points.presets import preset_paths, remove_preset, save_preset
+from ..annotated import Annotated
 from ..base import RisoriusOperator
 from .reasons import no_points_reason
 

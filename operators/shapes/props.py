@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 import bpy
 from bpy.props import BoolProperty, EnumProperty
+
+from ..annotated import Annotated
 
 
 class RISORIUS_PG_shapes(bpy.types.PropertyGroup):

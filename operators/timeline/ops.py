@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import EnumProperty
 
 from ...mpeg4.timing import load_timings
 from ..active import face_reason
+from ..annotated import Annotated
 from ..base import RisoriusOperator
 from ..changes import retimed
 from .linked import copy_choice

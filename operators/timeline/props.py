@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import (
@@ -16,6 +16,7 @@ from bpy.props import (
 )
 
 from ...mpeg4.timing import Ramp, load_timings
+from ..annotated import Annotated
 from ..bake.props import seconds
 from ..blender_types import Entries
 from ..changes import retimed

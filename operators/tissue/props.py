@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
 from ...resources import PRESETS
 from ...tables import read_toml
+from ..annotated import Annotated
 from ..changes import changed
 
 if TYPE_CHECKING:

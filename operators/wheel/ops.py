@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 from bpy.props import FloatProperty
 
+from ..annotated import Annotated
 from ..base import RisoriusOperator
 from .caption import title_of
 from .choice import Hand, choose_word, strengthen, turn

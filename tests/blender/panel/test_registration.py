@@ -174,3 +174,9 @@ def test_command_line_is_registered(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cli, "main", lambda argv: seen.append(argv) or 3)
     assert registration.run_command(["profile", "joy"]) == 3
     assert seen == [["profile", "joy"]]
+
+
+@pytest.mark.parametrize("left", ["", "risorius.unregister()"])
+def test_python_ends_as_asked_after_a_registration(left: str) -> None:
+    code = f"import bpy, risorius, sys\nrisorius.register()\n{left}\nsys.exit(3)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=120, check=False).returncode == 3

@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 import inspect
 from collections.abc import Callable
-from typing import Annotated, Any
+from typing import Any
 
 import bpy
 import pytest
 from bpy.props import FloatProperty, StringProperty
+from risorius.operators.annotated import Annotated
 from risorius.operators.classes import CLASSES
-from risorius.operators.declared import declare
 
 pytestmark = pytest.mark.smoke
 
@@ -63,7 +63,6 @@ class RISORIUS_OT_declared(_MixIn, bpy.types.Operator):
 
 def test_properties_of_mix_ins_are_declared_and_twice_is_fine(properties_of: Callable[[type], Any]) -> None:
     for _ in range(2):
-        declare(RISORIUS_OT_declared)
         bpy.utils.register_class(RISORIUS_OT_declared)
         try:
             properties = properties_of(RISORIUS_OT_declared)
