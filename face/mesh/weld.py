@@ -23,6 +23,9 @@ from .points import PointSource
 #: Two vertices are in one place when they lie nearer than this share of the mesh's median edge.
 ONE_PLACE = 1e-3
 
+#: An edge has no length when it is shorter than this share of the median edge: the tip of a lash still has one.
+NO_LENGTH = 1e-4
+
 #: Polygons that cover others are doubles where they make up at least this share of their mesh.
 DOUBLED = 0.25
 
@@ -65,20 +68,21 @@ def weld(vertices: Floats, polygons: Polygons) -> Weld:
     polygons : index sequences, three corners or more.
     """
     loops, sizes = corners(polygons, len(vertices))
-    place = _places(vertices, loops, sizes)
+    lengths = np.linalg.norm(vertices[loops] - vertices[_next(loops, sizes)], axis=1)
+    usual = float(np.median(lengths[lengths > 0.0])) if lengths.any() else 0.0
+    place = _places(vertices, ONE_PLACE * usual)
     doubles, covering = _covering(place, loops, sizes)
     if doubles.mean() < DOUBLED:
         doubles, covering = np.zeros_like(doubles), covering[:0]
-    leads = _joined(np.arange(len(vertices)), np.concatenate([covering, _closed(place, loops, sizes)]))
+    closed = _closed(loops, sizes, lengths <= NO_LENGTH * usual)
+    leads = _joined(np.arange(len(vertices)), np.concatenate([covering, closed]))
     kept = np.repeat(~doubles, sizes)
     leads = _joined(leads, _seams(vertices, place, leads[loops[kept]], sizes[~doubles]))
     return Weld(leads, _without_slivers(leads[loops], sizes, doubles))
 
 
-def _places(vertices: Floats, loops: Ints, sizes: Ints) -> Ints:
-    """(V,) number of the place where each vertex lies."""
-    lengths = np.linalg.norm(vertices[loops] - vertices[_next(loops, sizes)], axis=1)
-    reach = ONE_PLACE * float(np.median(lengths[lengths > 0.0])) if lengths.any() else 0.0
+def _places(vertices: Floats, reach: float) -> Ints:
+    """(V,) number of the place where each vertex lies: with all that are nearer than `reach`."""
     pairs = cKDTree(vertices).query_pairs(reach, output_type="ndarray")
     return _components(len(vertices), pairs)
 
@@ -122,11 +126,10 @@ def _covering(place: Ints, loops: Ints, sizes: Ints) -> tuple[Bools, Ints]:
     return covered, np.concatenate(pairs)
 
 
-def _closed(place: Ints, loops: Ints, sizes: Ints) -> Ints:
-    """(P, 2) ends of edges without length: polygons without area close the seam between them."""
-    ends = np.stack([loops, _next(loops, sizes)], axis=1)
-    closed: Ints = ends[place[ends[:, 0]] == place[ends[:, 1]]]
-    return closed
+def _closed(loops: Ints, sizes: Ints, closed: Bools) -> Ints:
+    """(P, 2) ends of edges without length, told by a mask (C,): polygons without area close the seam between them."""
+    ends: Ints = np.stack([loops, _next(loops, sizes)], axis=1)[closed]
+    return ends
 
 
 def _seams(vertices: Floats, place: Ints, loops: Ints, sizes: Ints) -> Ints:

@@ -130,3 +130,12 @@ def _merged(found: Weld, was: np.ndarray) -> list[set[int]]:
     split = {original for group in groups.values() for original in group}
     assert sum(len(group) for group in groups.values()) == len(split)  # no vertex came apart
     return [group for group in groups.values() if len(group) > 1]
+
+
+def test_a_pointed_end_keeps_its_two_corners() -> None:
+    """A lash tapers to less than a thousandth of the usual edge: its corners are neighbours, not copies."""
+    vertices, polygons = grid()
+    tip = vertices[-1] + [[0.1, 0.0, 0.0], [0.1, 8e-5, 0.0]]
+    polygons = [*polygons, np.array([len(vertices) - 2, len(vertices) - 1, len(vertices) + 1, len(vertices)])]
+    found = weld(np.concatenate([vertices, tip]), polygons)
+    assert len(found.copies) == 0
