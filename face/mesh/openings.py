@@ -50,12 +50,23 @@ def _path(graph: Sparse, stops: Sequence[int], names: Sequence[str]) -> Ints:
             continue
         distance, previous = dijkstra(graph, indices=np.array(end), return_predecessors=True)
         if not np.isfinite(distance[start]):
-            raise ModelError(f"feature points {a} and {b} are on separate pieces of the mesh, not on one lip or lid")
+            raise ModelError(_on_separate_pieces(graph, (start, end), (a, b)))
         at = start
         while at != end:
             at = int(previous[at])
             steps.append(at)
     return np.array(steps, dtype=np.int64)
+
+
+def _on_separate_pieces(graph: Sparse, stops: tuple[int, int], names: tuple[str, str]) -> str:
+    """What to say of two points that no edges join: which, how many vertices are on their pieces, and the remedy."""
+    labels = connected_components(graph, directed=False)[1]
+    sizes = [int(np.count_nonzero(labels == labels[stop])) for stop in stops]
+    return (
+        f"feature points {names[0]} and {names[1]} are on separate pieces of the mesh, of {sizes[0]} and {sizes[1]} "
+        "vertices, not on one lip or lid: merge the vertices where the pieces meet (Mesh > Merge > By Distance), or "
+        "move the points onto one piece"
+    )
 
 
 def find_opening(graph: Sparse, nearest: Mapping[str, int], upper: Sequence[str], lower: Sequence[str]) -> Opening:

@@ -148,8 +148,8 @@ def test_an_opening_runs_along_edges_through_its_points() -> None:
     assert [i for i, keep in enumerate(outside) if not keep] == [5, 6, 9, 10]
 
 
-def test_points_on_separate_pieces_are_named() -> None:
+def test_points_on_separate_pieces_are_named_with_the_remedy() -> None:
     vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 0, 0], [6, 0, 0], [5, 1, 0]])
     graph = mesh.adjacency(vertices, [np.array([0, 1, 2]), np.array([3, 4, 5])], diagonals=False)
-    with pytest.raises(ModelError, match=r"2\.4 and 2\.2 are on separate pieces"):
+    with pytest.raises(ModelError, match=r"2\.4 and 2\.2 .*of 3 and 3 vertices.*Merge > By Distance"):
         find_opening(graph, {"2.4": 0, "2.2": 4}, ("2.4", "2.2"), ("2.2", "2.4"))
