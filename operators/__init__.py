@@ -8,7 +8,10 @@ session                    what is known of the faces of the open file
 requirements               SciPy, which this Blender may lack
 names, translations        lists of names for panels; the interface in other languages
 gizmo_keys                 keymaps of gizmos, put in order
+screen                     status bars, and editors that are drawn anew
+blender_events             what is done after another frame, saving, undo, another file
 blender_types, annotated   Blender's types and properties, as mypy is to see them
+blender_classes            Blender's classes that ours derive from, as mypy is to see them
 
 Features, in the order of the sidebar:
 

@@ -2,16 +2,38 @@
 
 from __future__ import annotations
 
-from typing import Any
+import bpy
 
+from ..errors import SceneError
 from ..face.mesh.parts import Part
 from ..scene import refusals
 from ..scene.bake.target import Target
+from ..scene.blender_types import Items
 from ..scene.companions import Companion
 from ..scene.points.kept import has_points
+from .blender_types import Context, Object
 
 
-def companions_of(obj: Any) -> tuple[Companion, ...]:
+def active_object(context: Context) -> Object:
+    """The active object, for those who have been told by a poll that there is one.
+
+    Raises
+    ------
+    SceneError : there is none.
+    """
+    obj = context.object
+    if obj is None:
+        raise SceneError(*refusals.NO_OBJECT)
+    return obj
+
+
+def all_objects() -> Items[Object]:
+    """All objects of the file."""
+    objects: Items[Object] = bpy.data.objects
+    return objects
+
+
+def companions_of(obj: Object) -> tuple[Companion, ...]:
     """Objects that the user has named as eyes, teeth and tongue of `obj`."""
     named = obj.risorius.face
     found = {
@@ -24,27 +46,27 @@ def companions_of(obj: Any) -> tuple[Companion, ...]:
     return tuple(Companion(other, part) for part, other in found.items() if other is not None)
 
 
-def target_of(obj: Any) -> Target:
+def target_of(obj: Object) -> Target:
     """Where the operators bake."""
     return Target(obj, companions_of(obj), make_single_user=obj.risorius.face.make_single_user)
 
 
-def face_reason(obj: Any | None) -> str | None:
+def face_reason(obj: Object | None) -> str | None:
     """Why the active object cannot be baked on, or None. Feature points that are missing are found by the bake."""
     return refusals.reason(obj, make_single_user=obj is not None and obj.risorius.face.make_single_user)
 
 
-def ready_reason(obj: Any | None) -> str | None:
+def ready_reason(obj: Object | None) -> str | None:
     """Why the active object cannot be shown or moved at once, or None: it needs its feature points, too."""
     return face_reason(obj) or _missing_points_reason(obj)
 
 
-def reading_reason(obj: Any | None) -> str | None:
+def reading_reason(obj: Object | None) -> str | None:
     """Why the active object cannot be read as a face, or None. What is linked or shared may be read, too."""
     return refusals.reason(obj, writing=False) or _missing_points_reason(obj)
 
 
-def _missing_points_reason(obj: Any | None) -> str | None:
+def _missing_points_reason(obj: Object | None) -> str | None:
     """That a face has no feature points yet, or None."""
     if obj is None or has_points(obj):
         return None

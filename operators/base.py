@@ -4,13 +4,29 @@ from __future__ import annotations
 
 import textwrap
 import time
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, ClassVar, TypeVar, final
 
 import bpy
 
 from ..errors import RisoriusError
 from ..progress import Progress, Work, run
+from ..scene.blender_types import Event
+from .blender_types import Context, Timer
 from .requirements import MISSING, has_scipy, need_scipy
+from .screen import show_status
+
+if TYPE_CHECKING:
+    from typing import Generic
+else:
+
+    class Generic:
+        """Nothing at run time: typing's own keeps every class for ever, and bpy with it, which then hangs at exit."""
+
+        def __class_getitem__(cls, result: object) -> type:
+            return cls
+
+
+T = TypeVar("T")
 
 #: Seconds between two looks at the mouse and keyboard while work goes on.
 INTERVAL = 0.01
@@ -24,27 +40,34 @@ class RisoriusOperator:
     """Mix into `bpy.types.Operator`. A child says what it does in `run`, and in `refusal` when it cannot."""
 
     needs_scipy: ClassVar[bool] = True
-    report: Any
+    if TYPE_CHECKING:  # what Blender's operators have
+
+        def report(self, kind: set[str], message: str) -> None:
+            """Tell the user."""
+
+        @classmethod
+        def poll_message_set(cls, message: str) -> None:
+            """Say why the button is grey."""
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Why the button is grey, or None."""
         return None
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Grey, with the reason, where it cannot work."""
         reason = f"{MISSING}: see the panel" if cls.needs_scipy and not has_scipy() else cls.refusal(context)
         if reason is not None:
-            cls.poll_message_set(reason)  # type: ignore[attr-defined]
+            cls.poll_message_set(reason)
         return reason is None
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Do it, and return what to tell the user. May raise RisoriusError; nothing has been changed then."""
         raise NotImplementedError
 
     @final
-    def execute(self, context: Any) -> set[str]:
+    def execute(self, context: Context) -> set[str]:
         """Run, and report what Risorius refuses. Anything else is a fault and propagates."""
         try:
             if self.needs_scipy:
@@ -57,26 +80,26 @@ class RisoriusOperator:
         return {"FINISHED"}
 
 
-class WorkOperator(RisoriusOperator):
+class WorkOperator(RisoriusOperator, Generic[T]):
     """Long work: with a window it runs between events and Esc cancels it; without one it runs straight through."""
 
     title: ClassVar[str] = "Working"
-    _work: Work[Any] | None = None
-    _timer: Any = None
+    _work: Work[T] | None = None
+    _timer: Timer | None = None
 
-    def work(self, context: Any) -> Work[Any]:
+    def work(self, context: Context) -> Work[T]:
         """The work. It changes the scene only after its last step, so closing it early leaves all as it was."""
         raise NotImplementedError
 
-    def finish(self, context: Any, result: Any) -> str:
+    def finish(self, context: Context, result: T) -> str:
         """What to tell the user of the result."""
         raise NotImplementedError
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Run straight through."""
         return self.finish(context, run(self.work(context)))
 
-    def invoke(self, context: Any, event: Any) -> set[str]:
+    def invoke(self, context: Context, event: Event) -> set[str]:
         """Run between events where there is a window to show it."""
         if bpy.app.background or context.window is None:
             return self.execute(context)
@@ -90,15 +113,15 @@ class WorkOperator(RisoriusOperator):
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
-    def start(self, context: Any) -> None:
+    def start(self, context: Context) -> None:
         """Begin the work and its timer, whose ticks `modal` hears. Blender ends with an operator that listens twice."""
         self._work = self.work(context)
         manager = context.window_manager
         self._timer = manager.event_timer_add(INTERVAL, window=context.window)
         manager.progress_begin(0.0, 1.0)
-        _show(context, f"{self.title} ...")
+        show_status(context, f"{self.title} ...")
 
-    def modal(self, context: Any, event: Any) -> set[str]:
+    def modal(self, context: Context, event: Event) -> set[str]:
         """A share of the work at each tick of the timer; Esc cancels."""
         if event.type == "ESC" and event.value == "PRESS":
             self.stop(context)
@@ -116,7 +139,7 @@ class WorkOperator(RisoriusOperator):
             self.stop(context)
             raise
 
-    def _advance(self, context: Any) -> set[str]:
+    def _advance(self, context: Context) -> set[str]:
         """Work for a share of a second."""
         assert self._work is not None
         until = time.monotonic() + SHARE
@@ -130,10 +153,10 @@ class WorkOperator(RisoriusOperator):
                 return {"FINISHED"}
             if time.monotonic() >= until:
                 context.window_manager.progress_update(step.fraction)
-                _show(context, f"{step.text} ({step.fraction:.0%})   Esc: Cancel")
+                show_status(context, f"{step.text} ({step.fraction:.0%})   Esc: Cancel")
                 return {"RUNNING_MODAL"}
 
-    def stop(self, context: Any) -> None:
+    def stop(self, context: Context) -> None:
         """Let go of the work, the timer and the status text."""
         if self._work is not None:
             self._work.close()
@@ -143,14 +166,8 @@ class WorkOperator(RisoriusOperator):
             manager.event_timer_remove(self._timer)
             self._timer = None
         manager.progress_end()
-        _show(context, None)
+        show_status(context, None)
 
-    def cancel(self, context: Any) -> None:
+    def cancel(self, context: Context) -> None:
         """Blender ends the operator itself, as when a file is loaded."""
         self.stop(context)
-
-
-def _show(context: Any, text: str | None) -> None:
-    """Text in the status bar, or Blender's own again."""
-    if context.workspace is not None:
-        context.workspace.status_text_set(text)

@@ -9,12 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import ExitStack
-from typing import Any
+from typing import TypeVar
 
-Listener = Callable[[Any], None]
+from .blender_classes import PropertyGroup
+from .blender_types import Context, Object
+
+T = TypeVar("T")
+Listener = Callable[[Object], None]
+Follower = Callable[[PropertyGroup], None]
 _listeners: list[Listener] = []
 _time_listeners: list[Listener] = []
-_followers: list[Listener] = []
+_followers: list[Follower] = []
 
 
 def listen(listener: Listener, undo: ExitStack) -> None:
@@ -27,18 +32,18 @@ def listen_to_time(listener: Listener, undo: ExitStack) -> None:
     _tell(_time_listeners, listener, undo)
 
 
-def follow(follower: Listener, undo: ExitStack) -> None:
+def follow(follower: Follower, undo: ExitStack) -> None:
     """Call `follower(owner)` with the very group that changed, before all listeners, until undone."""
     _tell(_followers, follower, undo)
 
 
-def _tell(told: list[Listener], listener: Listener, undo: ExitStack) -> None:
+def _tell(told: list[T], listener: T, undo: ExitStack) -> None:
     """Put a listener on a list, and take it off when undone."""
     told.append(listener)
     undo.callback(told.remove, listener)
 
 
-def changed(owner: Any, context: Any) -> None:
+def changed(owner: PropertyGroup, context: Context | None = None) -> None:
     """Tell the listeners; the update function of every property that a face's look depends on."""
     for follower in tuple(_followers):
         follower(owner)
@@ -46,7 +51,7 @@ def changed(owner: Any, context: Any) -> None:
         listener(owner.id_data)
 
 
-def retimed(owner: Any, context: Any) -> None:
+def retimed(owner: PropertyGroup, context: Context | None = None) -> None:
     """Tell the listeners; the update function of every property that says when a face shows something."""
     for listener in tuple(_time_listeners):
         listener(owner.id_data)

@@ -9,6 +9,7 @@ from bpy.props import PointerProperty
 
 from .annotated import Annotated
 from .bake.props import RISORIUS_PG_bake
+from .blender_classes import PropertyGroup
 from .emotion.props import RISORIUS_PG_emotion
 from .face.props import RISORIUS_PG_face
 from .film.props import RISORIUS_PG_film
@@ -24,7 +25,7 @@ from .tissue.props import RISORIUS_PG_tissue
 from .wheel.props import RISORIUS_PG_wheel
 
 
-class RISORIUS_PG_object(bpy.types.PropertyGroup):
+class RISORIUS_PG_object(PropertyGroup):
     """All that is chosen for one face; saved with its object."""
 
     face: Annotated[RISORIUS_PG_face, PointerProperty(type=RISORIUS_PG_face)]
@@ -35,7 +36,7 @@ class RISORIUS_PG_object(bpy.types.PropertyGroup):
     bake: Annotated[RISORIUS_PG_bake, PointerProperty(type=RISORIUS_PG_bake)]
 
 
-class RISORIUS_PG_scene(bpy.types.PropertyGroup):
+class RISORIUS_PG_scene(PropertyGroup):
     """All that is chosen for a scene."""
 
     film: Annotated[RISORIUS_PG_film, PointerProperty(type=RISORIUS_PG_film)]
@@ -43,7 +44,7 @@ class RISORIUS_PG_scene(bpy.types.PropertyGroup):
     read: Annotated[RISORIUS_PG_read, PointerProperty(type=RISORIUS_PG_read)]
 
 
-class RISORIUS_PG_window(bpy.types.PropertyGroup):
+class RISORIUS_PG_window(PropertyGroup):
     """How things are shown; not saved with the file."""
 
     points: Annotated[RISORIUS_PG_points, PointerProperty(type=RISORIUS_PG_points)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from .blender_types import Context, UILayout
 
 #: Letters that fit on a line of the sidebar at its usual width.
 LINE = 38
@@ -14,4 +14,13 @@ class Sidebar:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Risorius"
-    layout: Any
+    layout: UILayout
+
+
+class MeshSidebar(Sidebar):
+    """Mix into panels that are there only while a mesh is active."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """Only for meshes."""
+        return context.object is not None and context.object.type == "MESH"

@@ -12,6 +12,8 @@ from .mesh import rest_vertices
 #: An object that was found to share its mesh with the active one; believed only as long as it does.
 _last_sharer = ""
 
+#: What is refused, and the remedy, where no object is active.
+NO_OBJECT = "No active object", "select the mesh of a face, or add the default head"
 #: Modes in which Blender holds a copy of the mesh that would overwrite ours.
 BUSY_MODES = {"EDIT": "Edit Mode", "SCULPT": "Sculpt Mode"}
 
@@ -24,7 +26,7 @@ def refuse_unreadable(obj: Object | None) -> None:
     SceneError : no object, not a mesh, no polygons, or the object is being edited.
     """
     if obj is None:
-        raise SceneError("No active object", "select the mesh of a face, or add the default head")
+        raise SceneError(*NO_OBJECT)
     if obj.type != "MESH":
         raise SceneError(obj.name, f"is a {obj.type.lower()}, not a mesh: select the mesh of a face")
     if obj.mode in BUSY_MODES or obj.data.is_editmode:

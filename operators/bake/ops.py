@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 from bpy.props import StringProperty
 
@@ -14,9 +12,11 @@ from ...scene.bake.notes import BakeKind, Note
 from ...scene.bake.strips import ClipShape, bake_strips
 from ...scene.points.found import Finding
 from ...scene.points.kept import has_points, read_kept
-from ..active import face_reason, target_of
+from ..active import active_object, face_reason, target_of
 from ..annotated import Annotated
 from ..base import RisoriusOperator, WorkOperator
+from ..blender_classes import Operator
+from ..blender_types import Context, Object, Scene
 from ..emotion.performance import performance_of
 from ..emotion.profile import wanted_of
 from ..points.first import with_points
@@ -35,7 +35,7 @@ from .settings import (
 )
 
 
-def silent_reason(obj: Any) -> str | None:
+def silent_reason(obj: Object) -> str | None:
     """Why there is no motion to bake, or None."""
     timeline = obj.risorius.timeline
     if timeline.clips and all(clip.mute and not clip.solo for clip in timeline.clips):
@@ -43,7 +43,7 @@ def silent_reason(obj: Any) -> str | None:
     return None
 
 
-def expression_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
+def expression_work(obj: Object, scene: Scene) -> Work[bake.BakeResult]:
     """Pose the face as the Emotion panel says and write its shape."""
     wanted = wanted_of(obj)
     return bake.bake_expression(
@@ -59,7 +59,7 @@ def expression_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
     )
 
 
-def motion_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
+def motion_work(obj: Object, scene: Scene) -> Work[bake.BakeResult]:
     """Simulate what is laid out on the face and write its motion, with a marker where each expression begins."""
     performance = performance_of(obj, scene)
     markers = [(title, performance.span(number)[0]) for number, title in enumerate(performance.titles)]
@@ -75,7 +75,7 @@ def motion_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
     )
 
 
-def strips_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
+def strips_work(obj: Object, scene: Scene) -> Work[bake.BakeResult]:
     """Pose the face for each clip and write shapes, actions and strips."""
     performance = performance_of(obj, scene)
     shapes = [
@@ -92,31 +92,31 @@ def strips_work(obj: Any, scene: Any) -> Work[bake.BakeResult]:
     return bake_strips(target_of(obj), shapes, drive=obj.risorius.emotion.drive, creases=creases_wanted(obj))
 
 
-class BakeOperator(WorkOperator):
+class BakeOperator(WorkOperator[bake.BakeResult | Finding]):
     """What all bakes share: the face is found first where its points are not known yet."""
 
     _is_new = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only on a face that can be written to."""
         return face_reason(context.object)
 
-    def work(self, context: Any) -> Work[bake.BakeResult | Finding]:
+    def work(self, context: Context) -> Work[bake.BakeResult | Finding]:
         """Find the face if need be, then bake."""
-        self._is_new = not has_points(context.object)
-        return with_points(context.object, lambda: self.baking(context), scene=context.scene)
+        self._is_new = not has_points(active_object(context))
+        return with_points(active_object(context), lambda: self.baking(context), scene=context.scene)
 
-    def baking(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Context) -> Work[bake.BakeResult]:
         """The bake itself."""
         raise NotImplementedError
 
-    def show_apex(self, context: Any) -> None:
+    def show_apex(self, context: Context) -> None:
         """Go to where the first expression is full: at its first frame a bake looks like nothing happened."""
         if not bpy.app.background:
-            context.scene.frame_set(int(performance_of(context.object, context.scene).apex()) + 1)
+            context.scene.frame_set(int(performance_of(active_object(context), context.scene).apex()) + 1)
 
-    def finish(self, context: Any, result: bake.BakeResult | Finding) -> str:
+    def finish(self, context: Context, result: bake.BakeResult | Finding) -> str:
         """Name what was written, and remark on what the user should know."""
         if isinstance(result, Finding):
             return show_finding(self, context, result)
@@ -124,14 +124,14 @@ class BakeOperator(WorkOperator):
             self.report({"WARNING"}, remark)
         self.show_apex(context)
         if self._is_new:
-            turn_to_face(context, read_kept(context.object))
+            turn_to_face(context, read_kept(active_object(context)))
         first, last = result.frame_range
         keys = f"{len(result.keys)} shape keys" if len(result.keys) > 1 else f"shape key {result.keys[0]}"
         within = f", within {result.error * 1000.0:.2f} mm" if result.error > 0.0 else ""
         return f"Baked {result.clip}: {keys}{within}, frames {first:g} to {last:g}, action {result.action}"
 
 
-class RISORIUS_OT_bake_expression(BakeOperator, bpy.types.Operator):
+class RISORIUS_OT_bake_expression(BakeOperator, Operator):
     """Bake the emotion at its apex as one shape key, with keyframes for onset, apex and offset. Easy to edit by hand"""
 
     bl_idname = "risorius.bake_expression"
@@ -139,18 +139,18 @@ class RISORIUS_OT_bake_expression(BakeOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     title = "Baking the expression"
 
-    def show_apex(self, context: Any) -> None:
+    def show_apex(self, context: Context) -> None:
         """Go to where the expression is full."""
         if not bpy.app.background:
-            timing = timing_of(context.object, context.scene)
+            timing = timing_of(active_object(context), context.scene)
             context.scene.frame_set(int(timing.start + timing.onset * timing.fps) + 1)
 
-    def baking(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Context) -> Work[bake.BakeResult]:
         """Pose the face and write its shape."""
-        return expression_work(context.object, context.scene)
+        return expression_work(active_object(context), context.scene)
 
 
-class RISORIUS_OT_bake_motion(BakeOperator, bpy.types.Operator):
+class RISORIUS_OT_bake_motion(BakeOperator, Operator):
     """Simulate the motion of muscles, skin and jaw through all clips, or the current emotion, and bake it frame by \
 frame"""
 
@@ -160,16 +160,16 @@ frame"""
     title = "Baking the motion"
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only on a face that can be written to, and where something moves."""
-        return face_reason(context.object) or silent_reason(context.object)
+        return face_reason(active_object(context)) or silent_reason(active_object(context))
 
-    def baking(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Context) -> Work[bake.BakeResult]:
         """Simulate the face and write its motion."""
-        return motion_work(context.object, context.scene)
+        return motion_work(active_object(context), context.scene)
 
 
-class RISORIUS_OT_bake_strips(BakeOperator, bpy.types.Operator):
+class RISORIUS_OT_bake_strips(BakeOperator, Operator):
     """Bake each clip as a shape key with its own strip in the NLA editor, to move and edit by hand"""
 
     bl_idname = "risorius.bake_strips"
@@ -178,19 +178,19 @@ class RISORIUS_OT_bake_strips(BakeOperator, bpy.types.Operator):
     title = "Baking the strips"
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only on a face that can be written to, and with clips."""
         reason = face_reason(context.object)
-        if reason is None and not context.object.risorius.timeline.clips:
+        if reason is None and not active_object(context).risorius.timeline.clips:
             return "The timeline has no clips yet: add one with +"
-        return reason or silent_reason(context.object)
+        return reason or silent_reason(active_object(context))
 
-    def baking(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Context) -> Work[bake.BakeResult]:
         """Pose the face for each clip and write strips."""
-        return strips_work(context.object, context.scene)
+        return strips_work(active_object(context), context.scene)
 
 
-class RISORIUS_OT_bake_again(BakeOperator, bpy.types.Operator):
+class RISORIUS_OT_bake_again(BakeOperator, Operator):
     """Bake again everything whose settings have changed since its last bake"""
 
     bl_idname = "risorius.bake_again"
@@ -199,16 +199,16 @@ class RISORIUS_OT_bake_again(BakeOperator, bpy.types.Operator):
     title = "Baking again"
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where something is out of date."""
-        reason = face_reason(context.object) or silent_reason(context.object)
-        if reason is None and not stale_clips(context.object, context.scene):
+        reason = face_reason(active_object(context)) or silent_reason(active_object(context))
+        if reason is None and not stale_clips(active_object(context), context.scene):
             return "Everything baked is up to date"
         return reason
 
-    def baking(self, context: Any) -> Work[bake.BakeResult]:
+    def baking(self, context: Context) -> Work[bake.BakeResult]:
         """Bake each kind that is out of date, as it was baked before."""
-        obj, scene = context.object, context.scene
+        obj, scene = active_object(context), context.scene
         kinds = set(stale_clips(obj, scene).values())
         result: bake.BakeResult | None = None
         for kind, work in (
@@ -222,7 +222,7 @@ class RISORIUS_OT_bake_again(BakeOperator, bpy.types.Operator):
         return result
 
 
-class RISORIUS_OT_clear(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_clear(RisoriusOperator, Operator):
     """Remove the shape keys and actions that Risorius has baked on this face. Your own keys stay"""
 
     bl_idname = "risorius.clear"
@@ -236,14 +236,14 @@ class RISORIUS_OT_clear(RisoriusOperator, bpy.types.Operator):
     ]
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where there is something to clear."""
         if not shape_keys.has_own(context.object):
             return "Nothing has been baked on this face yet"
         return None
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Remove it."""
-        removed = bake.clear(target_of(context.object), clips=[self.clip] if self.clip else None)
+        removed = bake.clear(target_of(active_object(context)), clips=[self.clip] if self.clip else None)
         what = self.clip or "everything baked"
-        return f"Cleared {what} on {context.object.name}: {len(removed)} shape key{'s' * (len(removed) != 1)}"
+        return f"Cleared {what} on {active_object(context).name}: {len(removed)} shape key{'s' * (len(removed) != 1)}"

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
-
 from ...scene.bake import shape_keys
 from ...scene.points.kept import has_points
-from ..active import face_reason
-from ..sidebar import Sidebar
+from ..active import active_object, face_reason
+from ..blender_classes import Panel
+from ..blender_types import Context, UILayout
+from ..sidebar import MeshSidebar
 from .ops import (
     RISORIUS_OT_bake_again,
     RISORIUS_OT_bake_expression,
@@ -20,22 +18,17 @@ from .ops import (
 from .settings import clip_name, stale_clips
 
 
-class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_bake(MeshSidebar, Panel):
     """Timing, the two bakes, and what has been baked."""
 
     bl_label = "Bake"
     bl_parent_id = "RISORIUS_PT_main"
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """When and with what, then the buttons, then what is there."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
-        obj, chosen = context.object, context.object.risorius.bake
+        obj, chosen = active_object(context), active_object(context).risorius.bake
         clips = len(obj.risorius.timeline.clips)
         layout.row().prop(chosen, "clip", placeholder=clip_name(obj, motion=bool(clips)))
         if not clips:
@@ -58,12 +51,12 @@ class RISORIUS_PT_bake(Sidebar, bpy.types.Panel):
             column.operator(RISORIUS_OT_bake_motion.bl_idname, icon="PHYSICS")
         self._draw_baked(layout, context)
 
-    def _draw_baked(self, layout: Any, context: Any) -> None:
+    def _draw_baked(self, layout: UILayout, context: Context) -> None:
         """The clips of this face, those out of date marked, each with a button that removes it."""
-        clips = shape_keys.read_own(context.object.data).clips
+        clips = shape_keys.read_own(active_object(context).data).clips
         if not clips:
             return
-        stale = stale_clips(context.object, context.scene)
+        stale = stale_clips(active_object(context), context.scene)
         box = layout.box().column(align=True)
         for clip, keys in clips.items():
             row = box.row(align=True)

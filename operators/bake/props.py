@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 
 from ...mpeg4.timing import load_timings
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
 
 _TIMING = load_timings()["natural"]
 
 
-def seconds(name: str, description: str, default: float, **options: Any) -> Any:
+def seconds(name: str, description: str, default: float, **options: object) -> object:
     """A duration."""
     return FloatProperty(
         name=name, description=description, default=default, min=0.0, soft_max=10.0, step=5, precision=2, **options
     )
 
 
-class RISORIUS_PG_bake(bpy.types.PropertyGroup):
+class RISORIUS_PG_bake(PropertyGroup):
     """Name and timing of the next bake."""
 
     clip: Annotated[

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from hashlib import blake2b
-from typing import Any
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from ...scene.bake.action import Curve
 from ...scene.bake.motion import CueMotion
 from ...scene.bake.notes import BakeKind, read_notes
 from ...scene.bake.timing import ClipTiming, scene_fps
+from ..blender_types import Object, Scene
 from ..emotion.performance import Performance, performance_of
 from ..emotion.profile import Wanted, title_of, wanted_of
 from ..tissue.props import tissue_of
@@ -22,7 +22,7 @@ MOTION_SUFFIX = " motion"
 TIMELINE = "timeline"
 
 
-def clip_name(obj: Any, *, motion: bool = False) -> str:
+def clip_name(obj: Object, *, motion: bool = False) -> str:
     """The name the user gave, or the emotion's; a motion through several expressions is the timeline's."""
     title = title_of(obj.risorius.emotion)
     if motion and obj.risorius.timeline.clips:
@@ -31,7 +31,7 @@ def clip_name(obj: Any, *, motion: bool = False) -> str:
     return chosen + MOTION_SUFFIX if motion else chosen
 
 
-def timing_of(obj: Any, scene: Any) -> ClipTiming:
+def timing_of(obj: Object, scene: Scene) -> ClipTiming:
     """The timing chosen for a single expression."""
     chosen = obj.risorius.bake
     return ClipTiming(
@@ -43,24 +43,24 @@ def timing_of(obj: Any, scene: Any) -> ClipTiming:
     )
 
 
-def creases_wanted(obj: Any) -> bool | None:
+def creases_wanted(obj: Object) -> bool | None:
     """What the user has said about creases; None where nothing, and the material decides."""
     chosen = obj.risorius.bake
     return bool(chosen.creases) if chosen.is_property_set("creases") else None
 
 
-def motion_of(obj: Any, performance: Performance) -> CueMotion:
+def motion_of(obj: Object, performance: Performance) -> CueMotion:
     """What a motion bake of a performance simulates."""
     hands = [wanted.contractions for wanted in performance.wanted]
     return CueMotion(performance.cues, hands, tissue_of(obj), performance.liveliness)
 
 
-def expression_settings(obj: Any, scene: Any) -> str:
+def expression_settings(obj: Object, scene: Scene) -> str:
     """Digest of what an expression bake is made of."""
     return _digest(_look(wanted_of(obj)), timing_of(obj, scene), creases_wanted(obj))
 
 
-def motion_settings(obj: Any, performance: Performance) -> str:
+def motion_settings(obj: Object, performance: Performance) -> str:
     """Digest of what a motion bake is made of."""
     motion = motion_of(obj, performance)
     return _digest(
@@ -82,14 +82,14 @@ def strip_curve(performance: Performance, number: int) -> Curve:
     return Curve(frames, performance.shares_at(frames)[:, number], linear=True)
 
 
-def strip_settings(obj: Any, performance: Performance, number: int) -> str:
+def strip_settings(obj: Object, performance: Performance, number: int) -> str:
     """Digest of what one strip is made of: its expression, and the curve that overlaps leave it."""
     curve = strip_curve(performance, number)
     times = curve.frames.tobytes(), curve.values.tobytes(), curve.linear
     return _digest(_look(performance.wanted[number]), times, creases_wanted(obj))
 
 
-def stale_clips(obj: Any, scene: Any) -> Mapping[str, BakeKind]:
+def stale_clips(obj: Object, scene: Scene) -> Mapping[str, BakeKind]:
     """The baked clips that a bake now would make otherwise, and how they were baked."""
     notes = read_notes(shape_keys.own_face(obj.data))
     if not notes:
@@ -111,12 +111,12 @@ def stale_clips(obj: Any, scene: Any) -> Mapping[str, BakeKind]:
     return stale
 
 
-def _look(wanted: Wanted) -> tuple[Any, ...]:
+def _look(wanted: Wanted) -> tuple[object, ...]:
     """All of a wanted expression that a pose depends on."""
     shares = sorted((str(name), share) for name, share in wanted.profile.weights.items())
     return wanted.faps.tobytes(), wanted.drive, shares, sorted(wanted.contractions.items())
 
 
-def _digest(*parts: Any) -> str:
+def _digest(*parts: object) -> str:
     """A short digest of anything whose repr says all of it."""
     return blake2b(repr(parts).encode(), digest_size=12).hexdigest()

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import textwrap
-from typing import Any
 
-import bpy
-
+from ..active import active_object
+from ..blender_classes import Panel
+from ..blender_types import Context
 from ..preview import live
-from ..sidebar import LINE, Sidebar
+from ..sidebar import LINE, MeshSidebar
 from ..timeline.linked import linked_clip
 from ..timeline.titles import clip_title
 from ..wheel.panel import RISORIUS_PT_wheel
@@ -18,24 +18,19 @@ from .ops import RISORIUS_OT_reset_activation
 from .props import own_activation
 
 
-class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_emotion(MeshSidebar, Panel):
     """Word, activation, variant, seed."""
 
     bl_label = "Emotion"
     bl_parent_id = "RISORIUS_PT_main"
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """The choice, most important first."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
-        emotion, preview = context.object.risorius.emotion, context.window_manager.risorius.preview
+        emotion, preview = active_object(context).risorius.emotion, context.window_manager.risorius.preview
         layout.prop(preview, "show", icon="HIDE_OFF" if preview.show else "HIDE_ON", toggle=True)
-        why = live.why_not(context.object)
+        why = live.why_not(active_object(context))
         if why:
             box = layout.box().column(align=True)
             for line in textwrap.wrap(why, LINE):
@@ -44,7 +39,7 @@ class RISORIUS_PT_emotion(Sidebar, bpy.types.Panel):
         row = layout.row(align=True)
         row.prop(wheel, "show", icon="HIDE_OFF" if wheel.show else "HIDE_ON", toggle=True)
         row.popover(RISORIUS_PT_wheel.__name__, text="", icon="PREFERENCES")
-        clip = linked_clip(context.object)
+        clip = linked_clip(active_object(context))
         if clip is not None:
             layout.label(text=f"Edits the clip {clip_title(clip)}", icon="LINKED")
         layout.row().prop(emotion, "by", expand=True)

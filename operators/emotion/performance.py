@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
 from ...arrays import Floats
 from ...mpeg4 import Cue, Drawn, Liveliness, Ramp, drawn_within
 from ...scene.bake.timing import scene_fps
-from ..timeline.props import playing_clips
+from ..blender_types import Object, Scene
+from ..timeline.bars import Timed
+from ..timeline.props import RISORIUS_PG_variation, playing_clips
 from ..timeline.titles import clip_title
 from .profile import Wanted, title_of, wanted_of
+from .props import RISORIUS_PG_emotion
 
 #: Between the seeds of one clip and the next, so that clips of one emotion differ.
 _NEXT_SEED = 7919
@@ -57,26 +59,48 @@ class Performance:
         return self.span(number)[0] + self.cues[number].onset * self.fps
 
 
-def performance_of(obj: Any, scene: Any) -> Performance:
+@dataclass(frozen=True, eq=False)
+class _Choice:
+    """An emotion with its times, and how much of it shows at its apex and how it comes and goes."""
+
+    emotion: RISORIUS_PG_emotion
+    times: Timed
+    peak: float = Cue.peak
+    ramp: Ramp = Cue.ramp
+
+    def cue(self, wanted: Wanted, first: int, fps: float) -> Cue:
+        """When it shows, in seconds from the first frame of all; it takes a frame at least to go."""
+        # Blender keeps single precision: 1.2 s would come out a little longer, and the motion a frame.
+        onset, apex, offset = (round(seconds, 6) for seconds in (self.times.onset, self.times.apex, self.times.offset))
+        return Cue(
+            wanted.profile,
+            start=(self.times.start - first) / fps,
+            onset=onset,
+            apex=apex,
+            offset=max(offset, 1.0 / fps),
+            peak=self.peak,
+            seed=self.emotion.seed or None,
+            ramp=self.ramp,
+        )
+
+
+def performance_of(obj: Object, scene: Scene) -> Performance:
     """What is laid out for `obj`: the clips of its timeline, or without any the chosen emotion with its timing."""
     timeline, fps = obj.risorius.timeline, scene_fps(scene)
     if timeline.clips:
         clips = playing_clips(timeline)
-        choices = [(clip.emotion, clip, {"peak": clip.peak, "ramp": Ramp(clip.ramp)}) for clip in clips]
+        choices = [_Choice(clip.emotion, clip, clip.peak, Ramp(clip.ramp)) for clip in clips]
         titles = [clip_title(clip) for clip in clips]
     else:
-        choices = [(obj.risorius.emotion, obj.risorius.bake, {})]
+        choices = [_Choice(obj.risorius.emotion, obj.risorius.bake)]
         titles = [title_of(obj.risorius.emotion)]
-    first = min((timing.start for _, timing, _ in choices), default=0)
-    wanted = tuple(_drawn(obj, emotion, number) for number, (emotion, _, _) in enumerate(choices))
-    cues = tuple(
-        _cue(timing, shown, emotion, fps, start=(timing.start - first) / fps, **options)
-        for shown, (emotion, timing, options) in zip(wanted, choices, strict=True)
-    )
+    first = min((choice.times.start for choice in choices), default=0)
+    wanted = tuple(_drawn(obj, choice.emotion, number) for number, choice in enumerate(choices))
+    cues = tuple(choice.cue(shown, first, fps) for choice, shown in zip(choices, wanted, strict=True))
     return Performance(float(first), fps, cues, wanted, _told_apart(titles), liveliness_of(timeline.variation))
 
 
-def liveliness_of(variation: Any) -> Liveliness:
+def liveliness_of(variation: RISORIUS_PG_variation) -> Liveliness:
     """What the face does besides its expressions."""
     return Liveliness(
         blinks=Drawn(variation.blinks, variation.blinks_seed),
@@ -85,21 +109,13 @@ def liveliness_of(variation: Any) -> Liveliness:
     )
 
 
-def _drawn(obj: Any, emotion: Any, number: int) -> Wanted:
+def _drawn(obj: Object, emotion: RISORIUS_PG_emotion, number: int) -> Wanted:
     """What an emotion shows, drawn within its ranges where that is asked for and it has no seed of its own."""
     wanted, variation = wanted_of(obj, emotion), obj.risorius.timeline.variation
     if variation.draws == 0.0 or emotion.seed:
         return wanted
     profile = drawn_within(wanted.profile, Drawn(variation.draws, variation.draws_seed + _NEXT_SEED * number))
     return replace(wanted, profile=profile, faps=profile.frame())
-
-
-def _cue(timing: Any, wanted: Wanted, emotion: Any, fps: float, **options: Any) -> Cue:
-    """An emotion with its times; it takes a frame at least to go."""
-    # Blender keeps single precision: 1.2 s would come out a little longer, and the motion a frame.
-    onset, apex, offset = (round(getattr(timing, name), 6) for name in ("onset", "apex", "offset"))
-    seed = emotion.seed or None
-    return Cue(wanted.profile, onset=onset, apex=apex, offset=max(offset, 1.0 / fps), seed=seed, **options)
 
 
 def _told_apart(titles: list[str]) -> tuple[str, ...]:

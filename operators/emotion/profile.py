@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...arrays import Floats
+from ..blender_types import Object
 from ..muscles.props import by_hand_of
-from .props import DEFAULT_VARIANT
+from .props import DEFAULT_VARIANT, RISORIUS_PG_emotion
 
 if TYPE_CHECKING:
     from ...api import Profile
@@ -33,7 +34,7 @@ class Wanted:
     contractions: Mapping[str, float] = field(default_factory=dict)
 
 
-def wanted_of(obj: Any, emotion: Any | None = None) -> Wanted:
+def wanted_of(obj: Object, emotion: RISORIUS_PG_emotion | None = None) -> Wanted:
     """What is chosen for `obj` now, or an emotion (of a clip) shown as all that is chosen for `obj` besides it."""
     chosen = obj.risorius.emotion
     shown = chosen if emotion is None else emotion
@@ -41,7 +42,7 @@ def wanted_of(obj: Any, emotion: Any | None = None) -> Wanted:
     return Wanted(profile, frame_of(profile, shown.seed), chosen.drive, by_hand_of(obj))
 
 
-def profile_of(emotion: Any) -> Profile:
+def profile_of(emotion: RISORIUS_PG_emotion) -> Profile:
     """The profile of the chosen word, or point of the wheel, at the chosen activation."""
     from ... import api
 
@@ -56,7 +57,7 @@ def frame_of(profile: Profile, seed: int) -> Floats:
     return profile.frame() if seed == 0 else profile.frame(np.random.default_rng(seed))
 
 
-def title_of(emotion: Any) -> str:
+def title_of(emotion: RISORIUS_PG_emotion) -> str:
     """The word, or the point of the wheel in words."""
     if emotion.by == "WHEEL":
         return f"{math.degrees(emotion.angle) % 360.0:.0f}° at {emotion.activation:.1f}"

@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import math
 import zlib
-from typing import Any
 
-import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty
 
 from ...mpeg4.emotions.archetypes import BASE_WORDS, VARIANTS
 from ...mpeg4.emotions.emotion_presets import WORDS
 from ...mpeg4.emotions.profile import ARCHETYPES
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
+from ..blender_types import Context
 from ..changes import changed
 
 #: Blender wants a dynamic enum's strings to be held somewhere.
@@ -63,7 +63,7 @@ def _described(word: str) -> str:
     return f"{where[0].upper()}{where[1:]}; its own activation is {entry.activation:g} of 7"
 
 
-def word_items(owner: Any, context: Any) -> list[tuple[str, str, str, str, int]]:
+def word_items(owner: RISORIUS_PG_emotion, context: Context) -> list[tuple[str, str, str, str, int]]:
     """The words: the six archetypes first, then the others by alphabet."""
     if not _word_items:
         archetypes = [str(a) for a in ARCHETYPES if str(a) in WORDS]
@@ -73,7 +73,7 @@ def word_items(owner: Any, context: Any) -> list[tuple[str, str, str, str, int]]
     return _word_items
 
 
-def variant_items(owner: Any, context: Any) -> list[tuple[str, str, str, int]]:
+def variant_items(owner: RISORIUS_PG_emotion, context: Context) -> list[tuple[str, str, str, int]]:
     """The variants of the word's category in the paper's table of profiles; only the default between categories."""
     entry = WORDS.get(owner.word)
     category = entry.category if entry is not None else None
@@ -86,7 +86,7 @@ def variant_items(owner: Any, context: Any) -> list[tuple[str, str, str, int]]:
     return _variant_items[key]
 
 
-def _word_chosen(owner: Any, context: Any) -> None:
+def _word_chosen(owner: RISORIUS_PG_emotion, context: Context) -> None:
     """A new word starts with its own place on the wheel and its default variant."""
     owner.by = "WORD"
     owner.angle = own_angle(owner.word)
@@ -94,7 +94,7 @@ def _word_chosen(owner: Any, context: Any) -> None:
     owner.variant = DEFAULT_VARIANT
 
 
-def _turned(owner: Any, context: Any) -> None:
+def _turned(owner: RISORIUS_PG_emotion, context: Context) -> None:
     """The wheel has no end: past 360° it goes on from 0."""
     if 0.0 <= owner.angle < WHOLE:
         changed(owner, context)
@@ -102,7 +102,7 @@ def _turned(owner: Any, context: Any) -> None:
         owner.angle %= WHOLE  # comes here again
 
 
-class RISORIUS_PG_emotion(bpy.types.PropertyGroup):
+class RISORIUS_PG_emotion(PropertyGroup):
     """Word or point of the wheel, variant, activation and seed."""
 
     by: Annotated[

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import cast
 
 import bpy
+import numpy as np
 from bpy.props import StringProperty
-from bpy_extras.io_utils import ImportHelper
 
 from ...face.mesh.point_files import read_point_file
 from ...scene import refusals
 from ...scene.points.kept import forget_points, has_points
 from ...scene.points.stored import store_points
+from ..active import active_object
 from ..annotated import Annotated
 from ..base import RisoriusOperator
+from ..blender_classes import ImportHelper, Operator
+from ..blender_types import Context, Object
 from ..preview import live
 
 
-class RISORIUS_OT_add_head(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_add_head(RisoriusOperator, Operator):
     """Add a human head that is ready for expressions: skin, eyes, teeth, tongue and brows in one mesh"""
 
     bl_idname = "risorius.add_head"
@@ -25,15 +28,16 @@ class RISORIUS_OT_add_head(RisoriusOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only in Object Mode."""
         return None if context.mode == "OBJECT" else "Go to Object Mode (Tab) first"
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Add it."""
         from ...scene.head import add_default_head, free_place
 
-        obj: Any = add_default_head(context, location=free_place(context, context.scene.cursor.location))
+        place = free_place(context, np.array(context.scene.cursor.location))
+        obj = cast(Object, add_default_head(context, location=place))  # every object has what the user chooses
         obj.risorius.bake.creases = True
         if context.area is not None and context.area.type == "VIEW_3D":
             region = next(region for region in context.area.regions if region.type == "WINDOW")
@@ -44,7 +48,7 @@ class RISORIUS_OT_add_head(RisoriusOperator, bpy.types.Operator):
         return f"Added {obj.name}: choose an emotion, and press Space to play it"
 
 
-class RISORIUS_OT_import_points(RisoriusOperator, bpy.types.Operator, ImportHelper):
+class RISORIUS_OT_import_points(RisoriusOperator, Operator, ImportHelper):
     """Import the feature points of this mesh from a JSON file such as {"8.4": 6207, ...}: MPEG-4 name and vertex \
 index"""
 
@@ -57,18 +61,19 @@ index"""
     filter_glob: Annotated[str, StringProperty(default="*.json", options={"HIDDEN"})]
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only for meshes that can be read."""
         return refusals.reason(context.object, writing=False)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Read, check against the standard and the mesh, store."""
         points = read_point_file(self.filepath)
-        store_points(context.object, points)
-        return f"{context.object.name} has {len(points)} feature points"
+        obj = active_object(context)
+        store_points(obj, points)
+        return f"{obj.name} has {len(points)} feature points"
 
 
-class RISORIUS_OT_forget_points(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_forget_points(RisoriusOperator, Operator):
     """Remove the feature points of this mesh. Baked animation stays"""
 
     bl_idname = "risorius.forget_points"
@@ -77,12 +82,12 @@ class RISORIUS_OT_forget_points(RisoriusOperator, bpy.types.Operator):
     needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where there are points."""
         obj = context.object
         return None if obj is not None and has_points(obj) else "This mesh has no feature points"
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Forget them."""
-        forget_points(context.object)
-        return f"{context.object.name} has no feature points now"
+        forget_points(active_object(context))
+        return f"{active_object(context).name} has no feature points now"

@@ -2,30 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
-
 from ...scene import refusals
 from ...scene.points.joined import may_be_joined
 from ...scene.points.kept import has_points
+from ..active import active_object
+from ..blender_classes import Panel
+from ..blender_types import Context, Object, UILayout
 from ..points.click import RISORIUS_OT_click_points
 from ..points.joined import RISORIUS_OT_take_over_points
 from ..points.ops import RISORIUS_OT_find_points
 from ..points.panel import kept_of
 from ..points.question import draw_question
 from ..requirements import MISSING, REMEDY, has_scipy
-from ..sidebar import Sidebar
+from ..sidebar import MeshSidebar, Sidebar
 from .ops import RISORIUS_OT_add_head, RISORIUS_OT_import_points
 from .six import RISORIUS_OT_bake_six
 
 
-class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_main(Sidebar, Panel):
     """The tab: which face the panels below are about."""
 
     bl_label = "Risorius"
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """The active object, and what is missing."""
         layout = self.layout
         if not has_scipy():
@@ -45,7 +44,7 @@ class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
             self._draw_unknown(layout, obj)
         layout.operator(RISORIUS_OT_add_head.bl_idname, icon="USER")
 
-    def _draw_known(self, layout: Any, obj: Any) -> None:
+    def _draw_known(self, layout: UILayout, obj: Object) -> None:
         """A face with its points, or the question whether it is one."""
         kept = kept_of(obj)
         if kept is not None and kept.is_questioned:
@@ -56,7 +55,7 @@ class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
         layout.label(text=obj.name, icon="CHECKMARK")
         _large(layout).operator(RISORIUS_OT_bake_six.bl_idname, icon="PLAY")
 
-    def _draw_unknown(self, layout: Any, obj: Any) -> None:
+    def _draw_unknown(self, layout: UILayout, obj: Object) -> None:
         """A mesh whose points are not known: the first step, all in one, and what helps where that fails."""
         column = layout.column(align=True)
         column.label(text=obj.name, icon="MESH_DATA")
@@ -73,30 +72,25 @@ class RISORIUS_PT_main(Sidebar, bpy.types.Panel):
         column.operator(RISORIUS_OT_import_points.bl_idname, icon="IMPORT")
 
 
-def _large(layout: Any) -> Any:
+def _large(layout: UILayout) -> UILayout:
     """Room for what comes first."""
     column = layout.column(align=True)
     column.scale_y = 1.3
     return column
 
 
-class RISORIUS_PT_face(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_face(MeshSidebar, Panel):
     """Parts of the active face that are objects of their own."""
 
     bl_label = "Face"
     bl_parent_id = "RISORIUS_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Which objects they are."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
-        obj, face = context.object, context.object.risorius.face
+        obj, face = active_object(context), active_object(context).risorius.face
         column = layout.column(align=True)
         column.label(text="Parts in separate objects")
         for name in ("eyeball_l", "eyeball_r", "teeth_upper", "teeth_lower", "tongue"):

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 from bpy.props import BoolProperty, PointerProperty
 
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
 from ..blender_types import Object
 
 
-def _is_mesh(owner: Any, obj: Any) -> bool:
+def _is_mesh(owner: PropertyGroup, obj: Object) -> bool:
     """Only other meshes can be parts of a face."""
     return bool(obj.type == "MESH" and obj != owner.id_data)
 
 
-def _part(name: str, what: str) -> Any:
+def _part(name: str, what: str) -> object:
     """A pointer to the object of one part."""
     return PointerProperty(
         type=bpy.types.Object,
@@ -26,7 +25,7 @@ def _part(name: str, what: str) -> Any:
     )
 
 
-class RISORIUS_PG_face(bpy.types.PropertyGroup):
+class RISORIUS_PG_face(PropertyGroup):
     """The parts of a face that are objects of their own."""
 
     eyeball_l: Annotated[Object | None, _part("Left Eye", "the subject's left eyeball")]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import bpy
 
@@ -14,17 +13,20 @@ from ...scene.bake import shape_keys, tracks
 from ...scene.pictures import film
 from ...scene.pictures.look import Camera, Engine, Look
 from ...scene.points.found import Finding
-from ..active import face_reason, target_of
+from ..active import active_object, face_reason, target_of
 from ..bake.ops import motion_work
 from ..base import RisoriusOperator, WorkOperator
+from ..blender_classes import Operator
+from ..blender_types import Context, Object
 from ..points.first import with_points
 from ..points.show import show_finding
+from .props import RISORIUS_PG_film
 
 #: The share of a bake before a film in the whole.
 BAKING = 0.3
 
 
-class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
+class RISORIUS_OT_render_film(WorkOperator[film.FilmResult | Finding], Operator):
     """Render the face as a video. If nothing is baked yet, bake the timeline first. Your scene does not change"""
 
     bl_idname = "risorius.render_film"
@@ -34,17 +36,17 @@ class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
     title = "Rendering the video"
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only for meshes that can be read, with something to show or to bake."""
         reason = refusals.reason(context.object, writing=False)
-        return face_reason(context.object) if reason is None and not moves(context.object) else reason
+        return face_reason(active_object(context)) if reason is None and not moves(active_object(context)) else reason
 
-    def work(self, context: Any) -> Work[film.FilmResult | Finding]:
+    def work(self, context: Context) -> Work[film.FilmResult | Finding]:
         """Bake what is laid out where nothing moves the face yet, then render and encode.
 
         Closed early, that bake is taken away again.
         """
-        obj = context.object
+        obj = active_object(context)
         if moves(obj):
             return (yield from rendering(context))
         baking = with_points(obj, lambda: motion_work(obj, context.scene), scene=context.scene)
@@ -57,7 +59,7 @@ class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
             bake.clear(target_of(obj), clips=[baked.clip])
             raise
 
-    def finish(self, context: Any, result: film.FilmResult | Finding) -> str:
+    def finish(self, context: Context, result: film.FilmResult | Finding) -> str:
         """Say where it is."""
         if isinstance(result, Finding):
             return show_finding(self, context, result)
@@ -67,7 +69,7 @@ class RISORIUS_OT_render_film(WorkOperator, bpy.types.Operator):
         return f"Rendered {result.frame_count} frames to {where}"
 
 
-class RISORIUS_OT_export_gltf(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_export_gltf(RisoriusOperator, Operator):
     """Export the face with all its baked clips as glTF: a morph target per shape key, an animation per clip"""
 
     bl_idname = "risorius.export_gltf"
@@ -76,26 +78,26 @@ class RISORIUS_OT_export_gltf(RisoriusOperator, bpy.types.Operator):
     needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where something is baked."""
         reason = refusals.reason(context.object, writing=False)
         if reason is None and not shape_keys.has_own(context.object):
             return "Nothing has been baked on this face yet"
         return reason
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Export."""
         path = absolute(context.scene.risorius.film.model, ".glb", keep=(".glb", ".gltf"))
-        exported = gltf.export_gltf(target_of(context.object).objects(), path)
+        exported = gltf.export_gltf(target_of(active_object(context)).objects(), path)
         return f"Exported {', '.join(exported.clips)} to {exported.path}"
 
 
-def rendering(context: Any) -> Work[film.FilmResult]:
+def rendering(context: Context) -> Work[film.FilmResult]:
     """Render and encode as it is chosen."""
     chosen = context.scene.risorius.film
     path, (start, end) = film_path(chosen), frame_range(context)
     return film.render_film(
-        target_of(context.object).objects(),
+        target_of(active_object(context)).objects(),
         path if chosen.output != "PNG" else None,
         start=start,
         end=end,
@@ -104,7 +106,7 @@ def rendering(context: Any) -> Work[film.FilmResult]:
     )
 
 
-def moves(obj: Any) -> bool:
+def moves(obj: Object) -> bool:
     """Whether anything moves the face already: a bake, or an animation of the user's."""
     animated = any(
         owner is not None and owner.animation_data is not None for owner in (obj, obj.data, obj.data.shape_keys)
@@ -112,7 +114,7 @@ def moves(obj: Any) -> bool:
     return animated or any(modifier.type == "ARMATURE" for modifier in obj.modifiers)
 
 
-def look_of(chosen: Any) -> Look:
+def look_of(chosen: RISORIUS_PG_film) -> Look:
     """The look chosen; with a window there is a graphics card that affords the fine one."""
     width, height = (size // 2 * 2 for size in (chosen.width, chosen.height))
     return Look(
@@ -124,7 +126,7 @@ def look_of(chosen: Any) -> Look:
     )
 
 
-def film_path(chosen: Any) -> Path:
+def film_path(chosen: RISORIUS_PG_film) -> Path:
     """The film's absolute path, ending in .mp4.
 
     Raises
@@ -148,9 +150,9 @@ def absolute(name: str, suffix: str, *, keep: tuple[str, ...]) -> Path:
     return path if path.suffix.lower() in keep else path.with_name(path.name + suffix)
 
 
-def frame_range(context: Any) -> tuple[int, int]:
+def frame_range(context: Context) -> tuple[int, int]:
     """First and last frame: of the clip that the face plays, or of the scene."""
-    scene, keys = context.scene, context.object.data.shape_keys
+    scene, keys = context.scene, active_object(context).data.shape_keys
     playing = keys.animation_data.action if keys is not None and keys.animation_data is not None else None
     if scene.risorius.film.frames == "CLIP" and playing is not None and tracks.FACE_TAG in playing:
         return int(playing.frame_start), int(playing.frame_end)

@@ -2,28 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
-
+from ..blender_classes import Panel
+from ..blender_types import Context
 from ..shapes.ops import RISORIUS_OT_make_shapes
-from ..sidebar import Sidebar
+from ..sidebar import MeshSidebar
 from .ops import RISORIUS_OT_export_gltf, RISORIUS_OT_render_film
 
 
-class RISORIUS_PT_film(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_film(MeshSidebar, Panel):
     """Where to, who draws, how large."""
 
     bl_label = "Render and Export"
     bl_parent_id = "RISORIUS_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """The settings, then the button."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False

@@ -6,12 +6,13 @@ import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
 
 #: From 4.5 on Blender wants to be told that "//" is understood.
 _RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5) else set()
 
 
-class RISORIUS_PG_film(bpy.types.PropertyGroup):
+class RISORIUS_PG_film(PropertyGroup):
     """Where to, who draws, how large, which frames."""
 
     path: Annotated[

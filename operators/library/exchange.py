@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
 
 import bpy
 
@@ -13,9 +12,11 @@ from ...mpeg4.preset_file import VARIATIONS, Choice, Clip, Preset, PresetKind
 from ...mpeg4.timing import Ramp
 from ...resources import PRESETS
 from ...scene.bake.timing import scene_fps
+from ..blender_types import Context, Object, Scene
 from ..changes import changed, retimed
-from ..emotion.props import DEFAULT_VARIANT
+from ..emotion.props import DEFAULT_VARIANT, RISORIUS_PG_emotion
 from ..muscles.props import by_hand_of
+from ..timeline.props import RISORIUS_PG_clip, RISORIUS_PG_timeline
 
 #: Presets that come with Risorius.
 BUNDLED = PRESETS / "timelines"
@@ -33,12 +34,12 @@ def preset_files() -> list[Path]:
     return [*(sorted(own.glob("*.toml")) if own is not None else ()), *sorted(BUNDLED.glob("*.toml"))]
 
 
-def expression_of(obj: Any) -> Preset:
+def expression_of(obj: Object) -> Preset:
     """What the Emotion panel shows, with what is contracted by hand."""
     return Preset(PresetKind.EXPRESSION, choice_of(obj.risorius.emotion), contractions=_rounded(by_hand_of(obj)))
 
 
-def timeline_of(obj: Any, scene: Any) -> Preset:
+def timeline_of(obj: Object, scene: Scene) -> Preset:
     """All clips, their variation and what is contracted by hand."""
     timeline, fps = obj.risorius.timeline, scene_fps(scene)
     first = min(clip.start for clip in timeline.clips)
@@ -52,7 +53,7 @@ def timeline_of(obj: Any, scene: Any) -> Preset:
     return Preset(PresetKind.TIMELINE, clips=clips, contractions=hands, variation=variation)
 
 
-def choice_of(emotion: Any) -> Choice:
+def choice_of(emotion: RISORIUS_PG_emotion) -> Choice:
     """A chosen emotion."""
     if emotion.by == "WHEEL":
         angle = math.degrees(emotion.angle) % 360.0
@@ -61,7 +62,7 @@ def choice_of(emotion: Any) -> Choice:
     return Choice(round(emotion.activation, 6), emotion.word, variant=variant, seed=emotion.seed)
 
 
-def _clip_of(clip: Any, start: float) -> Clip:
+def _clip_of(clip: RISORIUS_PG_clip, start: float) -> Clip:
     """A clip that begins at `start` seconds."""
     times = [round(getattr(clip, name), 6) for name in ("onset", "apex", "offset")]
     peak, ramp = round(clip.peak, 6), Ramp(clip.ramp)
@@ -73,7 +74,7 @@ def _rounded(contractions: dict[str, float]) -> dict[str, float]:
     return {name: round(value, 6) for name, value in contractions.items()}
 
 
-def load(preset: Preset, obj: Any, context: Any) -> str:
+def load(preset: Preset, obj: Object, context: Context) -> str:
     """Give a face what a preset holds: an expression to the Emotion panel, or a timeline from the current frame on.
 
     Raises
@@ -96,7 +97,7 @@ def load(preset: Preset, obj: Any, context: Any) -> str:
     return f"{obj.name}: loaded {what}"
 
 
-def choose(emotion: Any, choice: Choice) -> None:
+def choose(emotion: RISORIUS_PG_emotion, choice: Choice) -> None:
     """Set a chosen emotion."""
     if choice.word is not None:
         emotion.word = choice.word
@@ -107,7 +108,7 @@ def choose(emotion: Any, choice: Choice) -> None:
     emotion.by = "WORD" if choice.angle is None else "WHEEL"
 
 
-def _lay_out(preset: Preset, timeline: Any, scene: Any) -> None:
+def _lay_out(preset: Preset, timeline: RISORIUS_PG_timeline, scene: Scene) -> None:
     """Put a preset's clips in place of those on a timeline."""
     linked, fps = timeline.linked, scene_fps(scene)
     timeline.linked = False

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
 
 import bpy
 from bpy.props import EnumProperty, StringProperty
-from bpy_extras.io_utils import ImportHelper
 
 from ...errors import FormatError, SceneError
 from ...mpeg4.preset_file import PresetKind, read_preset, write_preset
@@ -16,15 +14,18 @@ from ...progress import Work
 from ...scene.bake.baking import BakeResult, bake_motion
 from ...scene.bake.motion import FapMotion, at_rate
 from ...scene.bake.timing import scene_fps
-from ..active import face_reason, target_of
+from ...scene.blender_types import Event
+from ..active import active_object, face_reason, target_of
 from ..annotated import Annotated
 from ..bake.ops import BakeOperator
 from ..bake.settings import creases_wanted
 from ..base import RisoriusOperator
+from ..blender_classes import ImportHelper, Operator
+from ..blender_types import Context
 from .exchange import expression_of, load, own_folder, timeline_of
 
 
-class RISORIUS_OT_save_preset(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_save_preset(RisoriusOperator, Operator):
     """Save the expression in the Emotion panel, or the whole timeline, as a preset for any face"""
 
     bl_idname = "risorius.save_preset"
@@ -59,17 +60,17 @@ class RISORIUS_OT_save_preset(RisoriusOperator, bpy.types.Operator):
     ]
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only on a mesh."""
         return None if context.object is not None and context.object.type == "MESH" else "Select the mesh of a face"
 
-    def invoke(self, context: Any, event: Any) -> Any:
+    def invoke(self, context: Context, event: Event) -> set[str]:
         """Ask for the name."""
         return context.window_manager.invoke_props_dialog(self)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Save it in the user's folder."""
-        obj = context.object
+        obj = active_object(context)
         if self.kind == PresetKind.TIMELINE and not obj.risorius.timeline.clips:
             raise SceneError(obj.name, "has no clips yet: add one, or save the expression")
         folder = own_folder(create=True)
@@ -82,7 +83,7 @@ class RISORIUS_OT_save_preset(RisoriusOperator, bpy.types.Operator):
         return f"Saved {path}"
 
 
-class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, bpy.types.Operator):
+class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, Operator):
     """Load an expression, or a timeline that replaces the current clips and starts at the current frame"""
 
     bl_idname = "risorius.load_preset"
@@ -98,21 +99,21 @@ class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, bpy.types.Operator
     ]
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only on a face."""
         return face_reason(context.object)
 
-    def invoke(self, context: Any, event: Any) -> Any:
+    def invoke(self, context: Context, event: Event) -> set[str]:
         """Ask for the file, unless one was dropped."""
         return self.execute(context) if self.filepath else ImportHelper.invoke(self, context, event)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Load it."""
         path = Path(bpy.path.abspath(self.filepath))
-        return f"{load(read_preset(path), context.object, context)} from {path.name}"
+        return f"{load(read_preset(path), active_object(context), context)} from {path.name}"
 
 
-class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
+class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, Operator):
     """Bake a stream of MPEG-4 facial animation parameters (.fap) on the face, starting at the current frame"""
 
     bl_idname = "risorius.import_fap"
@@ -128,28 +129,28 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, bpy.types.Operator):
 
     _was_asked_for = False
 
-    def invoke(self, context: Any, event: Any) -> Any:
+    def invoke(self, context: Context, event: Event) -> set[str]:
         """Ask for the file, unless one was dropped."""
         if self.filepath:
             return BakeOperator.invoke(self, context, event)
         self._was_asked_for = True
         return ImportHelper.invoke(self, context, event)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Run straight through; after the file browser, between events like any bake."""
         if self._was_asked_for and not bpy.app.background:
             bpy.ops.risorius.import_fap("INVOKE_DEFAULT", filepath=self.filepath)
             return f"Baking {Path(self.filepath).name}"
         return super().run(context)
 
-    def show_apex(self, context: Any) -> None:
+    def show_apex(self, context: Context) -> None:
         """Stay at the frame: it is where the motion begins."""
 
-    def baking(self, context: Any) -> Work[BakeResult]:
+    def baking(self, context: Context) -> Work[BakeResult]:
         """Simulate the stream at the scene's rate."""
         from ... import api
 
-        obj, path = context.object, Path(bpy.path.abspath(self.filepath))
+        obj, path = active_object(context), Path(bpy.path.abspath(self.filepath))
         stream = api.read_stream(path)
         fps = scene_fps(context.scene)
         frames = at_rate(stream.expanded(), stream.fps, fps)

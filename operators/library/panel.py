@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 
 from ...mpeg4.preset_file import PresetKind
 from ..active import face_reason
+from ..blender_classes import FileHandler, Menu
+from ..blender_types import Context
 from .exchange import BUNDLED, preset_files
 from .ops import RISORIUS_OT_import_fap, RISORIUS_OT_load_preset, RISORIUS_OT_save_preset
 
 
-class RISORIUS_MT_library(bpy.types.Menu):
+class RISORIUS_MT_library(Menu):
     """Load or save expressions and timelines"""
 
     bl_idname = "RISORIUS_MT_library"
     bl_label = "Presets"
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Yours, those that come with Risorius, and ways in and out."""
         layout, files = self.layout, preset_files()
         for number, path in enumerate(files):
@@ -35,7 +35,7 @@ class RISORIUS_MT_library(bpy.types.Menu):
         layout.operator(RISORIUS_OT_import_fap.bl_idname, text="Import FAP...", icon="IMPORT").filepath = ""
 
 
-class RISORIUS_FH_preset(bpy.types.FileHandler):
+class RISORIUS_FH_preset(FileHandler):
     """Presets dropped on the viewport"""
 
     bl_idname = "RISORIUS_FH_preset"
@@ -44,12 +44,12 @@ class RISORIUS_FH_preset(bpy.types.FileHandler):
     bl_file_extensions = ".toml"
 
     @classmethod
-    def poll_drop(cls, context: Any) -> bool:
+    def poll_drop(cls, context: Context) -> bool:
         """On a viewport, with a face to load it on."""
         return dropped_on_face(context)
 
 
-class RISORIUS_FH_fap(bpy.types.FileHandler):
+class RISORIUS_FH_fap(FileHandler):
     """Streams of FAPs dropped on the viewport"""
 
     bl_idname = "RISORIUS_FH_fap"
@@ -58,11 +58,11 @@ class RISORIUS_FH_fap(bpy.types.FileHandler):
     bl_file_extensions = ".fap"
 
     @classmethod
-    def poll_drop(cls, context: Any) -> bool:
+    def poll_drop(cls, context: Context) -> bool:
         """On a viewport, with a face to bake it on."""
         return dropped_on_face(context)
 
 
-def dropped_on_face(context: Any) -> bool:
+def dropped_on_face(context: Context) -> bool:
     """Whether a file dropped here has a face to go to."""
     return context.area is not None and context.area.type == "VIEW_3D" and face_reason(context.object) is None

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import StringProperty
 
+from ..active import active_object
 from ..annotated import Annotated
 from ..base import RisoriusOperator
+from ..blender_classes import Operator
+from ..blender_types import Context
 from ..changes import changed
 from .props import by_hand_of, set_by_hand
 
 
-class RISORIUS_OT_reset_muscles(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_reset_muscles(RisoriusOperator, Operator):
     """Let the emotion control a muscle, or all muscles, again. Contractions set by hand are removed"""
 
     bl_idname = "risorius.reset_muscles"
@@ -25,15 +25,15 @@ class RISORIUS_OT_reset_muscles(RisoriusOperator, bpy.types.Operator):
     ]
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where something is set by hand."""
         if context.object is None:
             return "There is no active object"
         return None if by_hand_of(context.object) else "No muscle is set by hand"
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Forget them."""
-        obj = context.object
+        obj = active_object(context)
         before = len(by_hand_of(obj))
         if self.muscle:
             set_by_hand(obj, self.muscle, None)

@@ -3,43 +3,52 @@
 from __future__ import annotations
 
 import textwrap
-from typing import Any
 
-import bpy
-
-from ..active import ready_reason
+from ..active import active_object, ready_reason
+from ..blender_classes import Panel, UIList
+from ..blender_types import Context, UILayout
 from ..requirements import has_scipy
-from ..sidebar import LINE, Sidebar
+from ..sidebar import LINE, MeshSidebar
 from .ops import RISORIUS_OT_reset_muscles
-from .props import by_hand_of, list_muscles_soon
+from .props import RISORIUS_PG_muscle_list, RISORIUS_PG_muscle_name, by_hand_of, list_muscles_soon
 
 #: Rows of the list; a muscle that does less than this does nothing.
 ROWS, BUSY = 8, 0.005
 
 
-class RISORIUS_UL_muscles(bpy.types.UIList):
+class RISORIUS_UL_muscles(UIList):
     """Muscles of the active face: how far each is contracted, and whether by hand."""
 
     def draw_item(
-        self, context: Any, layout: Any, data: Any, item: Any, icon: int, active_data: Any, active_property: str
+        self,
+        context: Context,
+        layout: UILayout,
+        data: RISORIUS_PG_muscle_list,
+        item: RISORIUS_PG_muscle_name,
+        icon: int,
+        active_data: object,
+        active_property: str,
     ) -> None:
         """One muscle."""
-        by_hand = item.name in by_hand_of(context.object)
+        obj = active_object(context)
+        by_hand = item.name in by_hand_of(obj)
         row = layout.row(align=True)
-        row.prop(item, "contraction", text=label(item.name, context.object.risorius.muscles.linked), slider=True)
+        row.prop(item, "contraction", text=label(item.name, obj.risorius.muscles.linked), slider=True)
         back = row.row(align=True)
         back.enabled = by_hand
         icon_name = "LOOP_BACK" if by_hand else "BLANK1"
         back.operator(RISORIUS_OT_reset_muscles.bl_idname, text="", icon=icon_name, emboss=False).muscle = item.name
 
-    def filter_items(self, context: Any, data: Any, property: str) -> tuple[list[int], list[int]]:
+    def filter_items(
+        self, context: Context, data: RISORIUS_PG_muscle_list, property: str
+    ) -> tuple[list[int], list[int]]:
         """What is asked for; one of each pair where the sides are linked."""
         from ...face.contractible import contractibles
 
-        linked, wanted = context.object.risorius.muscles.linked, self.filter_name.casefold()
-        by_hand = by_hand_of(context.object)
+        obj, wanted = active_object(context), self.filter_name.casefold()
+        linked, by_hand = obj.risorius.muscles.linked, by_hand_of(obj)
         flags = []
-        for item in getattr(data, property):
+        for item in data.names:
             entry = contractibles()[item.name]
             shown = not (linked and item.name.endswith("_r") and item.name != entry.mirror)
             if data.busy_only and item.contraction < BUSY and item.name not in by_hand:
@@ -56,21 +65,16 @@ def label(name: str, linked: bool) -> str:
     return words if linked or not side else f"{words} {side[1].upper()}"
 
 
-class RISORIUS_PT_muscles(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_muscles(MeshSidebar, Panel):
     """Which muscles make the face, and how far."""
 
     bl_label = "Muscles"
     bl_parent_id = "RISORIUS_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """The list, the marked muscle in words, and the way back."""
-        layout, obj = self.layout, context.object
+        layout, obj = self.layout, active_object(context)
         reason = ready_reason(obj)
         if reason is not None or not has_scipy():
             layout.label(text="Needs a face with feature points", icon="INFO")

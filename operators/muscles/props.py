@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty
 
 from ..annotated import Annotated
-from ..blender_types import Entries
+from ..blender_classes import PropertyGroup
+from ..blender_types import Entries, Object
 from ..changes import changed
-from ..names import fill_soon
+from ..names import fill, fill_soon, shown_lists
 from ..session import session
 
 
-class RISORIUS_PG_by_hand(bpy.types.PropertyGroup):
+class RISORIUS_PG_by_hand(PropertyGroup):
     """One contraction set by hand; its name is the muscle's."""
 
     contraction: Annotated[
@@ -23,7 +22,7 @@ class RISORIUS_PG_by_hand(bpy.types.PropertyGroup):
     ]
 
 
-class RISORIUS_PG_muscles(bpy.types.PropertyGroup):
+class RISORIUS_PG_muscles(PropertyGroup):
     """What is set by hand on one face."""
 
     by_hand: Annotated[
@@ -39,12 +38,12 @@ class RISORIUS_PG_muscles(bpy.types.PropertyGroup):
     ]
 
 
-def by_hand_of(obj: Any) -> dict[str, float]:
+def by_hand_of(obj: Object) -> dict[str, float]:
     """Muscle name -> contraction that is set by hand on `obj`."""
     return {str(entry.name): float(entry.contraction) for entry in obj.risorius.muscles.by_hand}
 
 
-def set_by_hand(obj: Any, name: str, value: float | None) -> None:
+def set_by_hand(obj: Object, name: str, value: float | None) -> None:
     """Set the contraction of a muscle, or leave it to the emotion again (None); with its twin where sides are linked.
 
     Raises
@@ -67,9 +66,9 @@ def set_by_hand(obj: Any, name: str, value: float | None) -> None:
         entry.name, entry.contraction = each, value
 
 
-def _get(item: Any) -> float:
+def _get(item: RISORIUS_PG_muscle_name) -> float:
     """What the active face does with this muscle."""
-    obj = bpy.context.object
+    obj: Object | None = bpy.context.object
     if obj is None:
         return 0.0
     index = obj.risorius.muscles.by_hand.find(item.name)
@@ -79,15 +78,15 @@ def _get(item: Any) -> float:
     return 0.0 if shown is None else float(shown.contractions.get(item.name, 0.0))
 
 
-def _set(item: Any, value: float) -> None:
+def _set(item: RISORIUS_PG_muscle_name, value: float) -> None:
     """A slider was moved: from now on the contraction is the user's."""
-    obj = bpy.context.object
+    obj: Object | None = bpy.context.object
     if obj is not None:
         set_by_hand(obj, item.name, value)
         changed(obj.risorius.muscles, bpy.context)
 
 
-class RISORIUS_PG_muscle_name(bpy.types.PropertyGroup):
+class RISORIUS_PG_muscle_name(PropertyGroup):
     """A muscle in the list, and its slider on the active face; nothing is stored in it."""
 
     contraction: Annotated[
@@ -104,7 +103,7 @@ class RISORIUS_PG_muscle_name(bpy.types.PropertyGroup):
     ]
 
 
-class RISORIUS_PG_muscle_list(bpy.types.PropertyGroup):
+class RISORIUS_PG_muscle_list(PropertyGroup):
     """How the list of muscles is shown."""
 
     names: Annotated[
@@ -119,19 +118,13 @@ class RISORIUS_PG_muscle_list(bpy.types.PropertyGroup):
 
 
 def list_muscles() -> None:
-    """Fill the list; after a file was opened the window's properties are empty."""
-    if not hasattr(bpy.types.WindowManager, "risorius"):
-        return
+    """Fill the list with all that can be contracted."""
     from ...face.contractible import contractibles
 
-    for manager in bpy.data.window_managers:
-        names = manager.risorius.muscles.names
-        if len(names) != len(contractibles()):
-            names.clear()
-            for name in contractibles():
-                names.add().name = name
+    for shown in shown_lists():
+        fill(shown.muscles.names, contractibles())
 
 
 def list_muscles_soon() -> None:
-    """Fill the list after drawing, where nothing may be written."""
+    """Fill the list after drawing."""
     fill_soon(list_muscles)

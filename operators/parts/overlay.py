@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any
 
 import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
+from numpy.typing import NDArray
 
 from ...arrays import Ints
 from ...face.mesh.parts import Part
 from ...scene.mesh import read_parts, triangle_corners
 from ...scene.points.seen import Visible
+from ..blender_types import Context
 from ..points.view import Viewport
 
 #: Colours of the parts; grey where nobody has told.
@@ -33,7 +34,7 @@ STRENGTH = 0.6
 OFF = 8e-4
 
 
-def colours(parts: Ints) -> Any:
+def colours(parts: Ints) -> NDArray[np.float32]:
     """(V, 4) colour of each vertex, float32."""
     table = np.array([COLOURS[part] for part in Part] + [UNTOLD])
     shown = np.empty((len(parts), 4), dtype=np.float32)
@@ -43,11 +44,11 @@ def colours(parts: Ints) -> Any:
 
 def _draw() -> None:
     """Draw handler: in the world."""
-    context = bpy.context
+    context: Context = bpy.context
     obj, viewport = context.object, Viewport.of(context)
     if obj is None or obj.type != "MESH" or viewport is None or not context.window_manager.risorius.parts.show:
         return
-    if obj.mode != "OBJECT" or not obj.visible_get() or not context.space_data.overlay.show_overlays:
+    if not viewport.draws_over(obj):
         return
     parts = read_parts(obj.data)
     visible = Visible.of(obj, context.evaluated_depsgraph_get())

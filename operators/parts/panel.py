@@ -2,30 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
-
 from ...scene.mesh import read_parts
-from ..sidebar import Sidebar
+from ..active import active_object
+from ..blender_classes import Panel
+from ..blender_types import Context
+from ..sidebar import MeshSidebar
 from .ops import RISORIUS_OT_find_parts, RISORIUS_OT_forget_parts, RISORIUS_OT_set_part
 
 
-class RISORIUS_PT_parts(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_parts(MeshSidebar, Panel):
     """Which vertices are skin, eyes, teeth, tongue."""
 
     bl_label = "Mesh Parts"
     bl_parent_id = "RISORIUS_PT_face"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Tell them, show them, correct them."""
-        layout, obj = self.layout, context.object
+        layout, obj = self.layout, active_object(context)
         chosen = context.window_manager.risorius.parts
         row = layout.row(align=True)
         row.operator(RISORIUS_OT_find_parts.bl_idname, icon="VIEWZOOM")

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ...face.mesh.parts import Part
 from ..annotated import Annotated
-from ..points.props import redraw
+from ..blender_classes import PropertyGroup
+from ..screen import redraw_viewports
 
 #: Part -> identifier, name and tooltip of the menu.
 PARTS = {
@@ -21,13 +21,16 @@ PARTS = {
 }
 
 
-class RISORIUS_PG_parts(bpy.types.PropertyGroup):
+class RISORIUS_PG_parts(PropertyGroup):
     """How parts are shown, and which one a vertex group is to become."""
 
     show: Annotated[
         bool,
         BoolProperty(
-            name="Show Parts", description="Draw the parts of the mesh as colours", default=False, update=redraw
+            name="Show Parts",
+            description="Draw the parts of the mesh as colours",
+            default=False,
+            update=redraw_viewports,
         ),
     ]
     part: Annotated[

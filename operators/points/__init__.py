@@ -1,7 +1,8 @@
 """Feature points of a face: found, clicked, seen, dragged, listed, exported.
 
 ops                 find, look at, put back, hold on to an edited mesh, export
-click               the few clicked points that tell where a face is
+click, clicks,      the few clicked points that tell where a face is; those clicked so far; their picture
+  click_drawing
 drag                one point along the surface, its counterpart with it
 first               a button that needs feature points finds them itself
 question, show      points that were found are shown, and doubtful ones asked about

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from math import cos, hypot, pi, sin
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import blf
 import gpu
 from gpu_extras.batch import batch_for_shader
+
+from ..blender_types import Batch, Shader
 
 Pixel: TypeAlias = tuple[float, float]
 Colour: TypeAlias = tuple[float, float, float, float]
@@ -27,7 +29,7 @@ class Canvas:
         self._corners: list[tuple[float, float, float]] = []
         self._colours: list[Colour] = []
         self._texts: list[tuple[Pixel, str, float, Colour, Colour]] = []
-        self._batch: Any = None
+        self._batch: Batch | None = None
 
     def _triangle(self, corners: Iterable[Pixel], colour: Colour) -> None:
         """One triangle."""
@@ -86,7 +88,7 @@ class Canvas:
     def draw(self) -> None:
         """Show everything gathered."""
         if self._corners:
-            shader: Any = gpu.shader.from_builtin("SMOOTH_COLOR")
+            shader: Shader = gpu.shader.from_builtin("SMOOTH_COLOR")
             if self._batch is None:
                 self._batch = batch_for_shader(shader, "TRIS", {"pos": self._corners, "color": self._colours})
             gpu.state.blend_set("ALPHA")

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any
 
 import bpy
 import numpy as np
 
+from ...arrays import Floats
 from ...mpeg4 import FEATURE_POINTS
 from ...scene import mesh as meshes
+from ...scene.blender_types import Event
 from ...scene.points.bound import Surface, fits, followed, moved, places
 from ...scene.points.kept import KeptPoints, Origin, read_kept, write_kept
-from ...scene.points.mirrored import plane_of_points
+from ...scene.points.mirrored import MirrorPlane, plane_of_points
 from ...scene.points.seen import Visible
+from ..active import active_object
 from ..base import RisoriusOperator
+from ..blender_classes import Operator, WorkSpaceTool
+from ..blender_types import Context, Object, UILayout
+from ..screen import redraw_viewports, show_status
 from .ops import label_of
 from .overlay import point_at
-from .props import mark, redraw
+from .props import mark
 from .reasons import no_points_reason
 from .show import show_points
 from .view import Viewport
@@ -27,7 +32,7 @@ TOOL = "risorius.drag_points"
 STILL = 2.0
 
 
-class RISORIUS_OT_drag_point(bpy.types.Operator):
+class RISORIUS_OT_drag_point(Operator):
     """Drag a feature point along the surface"""
 
     bl_idname = "risorius.drag_point"
@@ -35,11 +40,11 @@ class RISORIUS_OT_drag_point(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Where points are drawn."""
         return no_points_reason(context.object) is None and bool(context.window_manager.risorius.points.show)
 
-    def invoke(self, context: Any, event: Any) -> set[str]:
+    def invoke(self, context: Context, event: Event) -> set[str]:
         """Take hold of the point under the mouse. Beside them nothing happens: passed on, it would move the object."""
         viewport = Viewport.of(context)
         pixel = None if viewport is None else viewport.pixel(event)
@@ -47,7 +52,7 @@ class RISORIUS_OT_drag_point(bpy.types.Operator):
         if name is None or pixel is None:
             return {"CANCELLED"}
         self._pressed, self._has_left = pixel, False
-        obj = context.object
+        obj = active_object(context)
         self._name, self._obj = name, obj.name
         self._surface = Surface.of(obj.data)
         self._before = read_kept(obj)
@@ -55,12 +60,12 @@ class RISORIUS_OT_drag_point(bpy.types.Operator):
         self._plane = plane_of_points(places(self._now, meshes.rest_vertices(obj.data)))
         mark(context.window_manager.risorius.points, name)
         context.window_manager.modal_handler_add(self)
-        _say(context, f"{label_of(name)}   Release: Confirm   Esc, Right Mouse: Cancel")
+        show_status(context, f"{label_of(name)}   Release: Confirm   Esc, Right Mouse: Cancel")
         return {"RUNNING_MODAL"}
 
-    def modal(self, context: Any, event: Any) -> set[str]:
+    def modal(self, context: Context, event: Event) -> set[str]:
         """Follow the mouse; release to put, Esc to leave all as it was."""
-        obj = bpy.data.objects[self._obj]
+        obj: Object = bpy.data.objects[self._obj]
         if event.type == "MOUSEMOVE":
             self._follow(context, event, obj)
             return {"RUNNING_MODAL"}
@@ -75,7 +80,7 @@ class RISORIUS_OT_drag_point(bpy.types.Operator):
             return self._end(context, {"FINISHED"})
         return {"RUNNING_MODAL"}
 
-    def _follow(self, context: Any, event: Any, obj: Any) -> None:
+    def _follow(self, context: Context, event: Event, obj: Object) -> None:
         """Put the point under the mouse, once that has left the place where it was pressed."""
         viewport = Viewport.of(context)
         pixel = None if viewport is None else viewport.pixel(event)
@@ -89,24 +94,26 @@ class RISORIUS_OT_drag_point(bpy.types.Operator):
         place = visible.hit(*viewport.ray(pixel), self._surface)
         if place is not None:
             write_kept(obj, self.dragged(place, mirror=context.window_manager.risorius.points.mirror))
-            redraw()
+            redraw_viewports()
 
-    def dragged(self, place: Any, *, mirror: bool) -> KeptPoints:
+    def dragged(self, place: Floats, *, mirror: bool) -> KeptPoints:
         """The points with this one at a place of the resting surface, and its counterpart on the other side."""
         return with_counterpart(self._now, self._name, place, self._surface, self._plane if mirror else None)
 
-    def _end(self, context: Any, result: set[str]) -> set[str]:
+    def _end(self, context: Context, result: set[str]) -> set[str]:
         """Let go."""
-        _say(context, None)
-        redraw()
+        show_status(context, None)
+        redraw_viewports()
         return result
 
-    def cancel(self, context: Any) -> None:
+    def cancel(self, context: Context) -> None:
         """Blender ends the operator itself."""
-        _say(context, None)
+        show_status(context, None)
 
 
-def with_counterpart(kept: KeptPoints, name: str, place: Any, surface: Surface, plane: Any | None) -> KeptPoints:
+def with_counterpart(
+    kept: KeptPoints, name: str, place: Floats, surface: Surface, plane: MirrorPlane | None
+) -> KeptPoints:
     """Points with one of them put to a place, and where there is a mirror plane its counterpart to the mirrored one."""
     changed = moved(kept, name, np.asarray(place), surface, Origin.DRAGGED)
     other = FEATURE_POINTS[name].mirror
@@ -116,13 +123,7 @@ def with_counterpart(kept: KeptPoints, name: str, place: Any, surface: Surface, 
     return changed
 
 
-def _say(context: Any, text: str | None) -> None:
-    """Text in the status bar, or Blender's own again."""
-    if context.workspace is not None:
-        context.workspace.status_text_set(text)
-
-
-class RISORIUS_OT_use_drag_tool(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_use_drag_tool(RisoriusOperator, Operator):
     """Activate the tool that drags feature points along the surface with the left mouse button"""
 
     bl_idname = "risorius.use_drag_tool"
@@ -131,11 +132,11 @@ class RISORIUS_OT_use_drag_tool(RisoriusOperator, bpy.types.Operator):
     needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where there are points."""
         return no_points_reason(context.object)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Show the points and take the tool in hand."""
         show_points(context)
         if not bpy.app.background:
@@ -143,7 +144,7 @@ class RISORIUS_OT_use_drag_tool(RisoriusOperator, bpy.types.Operator):
         return "Drag points with the left mouse button; choose another tool to stop"
 
 
-class DragTool(bpy.types.WorkSpaceTool):
+class DragTool(WorkSpaceTool):
     """The tool in the toolbar."""
 
     bl_space_type = "VIEW_3D"
@@ -155,7 +156,7 @@ class DragTool(bpy.types.WorkSpaceTool):
     bl_widget = None
     bl_keymap = ((RISORIUS_OT_drag_point.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),)
 
-    def draw_settings(context: Any, layout: Any, tool: Any) -> None:
+    def draw_settings(context: Context, layout: UILayout, tool: object) -> None:
         """What stands in the header."""
         layout.prop(context.window_manager.risorius.points, "mirror")
 

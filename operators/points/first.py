@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import bpy
 
 from ...progress import Work, part_of
 from ...scene.points.found import Finding, find_points
 from ...scene.points.kept import forget_points, has_points
+from ..blender_types import Object, Scene
 
 T = TypeVar("T")
 
@@ -17,7 +18,7 @@ T = TypeVar("T")
 SHARE = 0.4
 
 
-def with_points(obj: Any, then: Callable[[], Work[T]], *, scene: Any) -> Work[T | Finding]:
+def with_points(obj: Object, then: Callable[[], Work[T]], *, scene: Scene) -> Work[T | Finding]:
     """Find the face of `obj` where it has no points yet, then go on with the other work and return its result.
 
     With a window a doubtful face ends it early, and what was found is returned: somebody should look first.

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
-
 from ...scene.points.joined import may_be_joined, take_over_points
+from ..active import active_object
 from ..base import RisoriusOperator
+from ..blender_classes import Operator
+from ..blender_types import Context
 from .reasons import points_reason
 from .show import show_points
 
 
-class RISORIUS_OT_take_over_points(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_take_over_points(RisoriusOperator, Operator):
     """Restore the feature points of a face that was joined into this object (Ctrl J). This is possible until the \
 file is closed"""
 
@@ -22,15 +21,15 @@ file is closed"""
     needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where such a mesh is left."""
         reason = points_reason(context.object)
-        if reason is None and not may_be_joined(context.object):
+        if reason is None and not may_be_joined(active_object(context)):
             return "No face was joined into this object since the file was opened"
         return reason
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Put them where the face's polygons are now."""
-        name = take_over_points(context.object)
+        name = take_over_points(active_object(context))
         show_points(context)
-        return f"{context.object.name} has the feature points of {name}"
+        return f"{active_object(context).name} has the feature points of {name}"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
@@ -13,7 +11,10 @@ from ...mpeg4 import FEATURE_POINTS
 from ...scene.points.bound import followed
 from ...scene.points.kept import KeptPoints, read_kept
 from ...scene.points.seen import Visible
+from ..active import active_object
 from ..base import RisoriusOperator
+from ..blender_classes import Operator
+from ..blender_types import Context
 from .reasons import no_points_reason
 from .view import Viewport
 
@@ -61,18 +62,18 @@ def seen_badly(viewport: Viewport, visible: Visible, places: dict[str, Floats]) 
     return small or float(np.mean(visible.hidden(places, *viewport.eye()))) > TURNED
 
 
-def turn_to_face(context: Any, kept: KeptPoints, *, always: bool = False) -> None:
+def turn_to_face(context: Context, kept: KeptPoints, *, always: bool = False) -> None:
     """Look at the active face in the viewport of the context, if there is one and it is seen badly there."""
     viewport = None if bpy.app.background else Viewport.of(context)
     if viewport is None:
         return
-    visible = Visible.of(context.object, context.evaluated_depsgraph_get())
+    visible = Visible.of(active_object(context), context.evaluated_depsgraph_get())
     places = visible.places(kept)
     if places and (always or seen_badly(viewport, visible, places)):
         look_at_face(viewport, places)
 
 
-class RISORIUS_OT_look_at_face(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_look_at_face(RisoriusOperator, Operator):
     """View this face from the front"""
 
     bl_idname = "risorius.look_at_face"
@@ -81,12 +82,12 @@ class RISORIUS_OT_look_at_face(RisoriusOperator, bpy.types.Operator):
     needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where there are points."""
         return no_points_reason(context.object)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Turn the viewport."""
-        obj = context.object
+        obj = active_object(context)
         turn_to_face(context, followed(read_kept(obj), obj.data).kept, always=True)
         return f"View of {obj.name} from the front"

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from typing import Any
 
-import bpy
 import numpy as np
 from bpy.props import EnumProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper
 from mathutils import Vector
 
+from ...arrays import Floats
 from ...errors import RisoriusError, SceneError
 from ...files import write_whole
 from ...mpeg4 import FAPS, FEATURE_POINTS
@@ -22,8 +20,11 @@ from ...scene.points.found import Finding, find_points
 from ...scene.points.kept import KeptPoint, has_points, mesh_counts, read_kept, write_kept
 from ...scene.points.seen import Visible
 from ...scene.points.stored import stored_points
+from ..active import active_object
 from ..annotated import Annotated
 from ..base import RisoriusOperator, WorkOperator
+from ..blender_classes import ExportHelper, Operator
+from ..blender_types import Context, Object
 from .props import mark
 from .reasons import no_points_reason, points_reason
 from .show import show_finding, show_points
@@ -33,7 +34,7 @@ from .view import Viewport
 CLOSE_UP = 1.2
 
 
-class RISORIUS_OT_find_points(WorkOperator, bpy.types.Operator):
+class RISORIUS_OT_find_points(WorkOperator[Finding], Operator):
     """Find the face of this mesh and its feature points, in any direction and at any size"""
 
     bl_idname = "risorius.find_points"
@@ -42,15 +43,15 @@ class RISORIUS_OT_find_points(WorkOperator, bpy.types.Operator):
     title = "Finding the face"
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only for meshes that points can be kept with."""
         return points_reason(context.object)
 
-    def work(self, context: Any) -> Work[Finding]:
+    def work(self, context: Context) -> Work[Finding]:
         """Find and keep them."""
-        return find_points(context.object, scene=context.scene)
+        return find_points(active_object(context), scene=context.scene)
 
-    def finish(self, context: Any, result: Finding) -> str:
+    def finish(self, context: Context, result: Finding) -> str:
         """Show them."""
         return show_finding(self, context, result)
 
@@ -60,13 +61,15 @@ class OnePoint(RisoriusOperator):
 
     needs_scipy = False
 
+    point: Annotated[str, StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})]
+
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where there are points."""
         return no_points_reason(context.object)
 
     @classmethod
-    def description(cls, context: Any, properties: Any) -> str:
+    def description(cls, context: Context, properties: OnePoint) -> str:
         """What the operator does, what the point is, and why it is needed."""
         does = str(cls.__doc__)
         return f"{does}.\n{why_needed(properties.point)}" if properties.point in FEATURE_POINTS else does
@@ -82,18 +85,16 @@ def why_needed(name: str) -> str:
     return f"{name}: {point.location}.\n{moves}"
 
 
-class RISORIUS_OT_jump_to_point(OnePoint, bpy.types.Operator):
+class RISORIUS_OT_jump_to_point(OnePoint, Operator):
     """Zoom to this point"""
 
     bl_idname = "risorius.jump_to_point"
     bl_label = "View Point"
     bl_options = {"INTERNAL"}
 
-    point: Annotated[str, StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})]
-
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Mark it, and turn a 3D viewport towards it."""
-        obj, state = context.object, context.window_manager.risorius.points
+        obj, state = active_object(context), context.window_manager.risorius.points
         kept = followed(read_kept(obj), obj.data).kept
         if self.point not in kept.points:
             raise SceneError(obj.name, f"has no feature point {self.point}")
@@ -111,7 +112,7 @@ class RISORIUS_OT_jump_to_point(OnePoint, bpy.types.Operator):
         return label_of(self.point)
 
 
-def _outward(visible: Visible, place: Any) -> Vector:
+def _outward(visible: Visible, place: Floats) -> Vector:
     """The direction in the world in which the surface at a place looks."""
     inverse = np.linalg.inv(world_matrix(visible.obj))
     found, _, normal, _ = visible.shown.closest_point_on_mesh(Vector(inverse[:3, :3] @ place + inverse[:3, 3]))
@@ -123,7 +124,7 @@ def label_of(name: str) -> str:
     return f"{name}: {FEATURE_POINTS[name].location}"
 
 
-class RISORIUS_OT_reset_points(OnePoint, bpy.types.Operator):
+class RISORIUS_OT_reset_points(OnePoint, Operator):
     """Reset points to where they were found, clicked or imported"""
 
     bl_idname = "risorius.reset_points"
@@ -144,11 +145,10 @@ class RISORIUS_OT_reset_points(OnePoint, bpy.types.Operator):
             default="ALL",
         ),
     ]
-    point: Annotated[str, StringProperty(name="Point", description="Name of the feature point", options={"SKIP_SAVE"})]
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Put them back, and those back in that were lost."""
-        obj = context.object
+        obj = active_object(context)
         now = followed(read_kept(obj), obj.data).kept
         given = followed(read_kept(obj, as_given=True), obj.data).kept
         if self.which == "ONE":
@@ -168,25 +168,25 @@ def in_order(points: dict[str, KeptPoint]) -> dict[str, KeptPoint]:
     return {name: points[name] for name in FEATURE_POINTS if name in points}
 
 
-class RISORIUS_OT_follow_mesh(OnePoint, bpy.types.Operator):
+class RISORIUS_OT_follow_mesh(RisoriusOperator, Operator):
     """Transfer the feature points to the edited mesh, and report the points that are lost"""
 
     bl_idname = "risorius.follow_mesh"
     bl_label = "Update Points"
     bl_options = {"REGISTER", "UNDO"}
-    point: Annotated[str, StringProperty(options={"HIDDEN", "SKIP_SAVE"})]
+    needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where the mesh has been edited."""
         reason = no_points_reason(context.object)
-        if reason is None and not edited(context.object):
+        if reason is None and not edited(active_object(context)):
             return "The mesh has not been edited since its points were found"
         return reason
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Bind them anew."""
-        obj = context.object
+        obj = active_object(context)
         now = followed(read_kept(obj), obj.data)
         write_kept(obj, now.kept)
         if now.lost:
@@ -194,7 +194,7 @@ class RISORIUS_OT_follow_mesh(OnePoint, bpy.types.Operator):
         return f"{obj.name}: {len(now.kept.points)} feature points updated, {len(now.lost)} lost"
 
 
-def edited(obj: Any) -> bool:
+def edited(obj: Object) -> bool:
     """Whether the mesh has another number of vertices or polygons than when its points were kept."""
     try:
         return has_points(obj) and read_kept(obj).counts != mesh_counts(obj.data)
@@ -202,7 +202,7 @@ def edited(obj: Any) -> bool:
         return False
 
 
-class RISORIUS_OT_export_points(RisoriusOperator, bpy.types.Operator, ExportHelper):
+class RISORIUS_OT_export_points(RisoriusOperator, Operator, ExportHelper):
     """Export the feature points of this mesh to a JSON file for Import Feature Points"""
 
     bl_idname = "risorius.export_points"
@@ -214,13 +214,13 @@ class RISORIUS_OT_export_points(RisoriusOperator, bpy.types.Operator, ExportHelp
     filter_glob: Annotated[str, StringProperty(default="*.json", options={"HIDDEN"})]
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where there are points."""
         return no_points_reason(context.object)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Write them with how sure they are and where they came from."""
-        obj = context.object
+        obj = active_object(context)
         points, kept = stored_points(obj), read_kept(obj).points
         table = {
             "mesh": obj.data.name,

@@ -7,7 +7,6 @@ needs no cleaning up.
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any
 
 import bpy
 
@@ -17,6 +16,8 @@ from ...face.fit.doubt import DOUBTFUL
 from ...mpeg4 import FEATURE_POINTS
 from ...scene.points.kept import KeptPoints, has_points, mesh_counts, read_kept
 from ...scene.points.seen import Visible
+from ..active import active_object
+from ..blender_types import Context
 from .canvas import Canvas, Colour, text_width
 from .props import active_name
 from .view import Viewport
@@ -42,13 +43,11 @@ def confidence_colour(confidence: float) -> Colour:
     return r, g, b, 1.0
 
 
-def shows_points(context: Any) -> bool:
+def shows_points(context: Context) -> bool:
     """Whether the points of the active object are drawn now."""
     obj, viewport = context.object, Viewport.of(context)
     state = context.window_manager.risorius.points
-    if obj is None or viewport is None or obj.mode != "OBJECT" or not state.show or not has_points(obj):
-        return False
-    if not obj.visible_get() or not context.space_data.overlay.show_overlays:
+    if obj is None or viewport is None or not (state.show and has_points(obj) and viewport.draws_over(obj)):
         return False
     try:
         return read_kept(obj).counts == mesh_counts(obj.data)
@@ -56,11 +55,11 @@ def shows_points(context: Any) -> bool:
         return False
 
 
-def drawn_points(context: Any) -> tuple[KeptPoints, dict[str, Floats], Visible] | None:
+def drawn_points(context: Context) -> tuple[KeptPoints, dict[str, Floats], Visible] | None:
     """Points that are drawn now, where in the world they are, and what they are on; None where nothing is drawn."""
     if not shows_points(context):
         return None
-    obj, state = context.object, context.window_manager.risorius.points
+    obj, state = active_object(context), context.window_manager.risorius.points
     kept = read_kept(obj)
     visible = Visible.of(obj, context.evaluated_depsgraph_get())
     places = visible.places(kept)
@@ -69,7 +68,7 @@ def drawn_points(context: Any) -> tuple[KeptPoints, dict[str, Floats], Visible] 
     return kept, places, visible
 
 
-def point_at(context: Any, pixel: tuple[float, float]) -> str | None:
+def point_at(context: Context, pixel: tuple[float, float]) -> str | None:
     """The name of the drawn point under a pixel, a visible one before a hidden one."""
     drawn, viewport = drawn_points(context), Viewport.of(context)
     if drawn is None or viewport is None:
@@ -106,7 +105,7 @@ class Labels:
 
 def _draw() -> None:
     """Draw handler: in pixels of the region."""
-    context = bpy.context
+    context: Context = bpy.context
     drawn, viewport = drawn_points(context), Viewport.of(context)
     if drawn is None or viewport is None or context.region != viewport.region:
         return

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
-
 from ...errors import RisoriusError
 from ...face.fit.doubt import DOUBTFUL
 from ...mpeg4 import FEATURE_POINTS
 from ...scene.points.kept import KeptPoints, Origin, has_points, read_kept
+from ..active import active_object
+from ..blender_classes import Panel, UIList
+from ..blender_types import Context, Object, UILayout
 from ..face.ops import RISORIUS_OT_forget_points, RISORIUS_OT_import_points
-from ..sidebar import Sidebar
+from ..sidebar import MeshSidebar
 from .click import RISORIUS_OT_click_points
 from .drag import RISORIUS_OT_use_drag_tool
 from .look import RISORIUS_OT_look_at_face
@@ -23,7 +22,7 @@ from .ops import (
     RISORIUS_OT_reset_points,
     edited,
 )
-from .props import list_names_soon
+from .props import RISORIUS_PG_point_name, RISORIUS_PG_points, list_names_soon
 
 #: Rows of the list.
 ROWS = 7
@@ -36,7 +35,7 @@ _ICON_OF_ORIGIN = {
 }
 
 
-def kept_of(obj: Any | None) -> KeptPoints | None:
+def kept_of(obj: Object | None) -> KeptPoints | None:
     """The points of the active object, where they can be read."""
     try:
         return read_kept(obj) if obj is not None and has_points(obj) else None
@@ -51,11 +50,18 @@ def confidence_icon(confidence: float) -> str:
     return "STRIP_COLOR_03" if confidence >= DOUBTFUL else "STRIP_COLOR_01"
 
 
-class RISORIUS_UL_points(bpy.types.UIList):
+class RISORIUS_UL_points(UIList):
     """Feature points of the active face: how sure, number and place, where from, look at it, put it back."""
 
     def draw_item(
-        self, context: Any, layout: Any, data: Any, item: Any, icon: int, active_data: Any, active_property: str
+        self,
+        context: Context,
+        layout: UILayout,
+        data: RISORIUS_PG_points,
+        item: RISORIUS_PG_point_name,
+        icon: int,
+        active_data: object,
+        active_property: str,
     ) -> None:
         """One point."""
         kept = kept_of(context.object)
@@ -69,13 +75,13 @@ class RISORIUS_UL_points(bpy.types.UIList):
         back = row.operator(RISORIUS_OT_reset_points.bl_idname, text="", icon="LOOP_BACK", emboss=False)
         back.which, back.point = "ONE", item.name
 
-    def filter_items(self, context: Any, data: Any, property: str) -> tuple[list[int], list[int]]:
+    def filter_items(self, context: Context, data: RISORIUS_PG_points, property: str) -> tuple[list[int], list[int]]:
         """Only points that the mesh has, and of these what is asked for."""
         kept = kept_of(context.object)
         state = context.window_manager.risorius.points
         wanted = self.filter_name.casefold()
         flags = []
-        for item in getattr(data, property):
+        for item in data.names:
             point = kept.points.get(item.name) if kept is not None else None
             shown = point is not None and (not state.doubtful_only or point.confidence < DOUBTFUL)
             words = f"{item.name} {FEATURE_POINTS[item.name].location}".casefold()
@@ -83,21 +89,16 @@ class RISORIUS_UL_points(bpy.types.UIList):
         return flags, []
 
 
-class RISORIUS_PT_points(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_points(MeshSidebar, Panel):
     """Where the features of the active face are."""
 
     bl_label = "Feature Points"
     bl_parent_id = "RISORIUS_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Ways to get points; then what there is and how to correct it."""
-        layout, obj = self.layout, context.object
+        layout, obj = self.layout, active_object(context)
         column = layout.column(align=True)
         column.operator(RISORIUS_OT_find_points.bl_idname, icon="VIEWZOOM")
         column.operator(RISORIUS_OT_click_points.bl_idname, icon="RESTRICT_SELECT_OFF")
@@ -115,7 +116,7 @@ class RISORIUS_PT_points(Sidebar, bpy.types.Panel):
             return
         self._draw_points(layout, context, kept)
 
-    def _draw_points(self, layout: Any, context: Any, kept: KeptPoints) -> None:
+    def _draw_points(self, layout: UILayout, context: Context, kept: KeptPoints) -> None:
         """The list, and how the points are shown and corrected."""
         state = context.window_manager.risorius.points
         if not state.names:

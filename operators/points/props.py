@@ -2,30 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntProperty
 
 from ...mpeg4 import FEATURE_POINTS
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
 from ..blender_types import Entries
+from ..names import fill, fill_soon, shown_lists
+from ..screen import redraw_viewports
 
 
-def redraw(owner: Any = None, context: Any = None) -> None:
-    """Draw all 3D viewports again."""
-    manager = bpy.context.window_manager
-    for window in manager.windows if manager is not None else ():
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
-
-
-class RISORIUS_PG_point_name(bpy.types.PropertyGroup):
+class RISORIUS_PG_point_name(PropertyGroup):
     """One of the standard's feature points, by its name: what the list shows, whichever of them a mesh has."""
 
 
-class RISORIUS_PG_points(bpy.types.PropertyGroup):
+class RISORIUS_PG_points(PropertyGroup):
     """What the overlay and the list of feature points show."""
 
     names: Annotated[
@@ -41,13 +32,16 @@ class RISORIUS_PG_points(bpy.types.PropertyGroup):
             description="Selected point; it is marked on the face",
             default=0,
             min=0,
-            update=redraw,
+            update=redraw_viewports,
         ),
     ]
     show: Annotated[
         bool,
         BoolProperty(
-            name="Show Points", description="Draw the feature points on the face", default=False, update=redraw
+            name="Show Points",
+            description="Draw the feature points on the face",
+            default=False,
+            update=redraw_viewports,
         ),
     ]
     labels: Annotated[
@@ -61,7 +55,7 @@ class RISORIUS_PG_points(bpy.types.PropertyGroup):
                 ("PLACES", "Places", "Show numbers and places in words"),
             ),
             default="NUMBERS",
-            update=redraw,
+            update=redraw_viewports,
         ),
     ]
     mirror: Annotated[
@@ -74,16 +68,18 @@ class RISORIUS_PG_points(bpy.types.PropertyGroup):
     ]
     doubtful_only: Annotated[
         bool,
-        BoolProperty(name="Doubtful Only", description="List and draw only points with low confidence", update=redraw),
+        BoolProperty(
+            name="Doubtful Only", description="List and draw only points with low confidence", update=redraw_viewports
+        ),
     ]
 
 
-def active_name(state: Any) -> str | None:
+def active_name(state: RISORIUS_PG_points) -> str | None:
     """The name of the marked point."""
     return str(state.names[state.active].name) if state.active < len(state.names) else None
 
 
-def mark(state: Any, name: str) -> None:
+def mark(state: RISORIUS_PG_points, name: str) -> None:
     """Mark a point in the list and on the face."""
     list_names()
     index = state.names.find(name)
@@ -92,18 +88,11 @@ def mark(state: Any, name: str) -> None:
 
 
 def list_names() -> None:
-    """Fill the list with the standard's names; after a file was opened the window's properties are empty."""
-    if not hasattr(bpy.types.WindowManager, "risorius"):
-        return
-    for manager in bpy.data.window_managers:
-        names = manager.risorius.points.names
-        if len(names) != len(FEATURE_POINTS):
-            names.clear()
-            for name in FEATURE_POINTS:
-                names.add().name = name
+    """Fill the list with the standard's names."""
+    for shown in shown_lists():
+        fill(shown.points.names, FEATURE_POINTS)
 
 
 def list_names_soon() -> None:
-    """Fill the list after drawing, where nothing may be written. (A load handler makes bpy 4.5 hang at exit.)"""
-    if not bpy.app.background and not bpy.app.timers.is_registered(list_names):
-        bpy.app.timers.register(list_names, first_interval=0.0)
+    """Fill the list after drawing."""
+    fill_soon(list_names)

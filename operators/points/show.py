@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ...face.fit.doubt import DOUBTFUL_SCORE
 from ...scene.points.carried import carry_rest
 from ...scene.points.found import Finding
 from ...scene.points.seen import Visible
+from ..active import active_object
+from ..base import RisoriusOperator
+from ..blender_types import Context
 from .look import turn_to_face
 from .props import list_names
 from .question import ask_whether_right
 
 
-def show_points(context: Any) -> None:
+def show_points(context: Context) -> None:
     """Show the points of the active object, on what its modifiers make of it."""
     list_names()
-    if not Visible.of(context.object, context.evaluated_depsgraph_get()).same_polygons:
-        carry_rest(context.object)
+    if not Visible.of(active_object(context), context.evaluated_depsgraph_get()).same_polygons:
+        carry_rest(active_object(context))
     context.window_manager.risorius.points.show = True
 
 
-def show_finding(operator: Any, context: Any, finding: Finding) -> str:
+def show_finding(operator: RisoriusOperator, context: Context, finding: Finding) -> str:
     """Show the points, ask where they are doubtful, and say what was found."""
     show_points(context)
     for problem in finding.unreadable:
@@ -30,8 +31,8 @@ def show_finding(operator: Any, context: Any, finding: Finding) -> str:
     if finding.kept.is_questioned:
         operator.report(
             {"WARNING"},
-            f"{context.object.name} is unlike most faces (score {finding.score:.2f}, most have 0 to"
+            f"{active_object(context).name} is unlike most faces (score {finding.score:.2f}, most have 0 to"
             f" {DOUBTFUL_SCORE:g}): check its points, or click six points",
         )
     ask_whether_right(context, finding.kept)
-    return finding.summary(context.object.name)
+    return finding.summary(active_object(context).name)

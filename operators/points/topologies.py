@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import StringProperty
 
+from ...scene.blender_types import Event
 from ...scene.points.presets import preset_paths, remove_preset, save_preset
+from ..active import active_object
 from ..annotated import Annotated
 from ..base import RisoriusOperator
+from ..blender_classes import Operator
+from ..blender_types import Context
 from .reasons import no_points_reason
 
 
-class RISORIUS_OT_save_topology(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_save_topology(RisoriusOperator, Operator):
     """Save these points for all meshes with the same polygons. Find Face then recognises such a mesh at once, in \
 any file and shape. Correct the points first"""
 
@@ -30,22 +31,22 @@ any file and shape. Correct the points first"""
     ]
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where there are points."""
         return no_points_reason(context.object)
 
-    def invoke(self, context: Any, event: Any) -> Any:
+    def invoke(self, context: Context, event: Event) -> set[str]:
         """Ask for the name."""
-        self.called = self.called or context.object.data.name
+        self.called = self.called or active_object(context).data.name
         return context.window_manager.invoke_props_dialog(self)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Save them."""
-        path = save_preset(context.object, self.called)
-        return f"Find Face now recognises meshes like {context.object.name} ({path})"
+        path = save_preset(active_object(context), self.called)
+        return f"Find Face now recognises meshes like {active_object(context).name} ({path})"
 
 
-class RISORIUS_OT_remove_topology(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_remove_topology(RisoriusOperator, Operator):
     """Remove this saved topology. Meshes whose points were found with it keep their points"""
 
     bl_idname = "risorius.remove_topology"
@@ -56,15 +57,15 @@ class RISORIUS_OT_remove_topology(RisoriusOperator, bpy.types.Operator):
     file: Annotated[str, StringProperty(name="File", description="File name without extension", options={"SKIP_SAVE"})]
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where some were saved."""
         return None if preset_paths() else "No topology has been saved yet"
 
-    def invoke(self, context: Any, event: Any) -> Any:
+    def invoke(self, context: Context, event: Event) -> set[str]:
         """Ask first: this cannot be undone."""
         return context.window_manager.invoke_confirm(self, event)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Remove it."""
         remove_preset(self.file)
         return f"Removed the known topology {self.file}"

@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
-
 from ...scene.points.presets import preset_names, shipped_names
+from ..blender_classes import Panel
+from ..blender_types import Context
 from ..requirements import has_scipy
-from ..sidebar import Sidebar
+from ..sidebar import MeshSidebar
 from .topologies import RISORIUS_OT_remove_topology, RISORIUS_OT_save_topology
 
 
-class RISORIUS_PT_topologies(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_topologies(MeshSidebar, Panel):
     """Which meshes are known by their polygons."""
 
     bl_label = "Known Topologies"
     bl_parent_id = "RISORIUS_PT_points"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Save this one; those that were saved, and those that Risorius brings."""
         layout = self.layout
         layout.operator(RISORIUS_OT_save_topology.bl_idname, icon="FILE_TICK")

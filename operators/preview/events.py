@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any
 
 import bpy
-from bpy.app.handlers import persistent
 
 from ...scene.fingerprint import uid_of
 from ...scene.live import preview
+from ..active import all_objects
+from ..blender_events import Handler, act_on
+from ..blender_types import Scene
 from ..changes import listen, listen_to_time
 from ..session import begin_session, session
 from . import live
 
 
-def _after_frame(scene: Any, *_: Any) -> None:
+def _after_frame(scene: Scene, *_: object) -> None:
     """Another frame: what is baked plays by itself, what is not is shown as it is laid out."""
     if not live.is_on() or bpy.app.is_job_running("RENDER"):
         return
@@ -27,7 +28,7 @@ def _after_frame(scene: Any, *_: Any) -> None:
             live.play_or_rest(obj, face, scene)
 
 
-def _after_update(*_: Any) -> None:
+def _after_update(*_: object) -> None:
     """Objects came or went: what is left of the preview of one that is gone goes, too."""
     previews, count = session().previews, len(bpy.data.objects)
     if count == previews.object_count or not previews.faces.uids:
@@ -41,44 +42,44 @@ def _after_update(*_: Any) -> None:
         preview.remove_unused()
 
 
-def _before_undo(*_: Any) -> None:
+def _before_undo(*_: object) -> None:
     """Remember who shows a preview."""
-    showing = (uid_of(obj) for obj in bpy.data.objects if obj.type == "MESH" and preview.is_shown(obj))
+    showing = (uid_of(obj) for obj in all_objects() if obj.type == "MESH" and preview.is_shown(obj))
     session().previews.hidden = frozenset(showing)
 
 
-def _before_save(*_: Any) -> None:
+def _before_save(*_: object) -> None:
     """Nothing of a preview goes into a file."""
     _before_undo()
     preview.remove_all()
 
 
-def _after_save(*_: Any) -> None:
+def _after_save(*_: object) -> None:
     """Show again who did before, whether the file could be saved or not."""
-    for obj in bpy.data.objects:
+    for obj in all_objects():
         if uid_of(obj) in session().previews.hidden:
             live.ask(obj)
 
 
-def _after_undo(*_: Any) -> None:
+def _after_undo(*_: object) -> None:
     """The file is another one now: those who showed a preview show what is chosen now, the others themselves."""
     if not live.is_on():
         preview.remove_all()
         return
-    for obj in bpy.data.objects:
+    for obj in all_objects():
         if uid_of(obj) in session().previews.hidden:
             live.ask(obj)
         elif obj.type == "MESH" and preview.is_shown(obj):
             preview.rest([obj])
 
 
-def _after_load(*_: Any) -> None:
+def _after_load(*_: object) -> None:
     """Another file: nothing of the last one is known, and what a crash has left in this one goes."""
     live.end()
     begin_session()
 
 
-def handlers() -> tuple[tuple[Any, Any], ...]:
+def handlers() -> tuple[tuple[list[Handler], Handler], ...]:
     """Blender's events, and what is done then."""
     on = bpy.app.handlers
     return (
@@ -102,8 +103,7 @@ def attach(undo: ExitStack) -> None:
     listen_to_time(live.replay, undo)
     if not bpy.app.background:
         for event, action in handlers():
-            event.append(persistent(action))
-            undo.callback(event.remove, action)
+            act_on(event, action, undo)
 
 
 def _clear_up() -> None:

@@ -7,7 +7,8 @@ dragging, and with the face in balance when the hand rests. `events` clears up w
 from __future__ import annotations
 
 import time
-from typing import Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, TypedDict
 
 import bpy
 import numpy as np
@@ -19,10 +20,15 @@ from ...scene.live import preview
 from ...scene.live.held_faces import REST
 from ...scene.live.live_face import LiveFace
 from ...scene.points.kept import has_points
-from ..active import ready_reason, target_of
+from ..active import all_objects, ready_reason, target_of
+from ..blender_types import Context, Object, Scene, WindowManager
 from ..emotion.performance import performance_of
 from ..emotion.profile import Wanted, wanted_of
+from ..screen import show_status_everywhere
 from ..session import Previews, Shown, session
+
+if TYPE_CHECKING:
+    from ...api import EmotionShares
 
 #: Seconds between two shares of long work.
 PAUSE = 0.01
@@ -30,18 +36,18 @@ PAUSE = 0.01
 
 def is_on() -> bool:
     """Whether the preview is switched on and can be seen."""
-    manager = bpy.context.window_manager
+    manager: WindowManager | None = bpy.context.window_manager
     return not bpy.app.background and manager is not None and bool(manager.risorius.preview.show)
 
 
-def why_not(obj: Any) -> str:
+def why_not(obj: Object) -> str:
     """Why a face does not show what is chosen for it, or nothing."""
     if not is_on() or not has_points(obj):
         return ""
     return ready_reason(obj) or session().previews.trouble
 
 
-def ask(obj: Any) -> None:
+def ask(obj: Object) -> None:
     """Show `obj` as it is chosen now, soon."""
     if not is_on() or getattr(obj, "type", "") != "MESH" or ready_reason(obj) is not None:
         return
@@ -50,25 +56,25 @@ def ask(obj: Any) -> None:
         bpy.app.timers.register(_answer, first_interval=0.0)
 
 
-def refresh_active(context: Any) -> None:
+def refresh_active(context: Context) -> None:
     """Show the active face, where it is one."""
     if context.object is not None:
         ask(context.object)
 
 
-def held(obj: Any) -> LiveFace | None:
+def held(obj: Object) -> LiveFace | None:
     """The face of `obj`, where it is held ready."""
     return session().previews.faces.get(uid_of(obj))
 
 
-def shown(obj: Any) -> Shown | None:
+def shown(obj: Object) -> Shown | None:
     """What the preview shows on `obj`, or showed last."""
     return session().previews.shown.get(uid_of(obj))
 
 
-def object_of(uid: int) -> Any | None:
+def object_of(uid: int) -> Object | None:
     """The object of this number, or None where it is gone."""
-    return next((obj for obj in bpy.data.objects if uid_of(obj) == uid), None)
+    return next((obj for obj in all_objects() if uid_of(obj) == uid), None)
 
 
 def _answer() -> float | None:
@@ -82,7 +88,7 @@ def _answer() -> float | None:
         previews.trouble = str(refusal)
     previews.faces.stop()
     previews.due.clear()
-    _progress(None)
+    show_status_everywhere(None)
     return None
 
 
@@ -92,13 +98,14 @@ def _look(previews: Previews) -> float:
     if look is None:
         return REST
     obj = object_of(look.uid)
-    is_there = obj is not None and ready_reason(obj) is None
-    if is_there:
-        face = previews.faces.current(target_of(obj))
-        if face is None:
-            return PAUSE
-        show(obj, face, exact=look.exact)
-    previews.due.done(look, shown=is_there)
+    if obj is None or ready_reason(obj) is not None:
+        previews.due.done(look, shown=False)
+        return 0.0
+    face = previews.faces.current(target_of(obj))
+    if face is None:
+        return PAUSE
+    show(obj, face, exact=look.exact)
+    previews.due.done(look, shown=True)
     return 0.0
 
 
@@ -106,20 +113,13 @@ def _prepare(previews: Previews) -> float:
     """A share of getting a face ready, with its progress; returns the seconds until the next one."""
     step = previews.faces.prepare()
     if step is None:
-        _progress(None)
+        show_status_everywhere(None)
         return 0.0
-    _progress(f"Preparing the face: {step.text} ({step.fraction:.0%})")
+    show_status_everywhere(f"Preparing the face: {step.text} ({step.fraction:.0%})")
     return PAUSE
 
 
-def _progress(text: str | None) -> None:
-    """Text in the status bars of all windows, or Blender's own again."""
-    manager = bpy.context.window_manager
-    for window in manager.windows if manager is not None else ():
-        window.workspace.status_text_set(text)
-
-
-def show(obj: Any, face: LiveFace, *, exact: bool) -> None:
+def show(obj: Object, face: LiveFace, *, exact: bool) -> None:
     """Show `obj` as it is chosen now: as a sketch, or in balance and, where they are wanted, with the ways there.
 
     Raises
@@ -129,18 +129,27 @@ def show(obj: Any, face: LiveFace, *, exact: bool) -> None:
     wanted, previews = wanted_of(obj), session().previews
     pose = face.pose(wanted.faps, **_asked_of(wanted), exact=exact)
     face.show(target_of(obj), pose.displacement)
-    with_paths = exact and bpy.context.window_manager.risorius.show.paths
+    context: Context = bpy.context
+    with_paths = exact and context.window_manager.risorius.show.paths
     paths = face.paths_to(wanted.faps, **_asked_of(wanted)) if with_paths else None
     previews.shown[face.uid] = Shown(pose.contractions, paths)
     previews.trouble = ""
 
 
-def _asked_of(wanted: Wanted) -> dict[str, Any]:
+class _Besides(TypedDict):
+    """What is asked of a face besides its FAPs; see `LiveFace.pose`."""
+
+    drive: str
+    emotion: EmotionShares
+    contractions: Mapping[str, float]
+
+
+def _asked_of(wanted: Wanted) -> _Besides:
     """What goes along with the FAPs."""
     return {"drive": wanted.drive, "emotion": wanted.profile.weights, "contractions": wanted.contractions}
 
 
-def play(obj: Any, face: LiveFace, scene: Any) -> None:
+def play(obj: Object, face: LiveFace, scene: Scene) -> None:
     """Show `obj` as it is laid out at the scene's frame, out of the apexes of its expressions.
 
     Raises
@@ -160,7 +169,7 @@ def play(obj: Any, face: LiveFace, scene: Any) -> None:
     face.show(target_of(obj), np.sum(apexes, axis=0))
 
 
-def play_or_rest(obj: Any, face: LiveFace, scene: Any) -> None:
+def play_or_rest(obj: Object, face: LiveFace, scene: Scene) -> None:
     """Show `obj` as it is laid out, or as it is where that is baked or cannot be shown."""
     try:
         if shape_keys.has_own(obj) or ready_reason(obj) is not None or not face.is_of(target_of(obj)):
@@ -172,7 +181,7 @@ def play_or_rest(obj: Any, face: LiveFace, scene: Any) -> None:
         rest(obj)
 
 
-def replay(obj: Any) -> None:
+def replay(obj: Object) -> None:
     """Show the scene's frame again: something on the timeline of `obj` has moved."""
     face = held(obj)
     if is_on() and face is not None:
@@ -180,7 +189,7 @@ def replay(obj: Any) -> None:
         play_or_rest(obj, face, bpy.context.scene)
 
 
-def rest(obj: Any) -> None:
+def rest(obj: Object) -> None:
     """Let `obj` show itself."""
     preview.rest([member for member in target_of(obj).objects() if member.type == "MESH"])
 
@@ -188,7 +197,7 @@ def rest(obj: Any) -> None:
 def end() -> None:
     """Take every preview away."""
     if session().previews.faces.is_preparing:
-        _progress(None)
+        show_status_everywhere(None)
     session().previews.faces.stop()
     session().previews = Previews()
     if bpy.app.timers.is_registered(_answer):

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import BoolProperty
 
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
+from ..blender_types import Context
 
 
-def _switched(owner: Any, context: Any) -> None:
+def _switched(owner: RISORIUS_PG_preview, context: Context) -> None:
     """Show the active face, or take every preview away."""
     from . import live
 
@@ -20,7 +19,7 @@ def _switched(owner: Any, context: Any) -> None:
         live.end()
 
 
-class RISORIUS_PG_preview(bpy.types.PropertyGroup):
+class RISORIUS_PG_preview(PropertyGroup):
     """The live preview of a window."""
 
     show: Annotated[

@@ -8,22 +8,24 @@ from __future__ import annotations
 
 import time
 from contextlib import ExitStack
-from typing import Any
 
 import bpy
-from bpy.app.handlers import persistent
 
 from ...errors import RisoriusError
+from ...scene.blender_types import Depsgraph
 from ...scene.fingerprint import uid_of
 from ...scene.live.reading import FaceReader, Reading
 from ..active import reading_reason
+from ..blender_events import act_on
+from ..blender_types import Context, Object
+from ..screen import windows
 from ..session import session
 
 #: Least seconds between two readings, and least multiple of the time that the last one took.
 PACE, SHARE = 0.1, 4.0
 
 
-def shown(obj: Any) -> tuple[Reading | None, str]:
+def shown(obj: Object) -> tuple[Reading | None, str]:
     """The last reading of `obj`, or None, and why there is none; called by a panel while it is drawn."""
     read = session().read
     read.was_drawn = True
@@ -41,7 +43,7 @@ def ask() -> None:
         _soon()
 
 
-def refresh(obj: Any) -> None:
+def refresh(obj: Object) -> None:
     """Read `obj` now."""
     from ... import api
 
@@ -54,8 +56,8 @@ def refresh(obj: Any) -> None:
     try:
         if read.reader is None or not read.reader.is_of(obj):
             read.reader = FaceReader(obj)
-        rule = bpy.context.scene.risorius.read.rule
-        graph = bpy.context.evaluated_depsgraph_get()
+        context: Context = bpy.context
+        rule, graph = context.scene.risorius.read.rule, context.evaluated_depsgraph_get()
         read.reading = read.reader.read(graph, rule=rule, words=api.WORDS)
     except RisoriusError as refusal:
         read.reading, read.trouble = None, str(refusal)
@@ -68,7 +70,7 @@ def forget() -> None:
     ask()
 
 
-def _ids(obj: Any) -> tuple[int, int]:
+def _ids(obj: Object) -> tuple[int, int]:
     """Numbers of an object and its mesh."""
     return uid_of(obj), uid_of(obj.data)
 
@@ -87,58 +89,53 @@ def _wait(now: float) -> float:
 
 def _read() -> None:
     """Timer: read the active face, and have the panels drawn again."""
-    obj, read = bpy.context.object, session().read
+    context: Context = bpy.context
+    obj, read = context.object, session().read
     if not read.is_stale or obj is None or obj.type != "MESH" or bpy.app.is_job_running("RENDER"):
         return
     read.last = time.monotonic()
     refresh(obj)
     read.cost = time.monotonic() - read.last
-    for window in bpy.context.window_manager.windows:
+    for window in windows():
         for area in window.screen.areas:
             for region in area.regions if area.type == "VIEW_3D" else ():
                 if region.type == "UI":
                     region.tag_redraw()
 
 
-def _after_frame(*_: Any) -> None:
+def _after_frame(*_: object) -> None:
     """Another frame."""
     ask()
 
 
-def _after_update(_scene: Any, depsgraph: Any = None) -> None:
+def _after_update(_scene: object, depsgraph: Depsgraph | None) -> None:
     """Something was evaluated anew: the face, perhaps."""
     read = session().read
     if not read.was_drawn or read.ids is None:
         read.is_stale = True
         return
-    graph = depsgraph if depsgraph is not None else bpy.context.evaluated_depsgraph_get()
+    graph: Depsgraph = depsgraph if depsgraph is not None else bpy.context.evaluated_depsgraph_get()
     if any(update.id.original.session_uid in read.ids for update in graph.updates):
         ask()
 
 
-def _after_change_of_file(*_: Any) -> None:
+def _after_change_of_file(*_: object) -> None:
     """All objects are new ones."""
     forget()
 
 
-def _handlers() -> tuple[tuple[Any, Any], ...]:
-    """Blender's events, and what is done then."""
-    on = bpy.app.handlers
-    return (
-        (on.frame_change_post, _after_frame),
-        (on.depsgraph_update_post, _after_update),
-        (on.undo_post, _after_change_of_file),
-        (on.redo_post, _after_change_of_file),
-        (on.load_post, _after_change_of_file),
-    )
-
-
 def attach(undo: ExitStack) -> None:
-    """Listen until undone, and keep nothing then."""
+    """Listen until undone."""
     undo.callback(_clear_up)
-    for event, action in _handlers():
-        event.append(persistent(action))
-        undo.callback(event.remove, action)
+    events = bpy.app.handlers
+    for event, action in (
+        (events.frame_change_post, _after_frame),
+        (events.depsgraph_update_post, _after_update),
+        (events.undo_post, _after_change_of_file),
+        (events.redo_post, _after_change_of_file),
+        (events.load_post, _after_change_of_file),
+    ):
+        act_on(event, action, undo)
 
 
 def _clear_up() -> None:

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bpy
 
 from ...errors import SceneError
 from ...progress import Work
+from ...scene.blender_types import Image
 from ...scene.live import belief_curves
 from ...scene.live.reading import read_animation
 from ...scene.pictures import belief_plot
 from ...scene.pictures.film import refuse_unwritable_output
 from ...scene.pictures.lettering import write_picture
-from ..active import reading_reason
+from ..active import active_object, reading_reason
 from ..base import RisoriusOperator, WorkOperator
+from ..blender_classes import Operator
+from ..blender_types import Context, Object, Scene
 from ..film.ops import absolute
 from ..wheel.picture import COLOURS
 
@@ -23,12 +26,12 @@ if TYPE_CHECKING:
     from ...api import BeliefTrack
 
 
-def plot_name(obj: Any) -> str:
+def plot_name(obj: Object) -> str:
     """What the image of a face's plot is called."""
     return f"{obj.name} Beliefs"
 
 
-class RISORIUS_OT_read_animation(WorkOperator, bpy.types.Operator):
+class RISORIUS_OT_read_animation(WorkOperator["BeliefTrack"], Operator):
     """Read the expression in every frame of the scene, however the face is animated. The beliefs in the six emotions \
 are written as F-curves of custom properties, and as a plot"""
 
@@ -38,17 +41,17 @@ are written as F-curves of custom properties, and as a plot"""
     title = "Reading the animation"
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only on a face with points, whose properties can be animated."""
         reason = reading_reason(context.object)
         if reason is None:
             try:
-                belief_curves.refuse_unwritable_curves(context.object)
+                belief_curves.refuse_unwritable_curves(active_object(context))
             except SceneError as refusal:
                 return str(refusal)
         return reason
 
-    def work(self, context: Any) -> Work[BeliefTrack]:
+    def work(self, context: Context) -> Work[BeliefTrack]:
         """Refuse files that cannot be written, then read."""
         scene = context.scene
         for path in files_of(scene).values():
@@ -56,11 +59,11 @@ are written as F-curves of custom properties, and as a plot"""
         start, end = (scene.frame_start, scene.frame_end)
         if scene.use_preview_range:
             start, end = scene.frame_preview_start, scene.frame_preview_end
-        return read_animation(context.object, scene, start=start, end=end, rule=scene.risorius.read.rule)
+        return read_animation(active_object(context), scene, start=start, end=end, rule=scene.risorius.read.rule)
 
-    def finish(self, context: Any, result: BeliefTrack) -> str:
+    def finish(self, context: Context, result: BeliefTrack) -> str:
         """Files first, which may fail; then the plot and the F-curves."""
-        obj, files = context.object, files_of(context.scene)
+        obj, files = active_object(context), files_of(context.scene)
         rule = "the paper's rule" if context.scene.risorius.read.rule == "paper" else "the robust rule"
         _write_files(files, result, obj.name)
         colours = {str(name): colour for name, colour in COLOURS.items()}
@@ -73,7 +76,7 @@ are written as F-curves of custom properties, and as a plot"""
         return f"Read {len(result.frames)} frames of {obj.name}: F-curves, the image {plot_name(obj)}{wrote}"
 
 
-def files_of(scene: Any) -> dict[str, Path]:
+def files_of(scene: Scene) -> dict[str, Path]:
     """Kind -> file, of those that are to be written."""
     chosen = scene.risorius.read
     kinds = (("stream", ".fap"), ("table", ".csv"), ("plot", ".png"))
@@ -92,7 +95,7 @@ def _write_files(files: dict[str, Path], track: BeliefTrack, name: str) -> None:
         api.write_belief_csv(files["table"], track)
 
 
-class RISORIUS_OT_show_beliefs(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_show_beliefs(RisoriusOperator, Operator):
     """Open the plot of the beliefs in a new window"""
 
     bl_idname = "risorius.show_beliefs"
@@ -101,15 +104,15 @@ class RISORIUS_OT_show_beliefs(RisoriusOperator, bpy.types.Operator):
     needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where there is one."""
         if context.object is None or plot_name(context.object) not in bpy.data.images:
             return "The animation has not been read yet"
         return "Needs a window" if context.window is None else None
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """A new window with an image editor."""
-        image = bpy.data.images[plot_name(context.object)]
+        image: Image = bpy.data.images[plot_name(active_object(context))]
         bpy.ops.wm.window_new()
         area = context.window_manager.windows[-1].screen.areas[0]
         area.ui_type = "IMAGE_EDITOR"
@@ -117,7 +120,7 @@ class RISORIUS_OT_show_beliefs(RisoriusOperator, bpy.types.Operator):
         return f"Showing {image.name}"
 
 
-class RISORIUS_OT_clear_reading(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_clear_reading(RisoriusOperator, Operator):
     """Remove the beliefs: custom properties, their F-curves and the plot"""
 
     bl_idname = "risorius.clear_reading"
@@ -126,17 +129,17 @@ class RISORIUS_OT_clear_reading(RisoriusOperator, bpy.types.Operator):
     needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where there is something to clear."""
         if context.object is None or not belief_curves.has_curves(context.object):
             return "The animation has not been read yet"
         return None
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Remove it."""
-        obj = context.object
+        obj = active_object(context)
         belief_curves.remove_curves(obj)
-        image = bpy.data.images.get(plot_name(obj))
+        image: Image | None = bpy.data.images.get(plot_name(obj))
         if image is not None:
             bpy.data.images.remove(image)
         return f"Cleared the beliefs of {obj.name}"

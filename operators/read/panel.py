@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import textwrap
-from typing import Any
-
-import bpy
 
 from ...scene.live.belief_curves import has_curves
 from ...scene.live.reading import Reading
-from ..sidebar import LINE, Sidebar
+from ..active import active_object
+from ..blender_classes import Panel
+from ..blender_types import Context, UILayout
+from ..sidebar import LINE, MeshSidebar
 from . import live
 from .ops import RISORIUS_OT_clear_reading, RISORIUS_OT_read_animation, RISORIUS_OT_show_beliefs
 
@@ -20,23 +20,18 @@ CLOSEST = 4
 DECISIVE, LEAST = 5, 0.1
 
 
-class RISORIUS_PT_read(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_read(MeshSidebar, Panel):
     """Beliefs that follow the frame, and the button that reads them all."""
 
     bl_label = "Read Expression"
     bl_parent_id = "RISORIUS_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """The rule, what is believed now, then the animation."""
         layout, chosen = self.layout, context.scene.risorius.read
         layout.row().prop(chosen, "rule", expand=True)
-        reading, trouble = live.shown(context.object)
+        reading, trouble = live.shown(active_object(context))
         if reading is not None:
             self._draw_beliefs(layout, reading)
             self._draw_words(layout, reading)
@@ -46,7 +41,7 @@ class RISORIUS_PT_read(Sidebar, bpy.types.Panel):
                 column.label(text=line, icon="BLANK1" if index else "INFO")
         self._draw_animation(layout, context)
 
-    def _draw_beliefs(self, layout: Any, reading: Reading) -> None:
+    def _draw_beliefs(self, layout: UILayout, reading: Reading) -> None:
         """What is most believed, and a bar for each of the six."""
         best = reading.beliefs.best
         row = layout.row()
@@ -62,7 +57,7 @@ class RISORIUS_PT_read(Sidebar, bpy.types.Panel):
             split.label(text=name.capitalize())
             split.progress(factor=belief, type="BAR", text=f"{belief:.3f}")
 
-    def _draw_words(self, layout: Any, reading: Reading) -> None:
+    def _draw_words(self, layout: UILayout, reading: Reading) -> None:
         """The closest words that are none of the six."""
         if reading.is_resting:
             return
@@ -74,7 +69,7 @@ class RISORIUS_PT_read(Sidebar, bpy.types.Panel):
             split.label(text=word)
             split.label(text=f"{belief:.2f}")
 
-    def _draw_animation(self, layout: Any, context: Any) -> None:
+    def _draw_animation(self, layout: UILayout, context: Context) -> None:
         """The button, files that it may write, and what there is."""
         chosen = context.scene.risorius.read
         row = layout.row()
@@ -85,31 +80,26 @@ class RISORIUS_PT_read(Sidebar, bpy.types.Panel):
         column.label(text="Files to write:")
         for name in ("stream", "table", "plot"):
             column.prop(chosen, name)
-        if has_curves(context.object):
+        if has_curves(active_object(context)):
             row = layout.row(align=True)
             row.operator(RISORIUS_OT_show_beliefs.bl_idname, icon="IMAGE_DATA")
             row.operator(RISORIUS_OT_clear_reading.bl_idname, text="", icon="X")
 
 
-class RISORIUS_PT_read_faps(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_read_faps(MeshSidebar, Panel):
     """FAPs beside the ranges of the profile that is most believed, those that decide marked."""
 
     bl_label = "FAPs"
     bl_parent_id = "RISORIUS_PT_read"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """A row per FAP."""
         from ... import api
 
         layout, chosen = self.layout, context.scene.risorius.read
         layout.prop(chosen, "all_faps")
-        reading, _ = live.shown(context.object)
+        reading, _ = live.shown(active_object(context))
         if reading is None:
             return
         profile, decisive = reading.beliefs.best_profile, reading.beliefs.decisive
@@ -127,23 +117,18 @@ class RISORIUS_PT_read_faps(Sidebar, bpy.types.Panel):
             layout.label(text=f"+ supports {reading.beliefs.best}, - opposes it")
 
 
-class RISORIUS_PT_read_features(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_read_features(MeshSidebar, Panel):
     """The fifteen features of the first paper: how distances of feature points have changed."""
 
     bl_label = "Features"
     bl_parent_id = "RISORIUS_PT_read"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """A row per feature."""
         from ... import api
 
-        reading, _ = live.shown(context.object)
+        reading, _ = live.shown(active_object(context))
         column = self.layout.column(align=True)
         if reading is None or reading.features is None:
             column.label(text="" if reading is None else "The face lacks points for features", icon="INFO")
@@ -158,7 +143,7 @@ def _range(low: float, high: float) -> str:
     return f"{(low + high) / 2.0:.0f}±{(high - low) / 2.0:.0f}"
 
 
-def _row(column: Any, name: str, value: str, beside: str) -> None:
+def _row(column: UILayout, name: str, value: str, beside: str) -> None:
     """A name, a value, and what stands beside it."""
     split = column.split(factor=0.57, align=True)
     split.label(text=name)

@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
+from ..blender_types import Context
 from ..film.props import _RELATIVE
 
 
-def _changed(owner: Any, context: Any) -> None:
+def _changed(owner: RISORIUS_PG_read, context: Context) -> None:
     """Read again."""
     from . import live
 
     live.ask()
 
 
-def _file(name: str, what: str) -> Any:
+def _file(name: str, what: str) -> object:
     """A file that may be written."""
     about = f"{what}. Empty: none. A path that begins with // is relative to the .blend file"
     return StringProperty(name=name, description=about, subtype="FILE_PATH", options=_RELATIVE)
 
 
-class RISORIUS_PG_read(bpy.types.PropertyGroup):
+class RISORIUS_PG_read(PropertyGroup):
     """The rule, what is listed, and files."""
 
     rule: Annotated[

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import bpy
 from bpy.props import BoolProperty, EnumProperty
 
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
 
 
-class RISORIUS_PG_shapes(bpy.types.PropertyGroup):
+class RISORIUS_PG_shapes(PropertyGroup):
     """The names that the keys get."""
 
     names: Annotated[

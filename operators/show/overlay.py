@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from typing import Any
 
 import bpy
 import gpu
@@ -16,6 +15,7 @@ from ...arrays import Floats
 from ...scene.live.live_face import LiveFace
 from ...scene.mesh import edge_vertices, rest_vertices, triangle_corners
 from ...scene.points.seen import Visible
+from ..blender_types import Context, Object
 from ..muscles.props import by_hand_of
 from ..points.view import Viewport
 from ..preview import live
@@ -32,12 +32,12 @@ LEVELS = 4
 
 def _draw() -> None:
     """Draw handler: in the world."""
-    context = bpy.context
+    context: Context = bpy.context
     obj, viewport = context.object, Viewport.of(context)
     state = context.window_manager.risorius.show
     if obj is None or obj.type != "MESH" or viewport is None or not (state.muscles or state.strain or state.paths):
         return
-    if obj.mode != "OBJECT" or not obj.visible_get() or not context.space_data.overlay.show_overlays:
+    if not viewport.draws_over(obj):
         return
     visible = Visible.of(obj, context.evaluated_depsgraph_get())
     if not visible.same_polygons:
@@ -60,7 +60,7 @@ def _draw() -> None:
 
 
 @contextmanager
-def _before(obj: Any, viewport: Viewport, share: float) -> Iterator[None]:
+def _before(obj: Object, viewport: Viewport, share: float) -> Iterator[None]:
     """Draw in the object's coordinates, a share of its size nearer to the viewer."""
     with gpu.matrix.push_pop():
         gpu.matrix.translate(Vector(viewport.eye()[1]) * (share * max(obj.dimensions)))
@@ -68,7 +68,7 @@ def _before(obj: Any, viewport: Viewport, share: float) -> Iterator[None]:
         yield
 
 
-def _draw_strain(obj: Any, visible: Visible) -> None:
+def _draw_strain(obj: Object, visible: Visible) -> None:
     """Colours on the skin."""
     shader = gpu.shader.from_builtin("SMOOTH_COLOR")
     rest = rest_vertices(obj.data)
@@ -78,7 +78,7 @@ def _draw_strain(obj: Any, visible: Visible) -> None:
     batch_for_shader(shader, "TRIS", content, indices=triangles).draw(shader)
 
 
-def _draw_muscles(obj: Any, face: LiveFace, shown: Floats) -> None:
+def _draw_muscles(obj: Object, face: LiveFace, shown: Floats) -> None:
     """Lines from the bone to where the skin is now; the more they are contracted, the redder and thicker."""
     shows = live.shown(obj)
     contractions = {**(shows.contractions if shows is not None else {}), **by_hand_of(obj)}
@@ -108,7 +108,8 @@ def _draw_lines(lines: list[tuple[Floats, Floats]], width: float) -> None:
     content = {"pos": np.concatenate(pairs).astype(np.float32), "color": np.concatenate(shades).astype(np.float32)}
     batch = batch_for_shader(shader, "LINES", content)
     shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-    shader.uniform_float("lineWidth", width * bpy.context.preferences.system.ui_scale)
+    context: Context = bpy.context
+    shader.uniform_float("lineWidth", width * context.preferences.system.ui_scale)
     batch.draw(shader)
 
 

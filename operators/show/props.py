@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 from bpy.props import BoolProperty
 
 from ..annotated import Annotated
-from ..points.props import redraw
+from ..blender_classes import PropertyGroup
+from ..blender_types import Context
+from ..screen import redraw_viewports
 
 
-def _switched(owner: Any, context: Any) -> None:
+def _switched(owner: RISORIUS_PG_show, context: Context) -> None:
     """The preview holds the face that muscles and paths are read from."""
     from ..preview import live
 
     live.refresh_active(bpy.context)
-    redraw()
+    redraw_viewports()
 
 
-class RISORIUS_PG_show(bpy.types.PropertyGroup):
+class RISORIUS_PG_show(PropertyGroup):
     """What is drawn over the active face."""
 
     muscles: Annotated[
@@ -36,7 +36,7 @@ class RISORIUS_PG_show(bpy.types.PropertyGroup):
         BoolProperty(
             name="Strain",
             description="Colour the skin by strain: red is stretched by 30 % or more, blue is compressed as much",
-            update=redraw,
+            update=redraw_viewports,
         ),
     ]
     paths: Annotated[

@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Protocol
 
 #: Pixels at a scale of 1: the editor's ruler, a lane at most and at least, between lanes, and how near a grip is meant.
 RULER, LANE, LEAST_LANE, GAP, TOUCH = 23.0, 20.0, 5.0, 2.0, 5.0
+
+
+class Timed(Protocol):
+    """A clip, or whatever else has its times: `start` in frames, the others in seconds."""
+
+    @property
+    def start(self) -> int: ...
+    @property
+    def onset(self) -> float: ...
+    @property
+    def apex(self) -> float: ...
+    @property
+    def offset(self) -> float: ...
 
 
 class Grip(StrEnum):
@@ -37,12 +50,14 @@ class Bar:
         return next((grip for grip, there in ends if abs(x - there) <= touch), Grip.START)
 
 
-def lay_out(clips: Sequence[Any], fps: float, to_x: Callable[[float], float], height: float, scale: float) -> list[Bar]:
+def lay_out(
+    clips: Iterable[Timed], fps: float, to_x: Callable[[float], float], height: float, scale: float
+) -> list[Bar]:
     """The bars of clips, from the ruler down.
 
     Parameters
     ----------
-    clips : with start (frames), onset, apex and offset (seconds). fps : frames per second.
+    fps : frames per second.
     to_x : pixel of a frame. height : of the region, pixels. scale : of the interface.
     """
     spans = []

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import ExitStack
 from functools import lru_cache
-from typing import Any
 
 import bpy.utils.previews
 
 from ...mpeg4 import ARCHETYPES, Archetype, expression
+from ..blender_types import Preview, Previews
 from ..emotion.profile import profile_of
+from ..emotion.props import RISORIUS_PG_emotion
 from ..wheel.picture import COLOURS
 
 #: Of a face that shows nothing.
@@ -18,10 +19,10 @@ GREY = (0.55, 0.55, 0.55)
 #: Pixels of an icon, and clear ones at its rim.
 ICON, RIM = 16, 2
 
-_icons: Any = None
+_icons: Previews | None = None
 
 
-def colour_of(emotion: Any) -> tuple[float, float, float]:
+def colour_of(emotion: RISORIUS_PG_emotion) -> tuple[float, float, float]:
     """The colour of a chosen emotion."""
     if emotion.by == "WORD":
         return _colour_of_word(emotion.word)
@@ -42,7 +43,7 @@ def _mixed(weights: Mapping[Archetype, float]) -> tuple[float, float, float]:
     return r, g, b
 
 
-def icon_of(emotion: Any) -> int:
+def icon_of(emotion: RISORIUS_PG_emotion) -> int:
     """Number of an icon in the colour of the archetype that comes first in a chosen emotion."""
     global _icons
     if _icons is None:
@@ -55,7 +56,7 @@ def icon_of(emotion: Any) -> int:
     return int(_icons[name].icon_id)
 
 
-def _draw_icon(icon: Any, colour: tuple[float, float, float]) -> None:
+def _draw_icon(icon: Preview, colour: tuple[float, float, float]) -> None:
     """A square of one colour."""
     inside = range(RIM, ICON - RIM)
     icon.icon_size = (ICON, ICON)

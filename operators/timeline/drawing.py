@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any
 
 import bpy
 
 from ...scene.bake.timing import scene_fps
+from ...scene.blender_types import Region
+from ..active import active_object
+from ..blender_types import Context
 from ..changes import listen, listen_to_time
 from ..points.canvas import Canvas, Colour, text_width
+from ..screen import redraw_timelines
 from .bars import Bar, lay_out
 from .colours import colour_of
 from .props import active_clip, playing_clips
@@ -22,7 +25,7 @@ OPAQUE, SILENT = 0.85, 0.25
 TEXT, UNSHADED, MARK = (0.05, 0.05, 0.05, 1.0), (0.0, 0.0, 0.0, 0.0), (1.0, 1.0, 1.0, 1.0)
 
 
-def bars_of(context: Any, region: Any) -> list[Bar]:
+def bars_of(context: Context, region: Region) -> list[Bar]:
     """The bars that a timeline editor shows; none where it is no timeline, or the active object has no clips."""
     obj, space = context.object, context.space_data
     if obj is None or space is None or space.type != "DOPESHEET_EDITOR" or space.mode != "TIMELINE":
@@ -37,23 +40,14 @@ def bars_of(context: Any, region: Any) -> list[Bar]:
     )
 
 
-def redraw(obj: Any = None) -> None:
-    """Draw all timeline editors again."""
-    manager = bpy.context.window_manager
-    for window in manager.windows if manager is not None else ():
-        for area in window.screen.areas:
-            if area.type == "DOPESHEET_EDITOR":
-                area.tag_redraw()
-
-
 def _draw() -> None:
     """Draw handler: in pixels of the region."""
-    context = bpy.context
+    context: Context = bpy.context
     region = context.region
     bars = bars_of(context, region) if region is not None else []
     if not bars:
         return
-    timeline, scale = context.object.risorius.timeline, context.preferences.system.ui_scale
+    timeline, scale = active_object(context).risorius.timeline, context.preferences.system.ui_scale
     playing, active = {clip.path_from_id() for clip in playing_clips(timeline)}, active_clip(timeline)
     canvas = Canvas()
     for bar in bars:
@@ -85,5 +79,5 @@ def attach(undo: ExitStack) -> None:
     """Draw until undone, anew whenever clips change."""
     handler = bpy.types.SpaceDopeSheetEditor.draw_handler_add(_draw, (), "WINDOW", "POST_PIXEL")
     undo.callback(bpy.types.SpaceDopeSheetEditor.draw_handler_remove, handler, "WINDOW")
-    listen(redraw, undo)
-    listen_to_time(redraw, undo)
+    listen(redraw_timelines, undo)
+    listen_to_time(redraw_timelines, undo)

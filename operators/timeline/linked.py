@@ -6,10 +6,12 @@ The drive is the face's, not a clip's: one motion is driven in one way.
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any
 
+from ..blender_classes import PropertyGroup
+from ..blender_types import Object
 from ..changes import changed, follow
-from .props import active_clip
+from ..emotion.props import RISORIUS_PG_emotion
+from .props import RISORIUS_PG_clip, active_clip
 
 #: Set first, for it brings its own place and strength; set last, for the others may switch it.
 _FIRST, _LAST, _OF_THE_FACE = "word", "by", ("drive",)
@@ -17,7 +19,7 @@ _FIRST, _LAST, _OF_THE_FACE = "word", "by", ("drive",)
 _copying = False
 
 
-def copy_choice(source: Any, target: Any) -> None:
+def copy_choice(source: RISORIUS_PG_emotion, target: RISORIUS_PG_emotion) -> None:
     """Copy a chosen emotion from one group to another, without following what that changes in turn."""
     global _copying
     if _copying:
@@ -33,21 +35,21 @@ def copy_choice(source: Any, target: Any) -> None:
         _copying = False
 
 
-def show_clip(obj: Any) -> None:
+def show_clip(obj: Object) -> None:
     """Load the selected clip into the Emotion panel, where they are linked, and let the face show it in full."""
     clip = linked_clip(obj)
     if clip is not None and not _copying:
         copy_choice(clip.emotion, obj.risorius.emotion)
-        changed(obj.risorius.emotion, None)
+        changed(obj.risorius.emotion)
 
 
-def linked_clip(obj: Any) -> Any | None:
+def linked_clip(obj: Object) -> RISORIUS_PG_clip | None:
     """The clip that the Emotion panel edits now, or None."""
     timeline = obj.risorius.timeline
     return active_clip(timeline) if timeline.linked else None
 
 
-def _follow(owner: Any) -> None:
+def _follow(owner: PropertyGroup) -> None:
     """What has been chosen in the panel goes to the clip, and the other way round."""
     obj = owner.id_data
     clip = linked_clip(obj) if hasattr(obj, "risorius") else None

@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import EnumProperty
 
 from ...mpeg4.timing import load_timings
-from ..active import face_reason
+from ..active import active_object, face_reason
 from ..annotated import Annotated
 from ..base import RisoriusOperator
+from ..blender_classes import Menu, Operator
+from ..blender_types import Context
 from ..changes import retimed
 from .linked import copy_choice
-from .props import active_clip
+from .props import RISORIUS_PG_clip, active_clip
 from .titles import clip_title
 
 #: What of a clip a timing preset says.
 TIMES = ("onset", "apex", "offset", "peak", "ramp")
 
 
-def copy_clip(source: Any, target: Any) -> None:
+def copy_clip(source: RISORIUS_PG_clip, target: RISORIUS_PG_clip) -> None:
     """Copy a clip, all but its name."""
     copy_choice(source.emotion, target.emotion)
     for name in (*TIMES, "start", "mute", "solo"):
         setattr(target, name, getattr(source, name))
 
 
-def end_of(clip: Any, fps: float) -> int:
+def end_of(clip: RISORIUS_PG_clip, fps: float) -> int:
     """The first frame at which a clip is over."""
     return int(clip.start + round((clip.onset + clip.apex + clip.offset) * fps))
 
@@ -38,7 +37,7 @@ class _ClipOperator(RisoriusOperator):
     needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only where a clip is selected."""
         if context.object is None:
             return "There is no active object"
@@ -47,7 +46,7 @@ class _ClipOperator(RisoriusOperator):
         return None
 
 
-class RISORIUS_OT_add_clip(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_add_clip(RisoriusOperator, Operator):
     """Add the emotion in the Emotion panel as a clip at the current frame"""
 
     bl_idname = "risorius.add_clip"
@@ -56,13 +55,13 @@ class RISORIUS_OT_add_clip(RisoriusOperator, bpy.types.Operator):
     needs_scipy = False
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Only on a face."""
         return face_reason(context.object)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Add it, with the times of the clip that was selected."""
-        obj = context.object
+        obj = active_object(context)
         timeline = obj.risorius.timeline
         before = timeline.active if timeline.clips else None
         clip = timeline.clips.add()
@@ -75,18 +74,18 @@ class RISORIUS_OT_add_clip(RisoriusOperator, bpy.types.Operator):
         return f"Added {clip_title(clip)} at frame {clip.start}"
 
 
-class RISORIUS_OT_duplicate_clip(_ClipOperator, bpy.types.Operator):
+class RISORIUS_OT_duplicate_clip(_ClipOperator, Operator):
     """Add a copy of the selected clip after its end"""
 
     bl_idname = "risorius.duplicate_clip"
     bl_label = "Duplicate Clip"
     bl_options = {"REGISTER", "UNDO"}
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Copy it."""
         from ...scene.bake.timing import scene_fps
 
-        timeline = context.object.risorius.timeline
+        timeline = active_object(context).risorius.timeline
         place = timeline.active
         timeline.clips.add()
         source, clip = timeline.clips[place], timeline.clips[len(timeline.clips) - 1]
@@ -97,16 +96,16 @@ class RISORIUS_OT_duplicate_clip(_ClipOperator, bpy.types.Operator):
         return f"Duplicated {clip_title(timeline.clips[place + 1])}"
 
 
-class RISORIUS_OT_remove_clip(_ClipOperator, bpy.types.Operator):
+class RISORIUS_OT_remove_clip(_ClipOperator, Operator):
     """Remove the selected clip from the timeline. Baked animation stays until the next bake"""
 
     bl_idname = "risorius.remove_clip"
     bl_label = "Remove Clip"
     bl_options = {"REGISTER", "UNDO"}
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Remove it; the one after it, or the last, is selected then."""
-        timeline = context.object.risorius.timeline
+        timeline = active_object(context).risorius.timeline
         place = timeline.active
         title = clip_title(timeline.clips[place])
         timeline.clips.remove(place)
@@ -115,7 +114,7 @@ class RISORIUS_OT_remove_clip(_ClipOperator, bpy.types.Operator):
         return f"Removed {title}"
 
 
-class RISORIUS_OT_move_clip(_ClipOperator, bpy.types.Operator):
+class RISORIUS_OT_move_clip(_ClipOperator, Operator):
     """Move the selected clip up or down in the list. Its time does not change"""
 
     bl_idname = "risorius.move_clip"
@@ -132,9 +131,9 @@ class RISORIUS_OT_move_clip(_ClipOperator, bpy.types.Operator):
         ),
     ]
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Move it, and keep it selected."""
-        timeline = context.object.risorius.timeline
+        timeline = active_object(context).risorius.timeline
         to = timeline.active + (1 if self.direction == "DOWN" else -1)
         if 0 <= to < len(timeline.clips):
             timeline.clips.move(timeline.active, to)
@@ -142,16 +141,16 @@ class RISORIUS_OT_move_clip(_ClipOperator, bpy.types.Operator):
         return f"{clip_title(timeline.clips[timeline.active])} is number {timeline.active + 1}"
 
 
-class RISORIUS_OT_sort_clips(_ClipOperator, bpy.types.Operator):
+class RISORIUS_OT_sort_clips(_ClipOperator, Operator):
     """Sort the clips by start frame"""
 
     bl_idname = "risorius.sort_clips"
     bl_label = "Sort by Start Frame"
     bl_options = {"REGISTER", "UNDO"}
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Sort them; the selected one stays selected."""
-        timeline = context.object.risorius.timeline
+        timeline = active_object(context).risorius.timeline
         for place in range(len(timeline.clips)):
             first = min(range(place, len(timeline.clips)), key=lambda k: timeline.clips[k].start)
             if first != place:
@@ -164,16 +163,16 @@ class RISORIUS_OT_sort_clips(_ClipOperator, bpy.types.Operator):
         return f"Sorted {len(timeline.clips)} clips"
 
 
-class RISORIUS_OT_clear_clips(_ClipOperator, bpy.types.Operator):
+class RISORIUS_OT_clear_clips(_ClipOperator, Operator):
     """Remove all clips from the timeline. Baked animation stays"""
 
     bl_idname = "risorius.clear_clips"
     bl_label = "Remove All Clips"
     bl_options = {"REGISTER", "UNDO"}
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Remove them."""
-        timeline = context.object.risorius.timeline
+        timeline = active_object(context).risorius.timeline
         count = len(timeline.clips)
         timeline.clips.clear()
         timeline.active = 0
@@ -181,7 +180,7 @@ class RISORIUS_OT_clear_clips(_ClipOperator, bpy.types.Operator):
         return f"Removed {count} clip{'s' * (count != 1)}"
 
 
-class RISORIUS_OT_time_clip(_ClipOperator, bpy.types.Operator):
+class RISORIUS_OT_time_clip(_ClipOperator, Operator):
     """Set onset, apex and offset of the selected clip from a preset"""
 
     bl_idname = "risorius.time_clip"
@@ -199,40 +198,40 @@ class RISORIUS_OT_time_clip(_ClipOperator, bpy.types.Operator):
     ]
 
     @classmethod
-    def description(cls, context: Any, properties: Any) -> str:
+    def description(cls, context: Context, properties: RISORIUS_OT_time_clip) -> str:
         """What the preset says of itself, with its times."""
         timing = load_timings()[properties.timing]
         times = f"onset {timing.onset:g} s, apex {timing.apex:g} s, offset {timing.offset:g} s"
         return f"{timing.reason} {times[0].upper()}{times[1:]}, peak {timing.peak:g}"
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Take them."""
-        clip = active_clip(context.object.risorius.timeline)
-        timing = load_timings()[self.timing]
+        timeline, timing = active_object(context).risorius.timeline, load_timings()[self.timing]
+        clip = timeline.clips[timeline.active]
         for name in TIMES:
             setattr(clip, name, getattr(timing, name))
         return f"{clip_title(clip)}: {self.timing}"
 
 
-class RISORIUS_MT_clip_timing(bpy.types.Menu):
+class RISORIUS_MT_clip_timing(Menu):
     """Set the times of the selected clip from a preset"""
 
     bl_idname = "RISORIUS_MT_clip_timing"
     bl_label = "Timing"
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """One entry for each."""
         for name in load_timings():
             self.layout.operator(RISORIUS_OT_time_clip.bl_idname, text=name.capitalize()).timing = name
 
 
-class RISORIUS_MT_clips(bpy.types.Menu):
+class RISORIUS_MT_clips(Menu):
     """More operations on clips"""
 
     bl_idname = "RISORIUS_MT_clips"
     bl_label = "Clips"
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """What concerns all of them."""
         self.layout.operator(RISORIUS_OT_duplicate_clip.bl_idname, icon="DUPLICATE")
         self.layout.operator(RISORIUS_OT_sort_clips.bl_idname, icon="SORTTIME")

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
-
-from ..sidebar import Sidebar
+from ..active import active_object
+from ..blender_classes import Panel, UIList
+from ..blender_types import Context, UILayout
+from ..sidebar import MeshSidebar
 from .colours import icon_of
 from .ops import (
     RISORIUS_MT_clip_timing,
@@ -16,7 +15,7 @@ from .ops import (
     RISORIUS_OT_move_clip,
     RISORIUS_OT_remove_clip,
 )
-from .props import active_clip
+from .props import RISORIUS_PG_clip, RISORIUS_PG_timeline, active_clip
 from .titles import clip_title
 
 #: The menu of preset files, by name: the library knows the timeline, and not the other way round.
@@ -26,11 +25,18 @@ LIBRARY = "RISORIUS_MT_library"
 ROWS = 5
 
 
-class RISORIUS_UL_clips(bpy.types.UIList):
+class RISORIUS_UL_clips(UIList):
     """Clips of the active face: name, first frame, solo, mute."""
 
     def draw_item(
-        self, context: Any, layout: Any, data: Any, item: Any, icon: int, active_data: Any, active_property: str
+        self,
+        context: Context,
+        layout: UILayout,
+        data: RISORIUS_PG_timeline,
+        item: RISORIUS_PG_clip,
+        icon: int,
+        active_data: object,
+        active_property: str,
     ) -> None:
         """One clip."""
         silent = (item.mute and not item.solo) or (not item.solo and any(clip.solo for clip in data.clips))
@@ -43,20 +49,15 @@ class RISORIUS_UL_clips(bpy.types.UIList):
         row.prop(item, "mute", text="", icon="HIDE_ON" if item.mute else "HIDE_OFF", emboss=False)
 
 
-class RISORIUS_PT_timeline(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_timeline(MeshSidebar, Panel):
     """Expressions in time."""
 
     bl_label = "Timeline"
     bl_parent_id = "RISORIUS_PT_main"
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """The list, then what is selected in it."""
-        layout, timeline = self.layout, context.object.risorius.timeline
+        layout, timeline = self.layout, active_object(context).risorius.timeline
         if not timeline.clips:
             column = layout.column(align=True)
             column.scale_y = 1.2
@@ -78,7 +79,7 @@ class RISORIUS_PT_timeline(Sidebar, bpy.types.Panel):
         layout.menu(LIBRARY, icon="PRESET")
         self._draw_clip(layout, timeline)
 
-    def _draw_clip(self, layout: Any, timeline: Any) -> None:
+    def _draw_clip(self, layout: UILayout, timeline: RISORIUS_PG_timeline) -> None:
         """Times of the selected clip."""
         clip = active_clip(timeline)
         if clip is None:
@@ -94,21 +95,16 @@ class RISORIUS_PT_timeline(Sidebar, bpy.types.Panel):
         column.prop(clip, "ramp")
 
 
-class RISORIUS_PT_variation(Sidebar, bpy.types.Panel):
+class RISORIUS_PT_variation(MeshSidebar, Panel):
     """What makes the performance look alive."""
 
     bl_label = "Natural Variation"
     bl_parent_id = "RISORIUS_PT_timeline"
     bl_options = {"DEFAULT_CLOSED"}
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Only for meshes."""
-        return context.object is not None and context.object.type == "MESH"
-
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Each with its seed."""
-        variation = context.object.risorius.timeline.variation
+        variation = active_object(context).risorius.timeline.variation
         column = self.layout.column(align=True)
         for name in ("draws", "blinks", "head", "eyes"):
             row = column.split(factor=0.68, align=True)

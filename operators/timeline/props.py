@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
@@ -18,28 +15,23 @@ from bpy.props import (
 from ...mpeg4.timing import Ramp, load_timings
 from ..annotated import Annotated
 from ..bake.props import seconds
-from ..blender_types import Entries
+from ..blender_classes import PropertyGroup
+from ..blender_types import Context, Entries
 from ..changes import retimed
 from ..emotion.props import RISORIUS_PG_emotion
+from ..screen import redraw_timelines
 
 _TIMING = load_timings()["natural"]
 
 
-def _chosen(owner: Any, context: Any) -> None:
+def _chosen(owner: RISORIUS_PG_timeline, context: Context) -> None:
     """Another clip is the one being edited."""
     from .linked import show_clip
 
     show_clip(owner.id_data)
 
 
-def _renamed(owner: Any, context: Any) -> None:
-    """What is written on its bar is another name; the face stays as it is shown."""
-    from .drawing import redraw
-
-    redraw()
-
-
-class RISORIUS_PG_clip(bpy.types.PropertyGroup):
+class RISORIUS_PG_clip(PropertyGroup):
     """One expression in time."""
 
     name: Annotated[
@@ -47,7 +39,7 @@ class RISORIUS_PG_clip(bpy.types.PropertyGroup):
         StringProperty(
             name="Name",
             description="Name of the clip, its marker and its strip. Empty: the name of the emotion",
-            update=_renamed,
+            update=redraw_timelines,
         ),
     ]
     emotion: Annotated[RISORIUS_PG_emotion, PointerProperty(type=RISORIUS_PG_emotion)]
@@ -97,19 +89,19 @@ class RISORIUS_PG_clip(bpy.types.PropertyGroup):
     ]
 
 
-def _amount(name: str, description: str, most: float, **options: Any) -> Any:
+def _amount(name: str, description: str, most: float, **options: object) -> object:
     """How much of a variation."""
     return FloatProperty(name=name, description=description, default=0.0, min=0.0, max=most, precision=2, **options)
 
 
-def _seed(what: str, **options: Any) -> Any:
+def _seed(what: str, **options: object) -> object:
     """From which number it is drawn."""
     return IntProperty(
         name="Seed", description=f"Random seed: another number draws different {what}", default=1, min=0, **options
     )
 
 
-class RISORIUS_PG_variation(bpy.types.PropertyGroup):
+class RISORIUS_PG_variation(PropertyGroup):
     """What makes the performance look alive; nothing of it unless it is asked for."""
 
     draws: Annotated[
@@ -154,7 +146,7 @@ class RISORIUS_PG_variation(bpy.types.PropertyGroup):
     eyes_seed: Annotated[int, _seed("looks")]
 
 
-class RISORIUS_PG_timeline(bpy.types.PropertyGroup):
+class RISORIUS_PG_timeline(PropertyGroup):
     """The clips of one face, and which of them is being edited."""
 
     clips: Annotated[
@@ -180,12 +172,12 @@ class RISORIUS_PG_timeline(bpy.types.PropertyGroup):
     variation: Annotated[RISORIUS_PG_variation, PointerProperty(type=RISORIUS_PG_variation)]
 
 
-def active_clip(timeline: Any) -> Any | None:
+def active_clip(timeline: RISORIUS_PG_timeline) -> RISORIUS_PG_clip | None:
     """The clip that is being edited, or None."""
     return timeline.clips[timeline.active] if timeline.active < len(timeline.clips) else None
 
 
-def playing_clips(timeline: Any) -> list[Any]:
+def playing_clips(timeline: RISORIUS_PG_timeline) -> list[RISORIUS_PG_clip]:
     """The clips that play: those that are solo where any is, else those that are not muted."""
     solo = [clip for clip in timeline.clips if clip.solo]
     return solo or [clip for clip in timeline.clips if not clip.mute]

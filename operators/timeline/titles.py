@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ..emotion.profile import title_of
+from .props import RISORIUS_PG_clip
 
 
-def clip_title(clip: Any) -> str:
+def clip_title(clip: RISORIUS_PG_clip) -> str:
     """The name the user gave, or the emotion's."""
     return str(clip.name).strip() or title_of(clip.emotion)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import bpy
-from bl_operators.presets import AddPresetBase
-
+from ..blender_classes import AddPresetBase, Operator
 from .props import FIGURES
 
 FOLDER = "risorius/tissue"
 
 
-class RISORIUS_OT_add_tissue_preset(AddPresetBase, bpy.types.Operator):
+class RISORIUS_OT_add_tissue_preset(AddPresetBase, Operator):
     """Save these values as a preset, or remove the selected preset"""
 
     bl_idname = "risorius.add_tissue_preset"

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import bpy
 from bpy.props import EnumProperty, FloatProperty
 
 from ...resources import PRESETS
 from ...tables import read_toml
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
+from ..blender_types import Context, Object
 from ..changes import changed
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ _ITEMS = [
 ]
 
 
-def _chosen(owner: Any, context: Any) -> None:
+def _chosen(owner: RISORIUS_PG_tissue, context: Context) -> None:
     """A bundled tissue brings its figures."""
     global _loading
     if owner.kind != OWN:
@@ -41,13 +42,13 @@ def _chosen(owner: Any, context: Any) -> None:
     changed(owner, context)
 
 
-def _edited(owner: Any, context: Any) -> None:
+def _edited(owner: RISORIUS_PG_tissue, context: Context) -> None:
     """A figure that was changed makes the tissue one's own."""
     if not _loading and owner.kind != OWN:
         owner.kind = OWN
 
 
-def _figure(name: str, title: str, description: str, *, least: float, most: float, precision: int = 2) -> Any:
+def _figure(name: str, title: str, description: str, *, least: float, most: float, precision: int = 2) -> object:
     """A figure of the tissue, in SI units."""
     return FloatProperty(
         name=title,
@@ -60,7 +61,7 @@ def _figure(name: str, title: str, description: str, *, least: float, most: floa
     )
 
 
-class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
+class RISORIUS_PG_tissue(PropertyGroup):
     """Tissue of one face. It shapes how the skin moves (Bake Motion); an expression that is held stays the same."""
 
     kind: Annotated[
@@ -185,12 +186,25 @@ class RISORIUS_PG_tissue(bpy.types.PropertyGroup):
 FIGURES = tuple(name for name in RISORIUS_PG_tissue.__annotations__ if name != "kind")
 
 
-def tissue_of(obj: Any) -> str | Tissue:
+def tissue_of(obj: Object) -> str | Tissue:
     """What the skin of `obj` is made of: a bundled tissue's name, or figures."""
     from ...physics.tissue import Tissue
 
     chosen = obj.risorius.tissue
     if chosen.kind != OWN:
         return str(chosen.kind)
-    figures: dict[str, Any] = {name: float(getattr(chosen, name)) for name in FIGURES}
-    return Tissue(**figures)
+    return Tissue(
+        youngs_modulus=chosen.youngs_modulus,
+        thickness=chosen.thickness,
+        depth=chosen.depth,
+        density=chosen.density,
+        stiffening=chosen.stiffening,
+        threshold=chosen.threshold,
+        bending_length=chosen.bending_length,
+        anchor_length=chosen.anchor_length,
+        damping_ratio=chosen.damping_ratio,
+        loose_depth=chosen.loose_depth,
+        loose_damping_ratio=chosen.loose_damping_ratio,
+        jaw_frequency=chosen.jaw_frequency,
+        jaw_damping_ratio=chosen.jaw_damping_ratio,
+    )

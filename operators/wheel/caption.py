@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from ..emotion.props import RISORIUS_PG_emotion
 from .choice import Choice
 from .geometry import Pixel, Wheel
 from .places import CENTRE, between, nearest_word, places
@@ -34,7 +33,7 @@ def caption_at(wheel: Wheel, pixel: Pixel, reach: float, label: str | None) -> t
     return _sentence(between(angle)), _figures(angle, activation)
 
 
-def title_of(emotion: Any) -> str:
+def title_of(emotion: RISORIUS_PG_emotion) -> str:
     """What is chosen, in one line."""
     return "   ".join(caption(Choice.of(emotion)))
 

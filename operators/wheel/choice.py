@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
-from ..emotion.props import DEFAULT_VARIANT, own_activation
+from ..emotion.props import DEFAULT_VARIANT, RISORIUS_PG_emotion, own_activation
 from .geometry import Pixel, Wheel
 from .places import CENTRE, nearest_word
 
@@ -27,11 +26,11 @@ class Choice:
     activation: float
 
     @classmethod
-    def of(cls, emotion: Any) -> Choice:
+    def of(cls, emotion: RISORIUS_PG_emotion) -> Choice:
         """What is chosen now."""
         return cls(emotion.by, emotion.word, emotion.variant, emotion.angle, emotion.activation)
 
-    def write(self, emotion: Any) -> None:
+    def write(self, emotion: RISORIUS_PG_emotion) -> None:
         """Choose it; nothing is told to anyone where it is chosen already."""
         for name in ("word", "variant", "angle", "activation", "by"):  # a new word sets all that follows
             if getattr(emotion, name) != getattr(self, name):
@@ -64,20 +63,20 @@ class Hand:
         return Hand((x, y), pointer)
 
 
-def choose_word(emotion: Any, word: str) -> None:
+def choose_word(emotion: RISORIUS_PG_emotion, word: str) -> None:
     """Choose a word with its own activation; what is chosen already stays as it is, variant and all."""
     now = Choice.of(emotion)
     if (now.by, now.word) != ("WORD", word) or abs(now.activation - own_activation(word)) > 1e-4:
         emotion.word = word
 
 
-def choose_point(emotion: Any, angle: float, activation: float) -> None:
+def choose_point(emotion: RISORIUS_PG_emotion, angle: float, activation: float) -> None:
     """Choose a point of the wheel; angle in degrees."""
     now = Choice.of(emotion)
     Choice("WHEEL", now.word, DEFAULT_VARIANT, math.radians(angle), activation).write(emotion)
 
 
-def choose_pixel(emotion: Any, wheel: Wheel, pixel: Pixel, *, reach: float) -> None:
+def choose_pixel(emotion: RISORIUS_PG_emotion, wheel: Wheel, pixel: Pixel, *, reach: float) -> None:
     """Choose what is under a pixel: the word within `reach` pixels, else the point of the wheel."""
     word = nearest_word(wheel, pixel, reach) if reach > 0.0 else None
     if word is not None:
@@ -86,12 +85,12 @@ def choose_pixel(emotion: Any, wheel: Wheel, pixel: Pixel, *, reach: float) -> N
         choose_point(emotion, *wheel.point(pixel))
 
 
-def turn(emotion: Any, degrees: float) -> None:
+def turn(emotion: RISORIUS_PG_emotion, degrees: float) -> None:
     """Turn the point around the centre."""
     now = Choice.of(emotion)
     choose_point(emotion, (now.degrees() + degrees) % 360.0, now.activation)
 
 
-def strengthen(emotion: Any, by: float) -> None:
+def strengthen(emotion: RISORIUS_PG_emotion, by: float) -> None:
     """Move the point outwards; a word stays the word."""
     emotion.activation = min(max(emotion.activation + by, 1.0), 7.0)

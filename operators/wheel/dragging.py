@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import bpy
 
+from ...scene.blender_types import Event
+from ..active import active_object
+from ..blender_types import Context, Object
+from ..emotion.props import RISORIUS_PG_emotion
+from ..screen import redraw_viewports, show_status
 from .caption import title_of
 from .choice import REACH, Choice, Hand, choose_pixel
 from .geometry import Pixel, Wheel
-from .view import redraw
 
 #: Pixels at a scale of 1 that a hand moves while it clicks on a label.
 STILL = 4.0
@@ -23,12 +27,12 @@ class Dragging:
     chooses_on: ClassVar[str] = "RELEASE"
     chooses_by: ClassVar[str] = "Release"
 
-    def _take_hold(self, context: Any, wheel: Wheel, hand: Hand, scale: float) -> None:
+    def _take_hold(self, context: Context, wheel: Wheel, hand: Hand, scale: float) -> None:
         """Remember what there is, to be able to put it back."""
-        self._wheel, self._hand, self._scale, self._obj = wheel, hand, scale, context.object.name
-        self._before, self._clicked = Choice.of(context.object.risorius.emotion), False
+        self._wheel, self._hand, self._scale, self._obj = wheel, hand, scale, active_object(context).name
+        self._before, self._clicked = Choice.of(active_object(context).risorius.emotion), False
 
-    def modal(self, context: Any, event: Any) -> set[str]:
+    def modal(self, context: Context, event: Event) -> set[str]:
         """Follow the pointer; the left button keeps, Esc or the right button to have it back."""
         if self._obj not in bpy.data.objects:
             self._let_go(context)
@@ -50,30 +54,30 @@ class Dragging:
             return {"CANCELLED"} if Choice.of(self._emotion()) == self._before else {"FINISHED"}
         return {"RUNNING_MODAL"}
 
-    def _emotion(self) -> Any:
+    def _emotion(self) -> RISORIUS_PG_emotion:
         """The emotion that is being chosen."""
-        return bpy.data.objects[self._obj].risorius.emotion
+        obj: Object = bpy.data.objects[self._obj]
+        return obj.risorius.emotion
 
-    def _choose(self, event: Any) -> None:
+    def _choose(self, event: Event) -> None:
         """Choose what is under the hand."""
         reach = 0.0 if event.ctrl else REACH * self._scale
         choose_pixel(self._emotion(), self._wheel, self._hand.at, reach=reach)
 
-    def _show(self, context: Any) -> None:
+    def _show(self, context: Context) -> None:
         """Say in the status bar what is chosen and which keys there are."""
-        context.workspace.status_text_set(f"{title_of(self._emotion())}   {self._help()}")
-        redraw()
+        show_status(context, f"{title_of(self._emotion())}   {self._help()}")
+        redraw_viewports()
 
     def _help(self) -> str:
         """Keys."""
         return f"Ctrl: No Snapping to Words   Shift: Fine   {self.chooses_by}: Choose   Esc, Right Mouse: Cancel"
 
-    def _let_go(self, context: Any) -> None:
+    def _let_go(self, context: Context) -> None:
         """Give the status bar back."""
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
-        redraw()
+        show_status(context, None)
+        redraw_viewports()
 
-    def cancel(self, context: Any) -> None:
+    def cancel(self, context: Context) -> None:
         """Blender ends the operator itself."""
         self._let_go(context)

@@ -5,11 +5,13 @@ The gizmo only shows and answers; clicks and keys over it run the operators of t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import ExitStack
-from typing import Any, ClassVar
+from typing import ClassVar
 
-import bpy
-
+from ..active import active_object
+from ..blender_classes import Gizmo, GizmoGroup
+from ..blender_types import Context, KeyConfig, KeyMap
 from ..gizmo_keys import forget_keymap
 from .caption import caption, caption_at
 from .choice import REACH, Choice
@@ -23,7 +25,7 @@ KEYMAP = "Risorius Emotion Wheel"
 STEPS = {"": (2.0, 0.1), "shift": (0.5, 0.02), "ctrl": (15.0, 0.5)}
 
 
-class RISORIUS_GT_wheel(bpy.types.Gizmo):
+class RISORIUS_GT_wheel(Gizmo):
     """The emotion wheel"""
 
     bl_idname = "RISORIUS_GT_wheel"
@@ -35,29 +37,30 @@ class RISORIUS_GT_wheel(bpy.types.Gizmo):
         """It is there while others are in use, and leaves the pointer alone."""
         self.use_draw_modal = True
 
-    def test_select(self, context: Any, location: Any) -> int:
+    def test_select(self, context: Context, location: Sequence[int]) -> int:
         """Whether the pointer is over the wheel; remembers where."""
         wheel, pixel = wheel_of(context), (float(location[0]), float(location[1]))
         if wheel is None or not wheel.contains(pixel, RIM * scale_of(context)):
             return -1
         if pixel != self._pixel:
-            self._pixel, self._then = pixel, Choice.of(context.object.risorius.emotion)
-            context.region.tag_redraw()
+            self._pixel, self._then = pixel, Choice.of(active_object(context).risorius.emotion)
+            if context.region is not None:
+                context.region.tag_redraw()
         return 0
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Draw it in pixels of the region."""
         wheel = wheel_of(context)
         if wheel is None:
             return
-        now, scale = Choice.of(context.object.risorius.emotion), scale_of(context)
+        now, scale = Choice.of(active_object(context).risorius.emotion), scale_of(context)
         words = caption(now)
         if self.is_highlight and self._pixel is not None and now == self._then:  # else it is being dragged
             words = caption_at(wheel, self._pixel, REACH * scale, label_at(wheel, self._pixel, scale))
         draw_wheel(wheel, now, words, scale, context.preferences.themes[0])
 
 
-class RISORIUS_GGT_wheel(bpy.types.GizmoGroup):
+class RISORIUS_GGT_wheel(GizmoGroup):
     """The emotion wheel in the corner of a viewport"""
 
     bl_idname = "RISORIUS_GGT_wheel"
@@ -67,12 +70,12 @@ class RISORIUS_GGT_wheel(bpy.types.GizmoGroup):
     bl_options: ClassVar = {"PERSISTENT", "SCALE"}
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Where the wheel is switched on and there is a face."""
         return reason_hidden(context) is None
 
     @classmethod
-    def setup_keymap(cls, keyconfig: Any) -> Any:
+    def setup_keymap(cls, keyconfig: KeyConfig) -> KeyMap:
         """Keys while the pointer is over the wheel."""
         keymap = keyconfig.keymaps.new(name=KEYMAP, space_type="VIEW_3D", region_type="WINDOW")
         items = keymap.keymap_items
@@ -87,7 +90,7 @@ class RISORIUS_GGT_wheel(bpy.types.GizmoGroup):
                 nudge.properties.strengthen = sign * activation
         return keymap
 
-    def setup(self, context: Any) -> None:
+    def setup(self, context: Context) -> None:
         """Its one gizmo."""
         self.gizmos.new(RISORIUS_GT_wheel.bl_idname)
 

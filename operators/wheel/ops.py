@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import FloatProperty
 
+from ...scene.blender_types import Event
+from ..active import active_object
 from ..annotated import Annotated
 from ..base import RisoriusOperator
+from ..blender_classes import Operator
+from ..blender_types import Context
+from ..screen import redraw_viewports
 from .caption import title_of
 from .choice import Hand, choose_word, strengthen, turn
 from .dragging import Dragging
-from .view import label_at, reason_hidden, redraw, scale_of, wheel_of
+from .view import label_at, reason_hidden, scale_of, wheel_of
 
 
-class RISORIUS_OT_drag_emotion(Dragging, bpy.types.Operator):
+class RISORIUS_OT_drag_emotion(Dragging, Operator):
     """Choose an emotion by clicking or dragging on the emotion wheel"""
 
     bl_idname = "risorius.drag_emotion"
@@ -23,14 +25,14 @@ class RISORIUS_OT_drag_emotion(Dragging, bpy.types.Operator):
     bl_options = {"UNDO", "INTERNAL", "BLOCKING"}
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Where there is a wheel."""
         reason = reason_hidden(context)
         if reason is not None:
             cls.poll_message_set(reason)
         return reason is None
 
-    def invoke(self, context: Any, event: Any) -> set[str]:
+    def invoke(self, context: Context, event: Event) -> set[str]:
         """Take the point to the pointer; a click beside the wheel is for others."""
         wheel, pixel = wheel_of(context), (float(event.mouse_region_x), float(event.mouse_region_y))
         if wheel is None:
@@ -47,7 +49,7 @@ class RISORIUS_OT_drag_emotion(Dragging, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
 
-class RISORIUS_OT_nudge_emotion(RisoriusOperator, bpy.types.Operator):
+class RISORIUS_OT_nudge_emotion(RisoriusOperator, Operator):
     """Move the point of the emotion wheel a little"""
 
     bl_idname = "risorius.nudge_emotion"
@@ -76,16 +78,16 @@ class RISORIUS_OT_nudge_emotion(RisoriusOperator, bpy.types.Operator):
     ]
 
     @classmethod
-    def refusal(cls, context: Any) -> str | None:
+    def refusal(cls, context: Context) -> str | None:
         """Where there is a wheel."""
         return reason_hidden(context)
 
-    def run(self, context: Any) -> str:
+    def run(self, context: Context) -> str:
         """Turn it, strengthen it."""
-        emotion = context.object.risorius.emotion
+        emotion = active_object(context).risorius.emotion
         if self.turn:
             turn(emotion, self.turn)
         if self.strengthen:
             strengthen(emotion, self.strengthen)
-        redraw()
+        redraw_viewports()
         return title_of(emotion)

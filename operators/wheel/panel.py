@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from ..blender_classes import Panel
+from ..blender_types import Context
 
-import bpy
 
-
-class RISORIUS_PT_wheel(bpy.types.Panel):
+class RISORIUS_PT_wheel(Panel):
     """Corner and size of the emotion wheel"""
 
     bl_label = "Emotion Wheel"
@@ -16,11 +15,11 @@ class RISORIUS_PT_wheel(bpy.types.Panel):
     bl_options = {"INSTANCED"}
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Only for meshes."""
         return context.object is not None and context.object.type == "MESH"
 
-    def draw(self, context: Any) -> None:
+    def draw(self, context: Context) -> None:
         """Place, then size."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False

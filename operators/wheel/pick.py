@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import bpy
 
+from ...scene.blender_types import Event
+from ..active import active_object
+from ..blender_classes import Menu, Operator
+from ..blender_types import Context, Object
 from .caption import caption
 from .choice import Choice, Hand
 from .dragging import Dragging
@@ -21,13 +25,13 @@ class _Shown(NamedTuple):
     wheel: Wheel
     region: int
     obj: str
-    handle: Any
+    handle: object
 
 
 _shown: _Shown | None = None
 
 
-class RISORIUS_OT_pick_emotion(Dragging, bpy.types.Operator):
+class RISORIUS_OT_pick_emotion(Dragging, Operator):
     """Show the emotion wheel at the pointer. Move to change the face, click to choose"""
 
     bl_idname = "risorius.pick_emotion"
@@ -38,31 +42,35 @@ class RISORIUS_OT_pick_emotion(Dragging, bpy.types.Operator):
     chooses_by: ClassVar[str] = "Click"
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, context: Context) -> bool:
         """Where there is a face."""
         reason = no_face_reason(context)
         if reason is not None:
             cls.poll_message_set(reason)
         return reason is None
 
-    def invoke(self, context: Any, event: Any) -> set[str]:
+    def invoke(self, context: Context, event: Event) -> set[str]:
         """Show the wheel so that what is chosen lies under the pointer."""
-        if context.region is None or context.region.type != "WINDOW":
+        area, region, space = context.area, context.region, context.space_data
+        if area is None or space is None or region is None or region.type != "WINDOW":
             self.report({"ERROR"}, "The pointer is not over a 3D viewport: move it there and search again")
             return {"CANCELLED"}
-        now, scale = Choice.of(context.object.risorius.emotion), scale_of(context)
+        now, scale = Choice.of(active_object(context).risorius.emotion), scale_of(context)
         pointer = (float(event.mouse_region_x), float(event.mouse_region_y))
-        free, radius = free_of(context, Corner.BOTTOM_LEFT, scale), context.window_manager.risorius.wheel.size / 2.0
+        free, radius = (
+            free_of(area, region, space, Corner.BOTTOM_LEFT, scale),
+            context.window_manager.risorius.wheel.size / 2.0,
+        )
         away = 0.0 if now.is_centre() else now.activation
         margin = (MARGIN + FOOT) * scale
         wheel = under(free, pointer, now.degrees(), away, radius=radius * scale, margin=margin)
         self._take_hold(context, wheel, Hand(now.pixel(wheel), pointer), scale)
-        _show(wheel, context.region.as_pointer(), self._obj)
+        _show(wheel, region.as_pointer(), self._obj)
         context.window_manager.modal_handler_add(self)
         self._show(context)
         return {"RUNNING_MODAL"}
 
-    def _let_go(self, context: Any) -> None:
+    def _let_go(self, context: Context) -> None:
         """Take the wheel away."""
         _hide()
         super()._let_go(context)
@@ -77,14 +85,16 @@ def _show(wheel: Wheel, region: int, obj: str) -> None:
 
 def _draw() -> None:
     """Draw handler: in pixels of the region."""
-    context = bpy.context
-    if _shown is None or context.region.as_pointer() != _shown.region or _shown.obj not in bpy.data.objects:
+    context: Context = bpy.context
+    region = context.region
+    if _shown is None or region is None or region.as_pointer() != _shown.region or _shown.obj not in bpy.data.objects:
         return
-    now = Choice.of(bpy.data.objects[_shown.obj].risorius.emotion)
+    obj: Object = bpy.data.objects[_shown.obj]
+    now = Choice.of(obj.risorius.emotion)
     draw_wheel(_shown.wheel, now, caption(now), scale_of(context), context.preferences.themes[0])
 
 
-def _menu(menu: Any, context: Any) -> None:
+def _menu(menu: Menu, context: Context) -> None:
     """In the Object menu, where Blender's search finds it."""
     if no_face_reason(context) is None:
         menu.layout.operator_context = "INVOKE_REGION_WIN"

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ...mpeg4.emotions.archetypes import BASE_WORDS
 from ...mpeg4.emotions.profile import ARCHETYPES, Archetype
 from ...mpeg4.emotions.wheel import position, turn
+from ..blender_types import Theme
 from ..points.canvas import Canvas, Colour, text_width
 from .choice import Choice
 from .geometry import Wheel
@@ -30,7 +31,7 @@ STRENGTH, WEDGE = 0.5, 3
 CORNERS, DOT, LARGE_DOT, POINT, LINE = 96, 2.2, 4.5, 6.5, 1.0
 
 
-class Theme(NamedTuple):
+class Palette(NamedTuple):
     """Colours of the user's theme for menus: their ground, lines on it, their text."""
 
     back: Colour
@@ -38,11 +39,12 @@ class Theme(NamedTuple):
     text: Colour
 
 
-def theme_of(theme: Any) -> Theme:
+def palette_of(theme: Theme) -> Palette:
     """The colours of a Blender theme."""
-    back = tuple(theme.user_interface.wcol_menu_back.inner)
-    text = tuple(theme.user_interface.wcol_menu_item.text)[:3]
-    return Theme((*back[:3], max(back[3], 0.85)), (*text, 0.22), (*text, 1.0))
+    red, green, blue, opacity = theme.user_interface.wcol_menu_back.inner
+    text_red, text_green, text_blue = theme.user_interface.wcol_menu_item.text[:3]
+    text = (text_red, text_green, text_blue)
+    return Palette((red, green, blue, max(opacity, 0.85)), (*text, 0.22), (*text, 1.0))
 
 
 def colour_at(angle: float) -> tuple[float, float, float]:
@@ -54,9 +56,9 @@ def colour_at(angle: float) -> tuple[float, float, float]:
     return r, g, b
 
 
-def draw_wheel(wheel: Wheel, choice: Choice, words: tuple[str, str], scale: float, theme: Any) -> None:
+def draw_wheel(wheel: Wheel, choice: Choice, words: tuple[str, str], scale: float, theme: Theme) -> None:
     """Draw it over a viewport, with the point that is chosen and a caption of two lines."""
-    colours = theme_of(theme)
+    colours = palette_of(theme)
     _still(wheel, colours, scale).draw()
     canvas = Canvas()
     _draw_point(canvas, wheel, choice, scale)
@@ -65,7 +67,7 @@ def draw_wheel(wheel: Wheel, choice: Choice, words: tuple[str, str], scale: floa
 
 
 @lru_cache(maxsize=8)
-def _still(wheel: Wheel, theme: Theme, scale: float) -> Canvas:
+def _still(wheel: Wheel, theme: Palette, scale: float) -> Canvas:
     """Ground, colours, rings, numbers and words."""
     canvas, rim = Canvas(), wheel.radius + RIM * scale
     canvas.ring(wheel.centre, 0.0, rim, theme.back, corners=CORNERS)
@@ -94,7 +96,7 @@ def _draw_colours(canvas: Canvas, wheel: Wheel) -> None:
         )
 
 
-def _draw_words(canvas: Canvas, wheel: Wheel, theme: Theme, scale: float) -> None:
+def _draw_words(canvas: Canvas, wheel: Wheel, theme: Palette, scale: float) -> None:
     """A dot for each word, and the labels that have room."""
     for word, spot in spots(wheel).items():
         if places()[word].is_archetype:
@@ -115,7 +117,7 @@ def _draw_point(canvas: Canvas, wheel: Wheel, choice: Choice, scale: float) -> N
         canvas.ring(spot, 0.0, radius * scale, shade, corners=32)
 
 
-def _draw_caption(canvas: Canvas, wheel: Wheel, words: tuple[str, str], theme: Theme, scale: float) -> None:
+def _draw_caption(canvas: Canvas, wheel: Wheel, words: tuple[str, str], theme: Palette, scale: float) -> None:
     """Two lines in the middle below the wheel, on a ground of their own."""
     sizes = (LARGE_LETTERS * scale, LETTERS * scale)
     widths = [text_width(line, size) for line, size in zip(words, sizes, strict=True)]

@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty
 
 from ..annotated import Annotated
+from ..blender_classes import PropertyGroup
+from ..screen import redraw_viewports
 from .geometry import Corner
-from .view import redraw
 
 
-def _shown_otherwise(owner: Any, context: Any) -> None:
-    """Draw the viewports anew."""
-    redraw()
-
-
-class RISORIUS_PG_wheel(bpy.types.PropertyGroup):
+class RISORIUS_PG_wheel(PropertyGroup):
     """The emotion wheel in the viewport."""
 
     show: Annotated[
@@ -27,7 +20,7 @@ class RISORIUS_PG_wheel(bpy.types.PropertyGroup):
             description="Show the emotion wheel in the viewport. Click or drag in it to choose an emotion. The "
             "direction is the kind of emotion, the distance from the centre its activation",
             default=True,
-            update=_shown_otherwise,
+            update=redraw_viewports,
         ),
     ]
     corner: Annotated[
@@ -37,7 +30,7 @@ class RISORIUS_PG_wheel(bpy.types.PropertyGroup):
             description="Corner of the viewport for the wheel",
             items=tuple((corner.value, corner.value.replace("_", " ").title(), "") for corner in Corner),
             default=Corner.BOTTOM_LEFT.value,
-            update=_shown_otherwise,
+            update=redraw_viewports,
         ),
     ]
     size: Annotated[
@@ -49,6 +42,6 @@ class RISORIUS_PG_wheel(bpy.types.PropertyGroup):
             min=120,
             max=800,
             subtype="PIXEL",
-            update=_shown_otherwise,
+            update=redraw_viewports,
         ),
     ]

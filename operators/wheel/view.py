@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any
 
-import bpy
-
+from ...scene.blender_types import Area, Region, Space
 from ...scene.points.kept import has_points
+from ..blender_types import Context
 from ..points.canvas import text_width
 from .geometry import Box, Corner, Pixel, Wheel, free_box, placed
 from .places import labels, places
@@ -26,12 +25,12 @@ COVERS = {"UI", "TOOLS", "HEADER", "TOOL_HEADER", "ASSET_SHELF", "ASSET_SHELF_HE
 AXES, TEXT = 90.0, 60.0
 
 
-def scale_of(context: Any) -> float:
+def scale_of(context: Context) -> float:
     """Pixels of the screen for one of the interface."""
     return float(context.preferences.system.ui_scale)
 
 
-def no_face_reason(context: Any) -> str | None:
+def no_face_reason(context: Context) -> str | None:
     """Why there is nothing to choose an emotion for in the context's viewport, or None."""
     obj, space = context.object, context.space_data
     if space is None or space.type != "VIEW_3D":
@@ -43,27 +42,27 @@ def no_face_reason(context: Any) -> str | None:
     return None
 
 
-def reason_hidden(context: Any) -> str | None:
+def reason_hidden(context: Context) -> str | None:
     """Why there is no wheel in the context's viewport, or None."""
     if not context.window_manager.risorius.wheel.show:
         return "The emotion wheel is hidden: show it in the Emotion panel"
     reason = no_face_reason(context)
-    if reason is None and not context.space_data.show_gizmo:
+    if reason is None and context.space_data is not None and not context.space_data.show_gizmo:
         return "The viewport's gizmos are hidden: turn them on"
     return reason
 
 
-def wheel_of(context: Any) -> Wheel | None:
+def wheel_of(context: Context) -> Wheel | None:
     """The wheel in the context's region; None where there is none."""
-    region = context.region
-    if reason_hidden(context) is not None or region is None or region.type != "WINDOW":
+    area, region, space = context.area, context.region, context.space_data
+    if reason_hidden(context) is not None or area is None or space is None or region is None or region.type != "WINDOW":
         return None
-    quarters = context.space_data.region_quadviews
+    quarters = space.region_quadviews
     if len(quarters) > 0 and context.region_data != quarters[-1]:
         return None  # in a quad view only the last of the four, the user's own
     state, scale = context.window_manager.risorius.wheel, scale_of(context)
     return placed(
-        free_of(context, Corner(state.corner), scale),
+        free_of(area, region, space, Corner(state.corner), scale),
         Corner(state.corner),
         radius=state.size / 2.0 * scale,
         margin=MARGIN * scale,
@@ -71,12 +70,11 @@ def wheel_of(context: Any) -> Wheel | None:
     )
 
 
-def free_of(context: Any, corner: Corner, scale: float) -> Box:
-    """What is to be seen of the context's region, and has room for a wheel in this corner."""
-    region, space = context.region, context.space_data
+def free_of(area: Area, region: Region, space: Space, corner: Corner, scale: float) -> Box:
+    """What is to be seen of a viewport's region, and has room for a wheel in this corner."""
     covers = [
         Box(other.x - region.x, other.y - region.y, other.x - region.x + other.width, other.y - region.y + other.height)
-        for other in context.area.regions
+        for other in area.regions
         if other.type in COVERS and other.width > 1 and other.height > 1
     ]
     free = free_box(region.width, region.height, covers)
@@ -120,12 +118,3 @@ def labels_of(wheel: Wheel, scale: float) -> dict[str, Box]:
 def label_at(wheel: Wheel, pixel: Pixel, scale: float) -> str | None:
     """The word whose label is under a pixel."""
     return next((word for word, box in labels_of(wheel, scale).items() if box.contains(pixel)), None)
-
-
-def redraw() -> None:
-    """Draw all viewports anew."""
-    manager = bpy.context.window_manager
-    for window in manager.windows if manager is not None else ():
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()

@@ -29,6 +29,7 @@ from .writing import Written, write_baked
 if TYPE_CHECKING:
     from ...api import EmotionShares
 
+
 @dataclass(frozen=True, eq=False)
 class BakeResult:
     """What a bake has written.
@@ -142,9 +143,7 @@ def bake_motion(
     times = start + np.arange(count, dtype=np.float64)
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
     marks = crease_marks.prepare(source, creases)
-    written = write_baked(
-        target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks, note=note
-    )
+    written = write_baked(target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks, note=note)
     return _result(clip, written, source, error=packed.error)
 
 

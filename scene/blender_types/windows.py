@@ -6,9 +6,17 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from .animation import Datablock
-from .collections import Items
+from .collections import Items, Matrix, Numbers
+from .nodes import Image
 from .objects import Collection, Depsgraph, Object
 from .scenes import Scene, ViewLayer
+
+
+class View2D(Protocol):
+    """Where a region looks, of an editor with two axes."""
+
+    def view_to_region(self, x: float, y: float, *, clip: bool = True) -> tuple[int, int]: ...
+    def region_to_view(self, x: float, y: float) -> tuple[float, float]: ...
 
 
 class Region(Protocol):
@@ -19,9 +27,45 @@ class Region(Protocol):
     y: int
     width: int
     height: int
+    view2d: View2D
 
     def tag_redraw(self) -> None: ...
     def as_pointer(self) -> int: ...
+
+
+class RegionView3D(Protocol):
+    """Where a 3D viewport looks."""
+
+    view_location: Numbers
+    view_distance: float
+    view_rotation: object
+    view_matrix: Matrix
+    is_perspective: bool
+
+
+class Overlay(Protocol):
+    """What an editor draws over the scene."""
+
+    show_overlays: bool
+
+
+class Space(Protocol):
+    """An editor. From `overlay` on: members of some kinds only."""
+
+    type: str
+    overlay: Overlay
+    region_3d: RegionView3D
+    region_quadviews: Sequence[RegionView3D]
+    show_gizmo: bool
+    show_gizmo_navigate: bool
+    mode: str
+    image: Image
+
+
+class Spaces(Items[Space], Protocol):
+    """The editors that an area has been, the one it is now among them."""
+
+    active: Space
 
 
 class Area(Protocol):
@@ -30,6 +74,7 @@ class Area(Protocol):
     type: str
     ui_type: str
     regions: Items[Region]
+    spaces: Spaces
 
     def tag_redraw(self) -> None: ...
     def header_text_set(self, text: str | None) -> None: ...
@@ -91,6 +136,10 @@ class Context(Protocol):
     def area(self) -> Area | None: ...
     @property
     def region(self) -> Region | None: ...
+    @property
+    def region_data(self) -> RegionView3D | None: ...
+    @property
+    def space_data(self) -> Space | None: ...
     @property
     def mode(self) -> str: ...
     def evaluated_depsgraph_get(self) -> Depsgraph: ...

@@ -51,23 +51,23 @@ class _MixIn:
     shared: Annotated[str, StringProperty(default="both")]
 
 
-class RISORIUS_OT_declared(_MixIn, bpy.types.Operator):
+class RISORIUS_OT_annotated(_MixIn, bpy.types.Operator):
     """One more"""
 
-    bl_idname = "risorius.declared"
-    bl_label = "Declared"
+    bl_idname = "risorius.annotated"
+    bl_label = "Annotated"
 
     plain: int = 3
     own: Annotated[float, FloatProperty(default=2.5)]
 
 
-def test_properties_of_mix_ins_are_declared_and_twice_is_fine(properties_of: Callable[[type], Any]) -> None:
+def test_properties_of_mix_ins_are_found_and_twice_is_fine(properties_of: Callable[[type], Any]) -> None:
     for _ in range(2):
-        bpy.utils.register_class(RISORIUS_OT_declared)
+        bpy.utils.register_class(RISORIUS_OT_annotated)
         try:
-            properties = properties_of(RISORIUS_OT_declared)
+            properties = properties_of(RISORIUS_OT_annotated)
             assert (properties["own"].default, properties["shared"].default) == (2.5, "both")
             assert "plain" not in properties
         finally:
-            bpy.utils.unregister_class(RISORIUS_OT_declared)
-    assert RISORIUS_OT_declared.plain == 3
+            bpy.utils.unregister_class(RISORIUS_OT_annotated)
+    assert RISORIUS_OT_annotated.plain == 3

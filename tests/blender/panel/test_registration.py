@@ -163,8 +163,10 @@ def test_registers_without_scipy_and_says_so() -> None:
         risorius.unregister()
         print("registered")
     """
-    done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, check=False)
-    assert "registered" in done.stdout, done.stderr
+    done = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, timeout=120, check=False
+    )
+    assert (done.returncode, "registered" in done.stdout) == (0, True), done.stderr
 
 
 def test_command_line_is_registered(monkeypatch: pytest.MonkeyPatch) -> None:

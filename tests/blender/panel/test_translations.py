@@ -30,7 +30,8 @@ def names(properties_of: Callable[[type], Any]) -> set[tuple[str, str]]:
         if getattr(cls, "bl_label", None) and not issubclass(cls, PresetPanel):  # its label becomes the preset's name
             found.add((context, cls.bl_label))
         if issubclass(cls, (bpy.types.Operator, bpy.types.PropertyGroup)):
-            own = getattr(cls, "__annotations__", {})
+            ours = [base for base in cls.__mro__ if base.__module__.startswith("risorius.")]
+            own = {name for base in ours for name in vars(base).get("__annotations__", {})}
             shown = [prop for prop in properties_of(cls) if prop.identifier in own and prop.name != prop.identifier]
             found |= {("*", prop.name) for prop in shown}
             found |= {("*", item.name) for prop in shown if prop.type == "ENUM" for item in prop.enum_items}

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from risorius.operators.points import click
+from risorius.operators.points import click, view
 from risorius.scene.points import bound as points_bound
 from risorius.scene.points import seen as points_seen
 
@@ -41,7 +41,7 @@ def test_a_click_just_beside_the_outline_means_the_outline(head: Any) -> None:
 
     viewport: Any = SimpleNamespace(ray=ray)
     assert visible.hit(*ray((0.0, -5.0)), surface) is None
-    place = click.hit_near(visible, viewport, (0.0, -5.0), surface, 14.0)
+    place = view.hit_near(visible, viewport, (0.0, -5.0), surface, 14.0)
     assert place is not None
     assert place[2] < lowest + 0.01
-    assert click.hit_near(visible, viewport, (0.0, -20.0), surface, 14.0) is None
+    assert view.hit_near(visible, viewport, (0.0, -20.0), surface, 14.0) is None

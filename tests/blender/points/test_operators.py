@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from mathutils import Euler, Matrix, Vector
 from risorius.mpeg4 import FEATURE_POINTS
-from risorius.operators.points import click, diagram, drag, ops, overlay, panel
+from risorius.operators.points import clicks as clicked
+from risorius.operators.points import diagram, drag, ops, overlay, panel
 from risorius.scene import mesh as meshes
 from risorius.scene.points import bound as points_bound
 from risorius.scene.points import kept as points_kept
@@ -21,7 +22,7 @@ from risorius.scene.points import seen as points_seen
 from risorius.scene.points.kept import Origin
 from risorius.scene.points.stored import stored_points
 
-S6 = tuple(click.ASKED)
+S6 = tuple(clicked.ASKED)
 
 
 def places(obj: Any) -> dict[str, np.ndarray]:
@@ -137,7 +138,7 @@ def test_clicks_are_mirrored_on_symmetric_meshes_and_taken_back_together(head: A
     plane = points_mirrored.plane_of_mesh(surface)
     assert plane is not None
     np.testing.assert_allclose(np.abs(plane.normal), (1.0, 0.0, 0.0))
-    clicks = click.Clicks(surface, plane)
+    clicks = clicked.Clicks(surface, plane)
     clicks.add(truth["3.7"], mirror=True)
     assert set(clicks.places) == {"3.7", "3.12"}
     assert np.linalg.norm(clicks.places["3.12"] - truth["3.12"]) < 1e-4

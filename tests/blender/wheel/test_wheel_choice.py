@@ -34,13 +34,15 @@ class Drag(SimpleNamespace):
         super().__init__(operator=operator, chooses_on=operator.chooses_on, chooses_by=operator.chooses_by)
         monkeypatch.setattr(ops, "wheel_of", lambda context: WHEEL)
         monkeypatch.setattr(ops, "label_at", lambda wheel, pixel, scale: None)
-        monkeypatch.setattr(pick, "free_of", lambda context, corner, scale: Box(0.0, 0.0, 1000.0, 800.0))
+        monkeypatch.setattr(pick, "free_of", lambda *where: Box(0.0, 0.0, 1000.0, 800.0))
         for name in ("_take_hold", "_emotion", "_choose", "_show", "_help"):
             setattr(self, name, getattr(operator, name).__get__(self))
         self._let_go = Dragging._let_go.__get__(self)
         self.context = SimpleNamespace(
             object=bpy.context.object,
+            area=SimpleNamespace(type="VIEW_3D"),
             region=SimpleNamespace(type="WINDOW", as_pointer=lambda: 0),
+            space_data=SimpleNamespace(type="VIEW_3D"),
             preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
             workspace=SimpleNamespace(status_text_set=self._say),
             window_manager=SimpleNamespace(
