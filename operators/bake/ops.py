@@ -162,7 +162,7 @@ frame"""
     @classmethod
     def refusal(cls, context: Context) -> str | None:
         """Only on a face that can be written to, and where something moves."""
-        return face_reason(active_object(context)) or silent_reason(active_object(context))
+        return face_reason(context.object) or silent_reason(active_object(context))
 
     def baking(self, context: Context) -> Work[bake.BakeResult]:
         """Simulate the face and write its motion."""
@@ -201,7 +201,7 @@ class RISORIUS_OT_bake_again(BakeOperator, Operator):
     @classmethod
     def refusal(cls, context: Context) -> str | None:
         """Only where something is out of date."""
-        reason = face_reason(active_object(context)) or silent_reason(active_object(context))
+        reason = face_reason(context.object) or silent_reason(active_object(context))
         if reason is None and not stale_clips(active_object(context), context.scene):
             return "Everything baked is up to date"
         return reason

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from risorius.errors import FormatError, SceneError
 from risorius.face.mesh.point_files import read_point_file
+from risorius.operators.classes import CLASSES
 from risorius.scene import bake, refusals
 from risorius.scene.bake import shape_keys
 from risorius.scene.bake.remarks import remarks
@@ -41,6 +42,19 @@ def test_no_object() -> None:
     with pytest.raises(RuntimeError, match="select the mesh of a face") as refused:
         bpy.ops.risorius.bake_expression()
     assert "Traceback" not in str(refused.value)
+
+
+@pytest.mark.parametrize("active", ["nothing", "empty", "cube"])
+def test_every_button_says_whether_it_works_whatever_is_active(active: str) -> None:
+    if active == "empty":
+        bpy.ops.object.empty_add()
+    if active == "cube":
+        bpy.ops.mesh.primitive_cube_add()
+    polled = [cls for cls in CLASSES if hasattr(cls, "refusal")]
+    assert len(polled) > 30
+    for cls in polled:
+        reason = cls.refusal(bpy.context)
+        assert reason is None or (isinstance(reason, str) and reason), cls.__name__
 
 
 def test_not_a_mesh() -> None:
