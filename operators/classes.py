@@ -56,7 +56,6 @@ from .shapes.props import RISORIUS_PG_shapes
 from .show.props import RISORIUS_PG_show
 from .timeline.drag import RISORIUS_OT_drag_clip
 from .timeline.ops import (
-    RISORIUS_MT_clip_timing,
     RISORIUS_MT_clips,
     RISORIUS_OT_add_clip,
     RISORIUS_OT_clear_clips,
@@ -64,10 +63,10 @@ from .timeline.ops import (
     RISORIUS_OT_move_clip,
     RISORIUS_OT_remove_clip,
     RISORIUS_OT_sort_clips,
-    RISORIUS_OT_time_clip,
 )
 from .timeline.panel import RISORIUS_PT_timeline, RISORIUS_PT_variation, RISORIUS_UL_clips
 from .timeline.props import RISORIUS_PG_clip, RISORIUS_PG_timeline, RISORIUS_PG_variation
+from .timeline.timing import RISORIUS_MT_clip_timing, RISORIUS_OT_time_clip
 from .tissue.ops import RISORIUS_OT_add_tissue_preset
 from .tissue.panel import RISORIUS_PT_tissue, RISORIUS_PT_tissue_presets
 from .tissue.props import RISORIUS_PG_tissue

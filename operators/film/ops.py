@@ -14,7 +14,7 @@ from ...scene.pictures import film
 from ...scene.pictures.look import Camera, Engine, Look
 from ...scene.points.found import Finding
 from ..active import active_object, face_reason, target_of
-from ..bake.ops import motion_work
+from ..bake.work import motion_work
 from ..base import RisoriusOperator, WorkOperator
 from ..blender_classes import Operator
 from ..blender_types import Context, Object

@@ -1,6 +1,7 @@
 """The timeline: a list of expressions, each with its own time.
 
-ops               operators on clips
+ops, timing       operators on clips; presets for their times
+clips             what these operators share
 panel             the list of clips, and the times of the selected one
 props             the clips: an emotion each, and when it shows
 linked            the Emotion panel as the editor of the selected clip

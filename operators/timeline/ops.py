@@ -4,46 +4,15 @@ from __future__ import annotations
 
 from bpy.props import EnumProperty
 
-from ...mpeg4.timing import load_timings
 from ..active import active_object, face_reason
 from ..annotated import Annotated
 from ..base import RisoriusOperator
 from ..blender_classes import Menu, Operator
 from ..blender_types import Context
 from ..changes import retimed
+from .clips import TIMES, ClipOperator, copy_clip, end_of
 from .linked import copy_choice
-from .props import RISORIUS_PG_clip, active_clip
 from .titles import clip_title
-
-#: What of a clip a timing preset says.
-TIMES = ("onset", "apex", "offset", "peak", "ramp")
-
-
-def copy_clip(source: RISORIUS_PG_clip, target: RISORIUS_PG_clip) -> None:
-    """Copy a clip, all but its name."""
-    copy_choice(source.emotion, target.emotion)
-    for name in (*TIMES, "start", "mute", "solo"):
-        setattr(target, name, getattr(source, name))
-
-
-def end_of(clip: RISORIUS_PG_clip, fps: float) -> int:
-    """The first frame at which a clip is over."""
-    return int(clip.start + round((clip.onset + clip.apex + clip.offset) * fps))
-
-
-class _ClipOperator(RisoriusOperator):
-    """What the operators on the active clip share."""
-
-    needs_scipy = False
-
-    @classmethod
-    def refusal(cls, context: Context) -> str | None:
-        """Only where a clip is selected."""
-        if context.object is None:
-            return "There is no active object"
-        if active_clip(context.object.risorius.timeline) is None:
-            return "The timeline has no clips yet: add one with +"
-        return None
 
 
 class RISORIUS_OT_add_clip(RisoriusOperator, Operator):
@@ -74,7 +43,7 @@ class RISORIUS_OT_add_clip(RisoriusOperator, Operator):
         return f"Added {clip_title(clip)} at frame {clip.start}"
 
 
-class RISORIUS_OT_duplicate_clip(_ClipOperator, Operator):
+class RISORIUS_OT_duplicate_clip(ClipOperator, Operator):
     """Add a copy of the selected clip after its end"""
 
     bl_idname = "risorius.duplicate_clip"
@@ -96,7 +65,7 @@ class RISORIUS_OT_duplicate_clip(_ClipOperator, Operator):
         return f"Duplicated {clip_title(timeline.clips[place + 1])}"
 
 
-class RISORIUS_OT_remove_clip(_ClipOperator, Operator):
+class RISORIUS_OT_remove_clip(ClipOperator, Operator):
     """Remove the selected clip from the timeline. Baked animation stays until the next bake"""
 
     bl_idname = "risorius.remove_clip"
@@ -114,7 +83,7 @@ class RISORIUS_OT_remove_clip(_ClipOperator, Operator):
         return f"Removed {title}"
 
 
-class RISORIUS_OT_move_clip(_ClipOperator, Operator):
+class RISORIUS_OT_move_clip(ClipOperator, Operator):
     """Move the selected clip up or down in the list. Its time does not change"""
 
     bl_idname = "risorius.move_clip"
@@ -141,7 +110,7 @@ class RISORIUS_OT_move_clip(_ClipOperator, Operator):
         return f"{clip_title(timeline.clips[timeline.active])} is number {timeline.active + 1}"
 
 
-class RISORIUS_OT_sort_clips(_ClipOperator, Operator):
+class RISORIUS_OT_sort_clips(ClipOperator, Operator):
     """Sort the clips by start frame"""
 
     bl_idname = "risorius.sort_clips"
@@ -163,7 +132,7 @@ class RISORIUS_OT_sort_clips(_ClipOperator, Operator):
         return f"Sorted {len(timeline.clips)} clips"
 
 
-class RISORIUS_OT_clear_clips(_ClipOperator, Operator):
+class RISORIUS_OT_clear_clips(ClipOperator, Operator):
     """Remove all clips from the timeline. Baked animation stays"""
 
     bl_idname = "risorius.clear_clips"
@@ -178,51 +147,6 @@ class RISORIUS_OT_clear_clips(_ClipOperator, Operator):
         timeline.active = 0
         retimed(timeline, context)
         return f"Removed {count} clip{'s' * (count != 1)}"
-
-
-class RISORIUS_OT_time_clip(_ClipOperator, Operator):
-    """Set onset, apex and offset of the selected clip from a preset"""
-
-    bl_idname = "risorius.time_clip"
-    bl_label = "Timing"
-    bl_options = {"REGISTER", "UNDO"}
-
-    timing: Annotated[
-        str,
-        EnumProperty(
-            name="Timing",
-            description="Timing preset to use",
-            items=[(name, name.capitalize(), timing.reason) for name, timing in load_timings().items()],
-            options={"SKIP_SAVE"},
-        ),
-    ]
-
-    @classmethod
-    def description(cls, context: Context, properties: RISORIUS_OT_time_clip) -> str:
-        """What the preset says of itself, with its times."""
-        timing = load_timings()[properties.timing]
-        times = f"onset {timing.onset:g} s, apex {timing.apex:g} s, offset {timing.offset:g} s"
-        return f"{timing.reason} {times[0].upper()}{times[1:]}, peak {timing.peak:g}"
-
-    def run(self, context: Context) -> str:
-        """Take them."""
-        timeline, timing = active_object(context).risorius.timeline, load_timings()[self.timing]
-        clip = timeline.clips[timeline.active]
-        for name in TIMES:
-            setattr(clip, name, getattr(timing, name))
-        return f"{clip_title(clip)}: {self.timing}"
-
-
-class RISORIUS_MT_clip_timing(Menu):
-    """Set the times of the selected clip from a preset"""
-
-    bl_idname = "RISORIUS_MT_clip_timing"
-    bl_label = "Timing"
-
-    def draw(self, context: Context) -> None:
-        """One entry for each."""
-        for name in load_timings():
-            self.layout.operator(RISORIUS_OT_time_clip.bl_idname, text=name.capitalize()).timing = name
 
 
 class RISORIUS_MT_clips(Menu):

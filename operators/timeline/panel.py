@@ -8,7 +8,6 @@ from ..blender_types import Context, UILayout
 from ..sidebar import MeshSidebar
 from .colours import icon_of
 from .ops import (
-    RISORIUS_MT_clip_timing,
     RISORIUS_MT_clips,
     RISORIUS_OT_add_clip,
     RISORIUS_OT_duplicate_clip,
@@ -16,6 +15,7 @@ from .ops import (
     RISORIUS_OT_remove_clip,
 )
 from .props import RISORIUS_PG_clip, RISORIUS_PG_timeline, active_clip
+from .timing import RISORIUS_MT_clip_timing
 from .titles import clip_title
 
 #: The menu of preset files, by name: the library knows the timeline, and not the other way round.
