@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import FormatError, RisoriusError
 from .films import NEEDS_BLENDER, silent_blender
-from .options import add_face, face_of, verb
+from .options import add_scene, face_of, scene_options, verb
 from .progress import ShowProgress
 from .result import Result, UsageError
 
@@ -41,7 +41,7 @@ def add_capture_verbs(verbs: Any) -> None:
     exporting.add_argument(
         "--out", type=Path, required=True, help="csv: .csv; shapes: .npz, or in Blender .blend or .glb"
     )
-    add_face(exporting)
+    add_scene(exporting)
     names = "shapes: arkit, ict_facekit, oculus_visemes, or a .toml file (default: arkit)"
     exporting.add_argument("--names", default="arkit", help=names)
     exporting.add_argument("--replace", action="store_true", help="shapes: replace keys with the same names")
@@ -126,6 +126,7 @@ def _shapes_to_npz(arguments: argparse.Namespace) -> tuple[str, ...]:
     """Names (N,) and displacements (N, V, 3) in metres as NumPy's file."""
     from .. import api
 
+    scene_options(arguments)  # refuses --object where nothing has objects
     face = face_of(arguments)
     shapes = api.arkit_shapes(face, arguments.names)
     moved = np.stack([positions - face.vertices for positions in shapes.values()])
@@ -139,15 +140,13 @@ def _shapes_to_npz(arguments: argparse.Namespace) -> tuple[str, ...]:
 
 def _shapes_in_blender(arguments: argparse.Namespace) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Names of the keys, and of those that were replaced."""
-    if arguments.mesh is None and arguments.points is not None:
-        raise UsageError("--points needs --mesh")
+    options = scene_options(arguments) | {"names": arguments.names, "replace": arguments.replace}
     try:
         from ..scene.jobs.shapes import blendshape_file
     except ModuleNotFoundError as missing:
         if missing.name in ("bpy", "mathutils"):
             raise RisoriusError(NEEDS_BLENDER) from None
         raise
-    options = {name: getattr(arguments, name) for name in ("mesh", "points", "names", "replace")}
     with silent_blender():
         written = blendshape_file(arguments.out, **options, progress=ShowProgress())
     return written.keys, written.replaced

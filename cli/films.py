@@ -6,14 +6,14 @@ import argparse
 import contextlib
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from ..errors import RisoriusError
-from .options import add_creases, add_engine, add_face, add_words, verb
+from .options import add_creases, add_engine, add_scene, add_words, scene_options, verb
 from .progress import ShowProgress
-from .result import Result, UsageError
+from .result import Result
 
 NEEDS_BLENDER = (
     "this command needs Blender: run it as `blender --command risorius ...`, or `pip install bpy` into this Python"
@@ -24,24 +24,32 @@ def add_film_verbs(verbs: Any) -> None:
     """Add bake, render and demo to the verbs."""
     bake = verb(verbs, "bake", _bake)
     add_words(bake)
-    add_face(bake)
+    add_scene(bake)
+    _add_rate(bake)
     add_creases(bake)
     bake.add_argument("--dynamic", action="store_true", help="simulate the motion instead of posing the apex")
     bake.add_argument("--out", type=Path, required=True, help="the .blend file to write")
 
     render = verb(verbs, "render", _render)
     add_words(render)
-    add_face(render)
+    add_scene(render)
+    _add_rate(render)
     add_engine(render)
     add_creases(render)
     render.add_argument("--out", type=Path, required=True, help="the .mp4 file to write")
 
     demo = verb(verbs, "demo", _demo)
     add_words(demo, nargs="*")
-    add_face(demo)
+    add_scene(demo)
+    _add_rate(demo)
     add_engine(demo)
     add_creases(demo)
     demo.add_argument("--out", type=Path, default=Path("out"), help="the output folder (default: out)")
+
+
+def _add_rate(parser: argparse.ArgumentParser) -> None:
+    """How fast the scene plays."""
+    parser.add_argument("--fps", type=float, help="frames per second (default: those of a .blend, else 25)")
 
 
 def _bake(arguments: argparse.Namespace) -> Result:
@@ -72,9 +80,7 @@ def _jobs() -> Any:
 
 def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:
     """The options that all jobs share."""
-    if arguments.mesh is None and arguments.points is not None:
-        raise UsageError("--points needs --mesh")
-    shared = {name: getattr(arguments, name) for name in ("mesh", "points", "fps", "creases")}
+    shared = {**scene_options(arguments), "fps": arguments.fps, "creases": arguments.creases}
     words = {"words": tuple(arguments.words)} if arguments.words else {}
     return {**shared, **words, "progress": ShowProgress()}
 
@@ -99,4 +105,10 @@ def _made(job: str, arguments: argparse.Namespace, **options: object) -> Result:
     run = getattr(_jobs(), job)
     with silent_blender():
         made = dict(run(arguments.out, **_job_options(arguments), **options))
-    return Result(made, [f"{key}: {value}" for key, value in made.items()])
+    return Result(made, lines_of(made))
+
+
+def lines_of(made: Mapping[str, Any]) -> list[str]:
+    """What a job has made, a line each; every remark has a line of its own."""
+    lines = [f"{key}: {value}" for key, value in made.items() if key != "remarks"]
+    return lines + [f"note: {remark}" for remark in made.get("remarks", ())]

@@ -35,6 +35,28 @@ def add_fps(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--fps", type=float, default=25.0, help="frames per second (default: 25)")
 
 
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """Options of a verb that works in Blender: whose face, and how fast it plays."""
+    parser.add_argument("--mesh", type=Path, help="the neutral face: .npz, .obj, .blend, .glb or .gltf")
+    parser.add_argument(
+        "--object", dest="object_name", metavar="NAME", help="the object of the file that has the face (default: found)"
+    )
+    parser.add_argument(
+        "--points", type=Path, help="its feature points (JSON); without it, they are found automatically"
+    )
+
+
+def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
+    """What `add_scene` has asked for, as the jobs of `scene` want it."""
+    if arguments.mesh is None:
+        for name, value in (("--points", arguments.points), ("--object", arguments.object_name)):
+            if value is not None:
+                raise UsageError(f"{name} needs --mesh")
+    elif arguments.object_name is not None and arguments.mesh.suffix.lower() in (".npz", ".obj"):
+        raise UsageError(f"--object needs a .blend, .glb or .gltf: {arguments.mesh} is read as one mesh")
+    return {name: getattr(arguments, name) for name in ("mesh", "points", "object_name")}
+
+
 def add_engine(parser: argparse.ArgumentParser) -> None:
     choices = ("WORKBENCH", "CYCLES", "EEVEE")
     parser.add_argument("--engine", choices=choices, type=str.upper, default=choices[0], help="default: WORKBENCH")
@@ -46,7 +68,7 @@ def add_creases(parser: argparse.ArgumentParser) -> None:
 
 
 def add_face(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--mesh", type=Path, help="the neutral face: .npz or .obj; in Blender also .blend or .glb")
+    parser.add_argument("--mesh", type=Path, help="the neutral face: .npz or .obj")
     parser.add_argument(
         "--points", type=Path, help="its feature points (JSON); without it, they are found automatically"
     )

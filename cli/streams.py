@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import RisoriusError
-from .films import NEEDS_BLENDER, silent_blender
-from .options import add_creases, add_engine, add_face, add_fps, add_strength, expression_of, verb
+from .films import NEEDS_BLENDER, lines_of, silent_blender
+from .options import add_creases, add_engine, add_fps, add_scene, add_strength, expression_of, scene_options, verb
 from .progress import ShowProgress, when_slow
 from .result import Result, UsageError
 
@@ -42,7 +42,7 @@ def add_stream_verb(verbs: Any) -> None:
     play.add_argument("source", metavar="FILE", help=READABLE)
     play.add_argument("target", metavar="OUT", nargs="?", help="the file to write: .blend or .mp4")
     play.add_argument("--out", type=Path, help="the same as OUT")
-    add_face(play)
+    add_scene(play)
     add_engine(play)
     add_creases(play)
 
@@ -100,18 +100,17 @@ def _play(arguments: argparse.Namespace) -> Result:
     """Play a FAP stream on a face, as .blend or video (needs Blender)."""
     out = _target(arguments)
     stream, _ = _read(arguments)
-    if arguments.mesh is None and arguments.points is not None:
-        raise UsageError("--points needs --mesh")
+    shared = scene_options(arguments)
     try:
         from ..scene.jobs import playing
     except ModuleNotFoundError as missing:
         if missing.name in ("bpy", "mathutils"):
             raise RisoriusError(NEEDS_BLENDER) from None
         raise
-    shared = {name: getattr(arguments, name) for name in ("mesh", "points", "creases", "engine")}
+    shared |= {"creases": arguments.creases, "engine": arguments.engine}
     with silent_blender():
         made = dict(playing.play_stream(out, stream, **shared, progress=ShowProgress()))
-    return Result(made, [f"{key}: {value}" for key, value in made.items()])
+    return Result(made, lines_of(made))
 
 
 def _of(arguments: argparse.Namespace) -> Result:

@@ -1,7 +1,10 @@
 """Whole jobs for the command line: from an empty file to a .blend, a film or pictures.
 
 words, playing, shapes    from words; from a FAP stream; the shape keys that engines know
-subjects                  whose face it is: the default head, or a mesh from a file
-files                     the empty file, what is written, and how it is saved
+subjects                  whose face it is: the default head, or the mesh of a file that looks most like a face
+inputs                    that file: opened or read, and the meshes in it
+stage                     the scene around the face, if it is not the user's
+painting                  materials for meshes that bring none
+files                     the file that a job works in, what is written, and how it is saved
 sheet                     the contact sheet of a job
 """

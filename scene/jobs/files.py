@@ -1,7 +1,6 @@
 """The file that a job works in and leaves behind.
 
-A job starts from an empty file, so it refuses to run in a Blender with a window, where it would throw away what is
-open.
+A job opens a file of its own, so it refuses to run in a Blender with a window, where it would throw away what is open.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ...errors import ParameterError, SceneError
+from ...errors import FormatError, ParameterError, SceneError
 
 
 @dataclass(frozen=True)
@@ -23,6 +22,7 @@ class Made:
     blend: Path | None = None
     film: Path | None = None
     sheet: Path | None = None
+    face: str = ""
     frames: int = 0
     shape_keys: int = 0
     error_mm: float = 0.0
@@ -32,18 +32,53 @@ class Made:
         """Name and value of everything there is."""
         for field in fields(self):
             value = getattr(self, field.name)
-            if value not in (None, ()):
+            if value not in (None, (), ""):
                 yield field.name, value
 
 
 def empty_file(fps: float) -> None:
     """An empty file with this frame rate."""
+    _refuse_window()
+    _refuse_wrong_rate(fps)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    _set_rate(fps)
+
+
+def open_file(path: Path, fps: float | None) -> None:
+    """Open a .blend as it is; `fps`: at another frame rate than its own.
+
+    Raises
+    ------
+    FormatError : it is not there, or this Blender cannot read it.
+    """
+    _refuse_window()
+    if fps is not None:
+        _refuse_wrong_rate(fps)
+    if not path.is_file():
+        raise FormatError(path, "does not exist: check the path")
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False)
+    except RuntimeError as problem:
+        raise FormatError(path, f"cannot be read by this Blender ({str(problem).strip()})") from problem
+    if fps is not None:
+        _set_rate(fps)
+
+
+def _refuse_window() -> None:
+    """Refuse a Blender in which somebody works."""
     if not bpy.app.background:
         remedy = "run it from the command line (blender --command risorius)"
-        raise SceneError("This job", f"starts from an empty file: {remedy}")
+        raise SceneError("This job", f"opens a file of its own: {remedy}")
+
+
+def _refuse_wrong_rate(fps: float) -> None:
+    """Refuse a rate that no film has."""
     if not (np.isfinite(fps) and 1.0 <= fps <= 240.0):
         raise ParameterError("fps", "must be between 1 and 240", fps)
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+
+def _set_rate(fps: float) -> None:
+    """Give the open scene a frame rate."""
     render = bpy.context.scene.render
     render.fps = max(1, round(fps))
     render.fps_base = render.fps / fps
@@ -56,7 +91,6 @@ def save(path: Path) -> None:
     ------
     SceneError : it could not be written.
     """
-    bpy.context.scene.frame_set(bpy.context.scene.frame_start)
     try:
         bpy.ops.wm.save_as_mainfile(filepath=str(path.resolve()), compress=True, check_existing=False)
     except RuntimeError as problem:

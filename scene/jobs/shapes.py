@@ -8,10 +8,10 @@ import bpy
 
 from ...errors import ParameterError, SceneError
 from ...progress import Report, run
-from ..bake.target import Target
 from ..blendshape_keys import WrittenKeys, write_blendshapes
 from ..pictures.film import refuse_unwritable_output
-from .files import empty_file, save
+from .files import save
+from .inputs import Input
 from .subjects import subject
 
 #: Files that are written.
@@ -23,6 +23,7 @@ def blendshape_file(
     *,
     mesh: str | Path | None = None,
     points: str | Path | None = None,
+    object_name: str | None = None,
     names: str | Path = "arkit",
     replace: bool = False,
     progress: Report | None = None,
@@ -31,7 +32,7 @@ def blendshape_file(
 
     Parameters
     ----------
-    mesh, points : see `subjects.subject`; by default the default head.
+    mesh, points, object_name : see `inputs.Input`; by default the default head.
     names, replace : as for `write_blendshapes`.
     progress : called with each step.
 
@@ -43,9 +44,8 @@ def blendshape_file(
     if path.suffix.lower() not in SUFFIXES:
         raise ParameterError("out", f"must end in {' or '.join(SUFFIXES)}", str(out))
     refuse_unwritable_output(path)
-    empty_file(25.0)
-    obj = subject(mesh, points)
-    written = run(write_blendshapes(Target(obj), names, replace=replace), progress)
+    face = run(subject(Input.of(mesh, points, object_name)))
+    written = run(write_blendshapes(face.target, names, replace=replace), progress)
     if path.suffix.lower() == ".blend":
         save(path)
     else:

@@ -12,6 +12,8 @@ import numpy as np
 
 from ...arrays import Floats
 from ..bake.performance import FIRST_FRAME
+from ..bake.target import Target
+from ..bake.timing import scene_fps
 from ..blender_types import Object
 from ..faces import face_of, read_face
 from ..mesh import key_vertices, keys_of
@@ -24,20 +26,22 @@ if TYPE_CHECKING:
     from ...api import Cue
 
 
-def apex_frame(cue: Cue, fps: float) -> int:
-    """The frame at the end of a cue's apex, when the face has settled."""
-    return FIRST_FRAME + int(np.floor((cue.start + cue.onset + cue.apex) * fps))
+def apex_frame(cue: Cue, fps: float, first: int = FIRST_FRAME) -> int:
+    """The frame at the end of a cue's apex, when the face has settled; the motion begins at frame `first`."""
+    return first + int(np.floor((cue.start + cue.onset + cue.apex) * fps))
 
 
-def write_apexes(obj: Object, cues: Sequence[Cue], fps: float, look: Look, path: Path) -> None:
+def write_apexes(target: Target, cues: Sequence[Cue], look: Look, path: Path) -> None:
     """Picture each cue's apex, with what was asked against what the baked face shows."""
+    first, fps = bpy.context.scene.frame_start, scene_fps()
+    frames = [apex_frame(cue, fps, first) for cue in cues]
     with tempfile.TemporaryDirectory(prefix="risorius-") as name:
-        with studio([obj], framing_of(obj), look) as scene:
-            pictures = [render_frame(scene, apex_frame(cue, fps), Path(name)) for cue in cues]
-        write_sheet(_exhibits(obj, cues, fps, pictures), path)
+        with studio(target.objects(), framing_of(target.obj), look) as scene:
+            pictures = [render_frame(scene, frame, Path(name)) for frame in frames]
+        write_sheet(_exhibits(target.obj, cues, frames, pictures), path)
 
 
-def _exhibits(obj: Object, cues: Sequence[Cue], fps: float, pictures: Sequence[Path]) -> list[Exhibit]:
+def _exhibits(obj: Object, cues: Sequence[Cue], frames: Sequence[int], pictures: Sequence[Path]) -> list[Exhibit]:
     """The pictured apexes with their values."""
     from ... import api
 
@@ -45,8 +49,8 @@ def _exhibits(obj: Object, cues: Sequence[Cue], fps: float, pictures: Sequence[P
     face = face_of(source)
     labels = [f"F{fap.number} {fap.name}" for fap in api.FAPS.values()]
     exhibits = []
-    for cue, picture in zip(cues, pictures, strict=True):
-        moved = _played(obj, source.pieces[0].to_metres[:3, :3], apex_frame(cue, fps))
+    for cue, frame, picture in zip(cues, frames, pictures, strict=True):
+        moved = _played(obj, source.pieces[0].to_metres[:3, :3], frame)
         values = exhibit_values(labels, cue.profile.frame(), face.measure(source.vertices + moved))
         caption = f"activation {cue.profile.activation:.1f}"
         exhibits.append(Exhibit(str(cue.profile.word), caption, picture, values))

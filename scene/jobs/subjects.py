@@ -1,197 +1,127 @@
-"""Whose face a job is about: the default head, or a mesh from a file with its feature points."""
+"""Whose face a job is about: the default head, or the mesh of a file that looks most like a face."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import bpy
-import numpy as np
 
-from ...arrays import Bools, Ints
-from ...errors import FormatError
-from ...face.mesh.parts import Part
+from ...errors import ModelError, RisoriusError
 from ...face.mesh.point_files import read_point_file
-from ...progress import run
-from .. import mesh as meshes
-from ..blender_types import Object
-from ..creases.marks import draw_in
-from ..faces import face_of, read_face
+from ...progress import Progress, Work, part_of
+from ..bake.target import Target
+from ..blender_types import Mesh, Object
 from ..head import add_default_head, select_only
-from ..materials import new_material
-from ..pictures.irises import iris_polygons, lay_irises
-from ..points.found import find_points
-from ..points.kept import has_points
+from ..points.found import Finding, find_points, seek_points
+from ..points.kept import has_points, write_kept
 from ..points.stored import store_points
-
-if TYPE_CHECKING:
-    from ...face.face import Face
-
-#: Colours (linear RGB) of meshes that bring no materials, by part; the iris is cut out of the eyeballs.
-PLAIN_COLOURS = {
-    "Skin": (0.55, 0.36, 0.28),
-    "Sclera": (0.8, 0.78, 0.75),
-    "Teeth": (0.75, 0.7, 0.6),
-    "Tongue": (0.45, 0.14, 0.13),
-    "Other": (0.16, 0.1, 0.08),
-    "Iris": (0.1, 0.2, 0.25),
-    "Pupil": (0.01, 0.01, 0.01),
-    "Mouth": (0.13, 0.035, 0.035),
-}
-_COLOUR_OF_PART = {
-    Part.SKIN: 0,
-    Part.EYEBALL_L: 1,
-    Part.EYEBALL_R: 1,
-    Part.TEETH_UPPER: 2,
-    Part.TEETH_LOWER: 2,
-    Part.TONGUE: 3,
-    Part.OTHER: 4,
-}
-_MOUTH = list(PLAIN_COLOURS).index("Mouth")
-
-#: From this many pieces on, teeth are modelled one by one.
-MANY_TEETH = 8
+from .inputs import Input, meshes_of, named_mesh, open_input
+from .painting import paint_parts
 
 
-def subject(mesh: str | Path | None = None, points: str | Path | None = None, *, creases: bool = False) -> Object:
-    """Put the face of a job into the current scene.
+@dataclass(frozen=True)
+class Subject:
+    """The face of a job.
+
+    Attributes
+    ----------
+    target : its objects.
+    remarks : how it was chosen, where there was a choice.
+    in_own_scene : whether the scene around it is the user's, to be left as it is.
+    """
+
+    target: Target
+    remarks: tuple[str, ...] = ()
+    in_own_scene: bool = False
+
+    @property
+    def obj(self) -> Object:
+        """The head."""
+        return self.target.obj
+
+
+def subject(asked: Input, *, creases: bool = False) -> Work[Subject]:
+    """Open or make the file of a job, with a face that has feature points.
 
     Parameters
     ----------
-    mesh : .npz, .obj, .blend, .glb or .gltf; by default the default head.
-    points : JSON file of its feature points; left out, they are those stored in a .blend, or found on the mesh.
     creases : whether the skin of a mesh that brings no materials shows creases.
-
-    Returns
-    -------
-    The object.
 
     Raises
     ------
-    FormatError, SceneError : a file that cannot be read, or no mesh in it.
+    FormatError, SceneError : a file that cannot be read, no mesh in it, or none of the name asked for.
     ModelError : no points given and no face found.
     """
-    if mesh is None:
-        return add_default_head()
-    path = Path(mesh)
-    suffix = path.suffix.lower()
-    if suffix in (".npz", ".obj"):
-        obj = _from_arrays(path)
-    elif suffix == ".blend":
-        obj = _from_blend(path)
-    elif suffix in (".glb", ".gltf"):
-        obj = _from_gltf(path)
-    else:
-        raise FormatError(path, "is not a .npz, .obj, .blend, .glb or .gltf file: export the mesh as one of these")
-    if points is not None:
-        store_points(obj, read_point_file(points))
+    yield Progress(0.0, "Loading the face")
+    open_input(asked)
+    if asked.mesh is None:
+        return Subject(Target(add_default_head()))
+    obj, remarks = yield from part_of(_bearer(asked.mesh, asked), 0.0, 0.9)
+    if asked.points is not None:
+        store_points(obj, read_point_file(asked.points))
     if not has_points(obj):
-        run(find_points(obj))
-    if not obj.data.materials:
+        yield from part_of(find_points(obj), 0.5, 1.0)
+    if not asked.is_scene and not obj.data.materials:
         paint_parts(obj, creases=creases)
-    select_only(obj)
-    return obj
+    _show(obj)
+    return Subject(Target(obj), remarks, asked.is_scene)
 
 
-def _from_arrays(path: Path) -> Object:
-    """A mesh that is read without Blender, vertex for vertex."""
-    from ...face.mesh.files import read_mesh
-
-    stored = read_mesh(path)
-    obj: Object = bpy.data.objects.new(
-        path.stem, meshes.new_mesh(path.stem, stored.vertices, *meshes.flatten_polygons(stored.polygons))
-    )
-    bpy.context.collection.objects.link(obj)
-    return obj
-
-
-def _from_blend(path: Path) -> Object:
-    """The mesh object of a .blend: the one with feature points, else the one with the most vertices."""
-    if not path.is_file():
-        raise FormatError(path, "does not exist: check the path")
-    try:
-        with bpy.data.libraries.load(str(path)) as (there, here):
-            here.objects = list(there.objects)
-    except OSError as problem:
-        raise FormatError(path, f"cannot be read by this Blender ({problem})") from problem
-    found = [obj for obj in here.objects if obj is not None]
-    chosen = _largest(found, path)
-    for obj in found:
-        if obj == chosen or obj.parent is not None or obj.type in {"MESH", "ARMATURE", "EMPTY"}:
-            bpy.context.collection.objects.link(obj)
-    bpy.context.view_layer.update()
-    return chosen
+def _bearer(path: Path, asked: Input) -> Work[tuple[Object, tuple[str, ...]]]:
+    """The object that bears the face, and how it was chosen."""
+    found = meshes_of(path)
+    if asked.object_name is not None:
+        return named_mesh(path, found, asked.object_name), ()
+    if len(found) == 1:
+        return found[0], ()
+    pointed = [obj for obj in found if has_points(obj)]
+    if pointed:
+        chosen, why = max(pointed, key=lambda obj: len(obj.data.vertices)), "it has feature points"
+    else:
+        chosen, why = yield from _most_face_like(path, found)
+    return chosen, (f"{path.name} has {len(found)} meshes; the face is {chosen.name}: {why} (--object names another)",)
 
 
-def _from_gltf(path: Path) -> Object:
-    """The largest mesh of a glTF file."""
-    if not path.is_file():
-        raise FormatError(path, "does not exist: check the path")
-    before = set(bpy.data.objects)
-    try:
-        bpy.ops.import_scene.gltf(filepath=str(path))
-    except (RuntimeError, AttributeError) as problem:
-        raise FormatError(path, f"cannot be imported: {problem}") from problem
-    return _largest([obj for obj in bpy.data.objects if obj not in before], path)
+def _most_face_like(path: Path, found: list[Object]) -> Work[tuple[Object, str]]:
+    """The mesh that looks most like a face, with its points; and what it was told by.
+
+    Objects of one mesh are asked once, the densest first; one of a known topology ends the search.
+    """
+    by_mesh: dict[Mesh, Object] = {}
+    for obj in sorted(found, key=_precedence):
+        by_mesh.setdefault(obj.data, obj)
+    distinct = list(by_mesh.values())
+    best: tuple[Object, Finding] | None = None
+    for number, obj in enumerate(distinct):
+        yield Progress(number / len(distinct), f"Looking for a face in {obj.name} ({number + 1} of {len(distinct)})")
+        try:
+            finding = yield from part_of(seek_points(obj), number / len(distinct), (number + 1) / len(distinct))
+        except RisoriusError:  # no face, or nothing that can be one
+            continue
+        if best is None or finding.score < best[1].score:
+            best = obj, finding
+        if finding.topology is not None:
+            break
+    if best is None:
+        names = ", ".join(obj.name for obj in distinct)
+        raise ModelError(
+            f"{path}: no face found in any of its meshes ({names}): "
+            "name the mesh with --object, and give its feature points with --points"
+        )
+    obj, finding = best
+    write_kept(obj, finding.kept, as_given=True)
+    return obj, f"its topology is {finding.topology}" if finding.topology else "it looks most like a face"
 
 
-def _largest(objects: list[Object], path: Path) -> Object:
-    """The mesh with feature points, else the one with the most vertices."""
-    candidates = [obj for obj in objects if obj.type == "MESH"]
-    if not candidates:
-        raise FormatError(path, "contains no mesh")
-    return max(candidates, key=lambda obj: (has_points(obj), len(obj.data.vertices)))
+def _precedence(obj: Object) -> tuple[bool, int]:
+    """What shows comes first, then what is dense."""
+    return not obj.visible_get(), -len(obj.data.vertices)
 
 
-def paint_parts(obj: Object, *, creases: bool = False) -> None:
-    """Give a mesh without materials one per part of its face, so that eyes and teeth can be told from skin."""
-    face = face_of(read_face(obj))
-    parts = np.asarray(face.parts)
-    corners, sizes = meshes.polygon_arrays(obj.data)
-    first = corners[np.cumsum(sizes) - sizes]
-    lookup = np.zeros(max(_COLOUR_OF_PART) + 1, dtype=np.int64)
-    for part, index in _COLOUR_OF_PART.items():
-        lookup[part] = index
-    colours = lookup[parts[first]]
-    for polygons, name in zip(iris_polygons(face, corners, sizes), ("Iris", "Pupil"), strict=True):
-        colours[polygons] = list(PLAIN_COLOURS).index(name)
-    colours[_gums(face, parts, first)] = _COLOUR_OF_PART[Part.TONGUE]
-    colours[_lining(face, corners, sizes)] = _MOUTH
-    painted = {}
-    for name, colour in PLAIN_COLOURS.items():
-        material = new_material(f"Risorius plain {name.lower()}", colour)
-        if creases and name == "Skin":
-            draw_in(material)
-        obj.data.materials.append(material)
-        painted[name] = material
-    eye = {name: np.array(PLAIN_COLOURS[name]) for name in ("Sclera", "Iris", "Pupil")}
-    lay_irises(obj, face, [painted[name] for name in eye], sclera=eye["Sclera"], iris=eye["Iris"], pupil=eye["Pupil"])
-    meshes.set_materials(obj.data, colours)
-    obj.data.update()
-
-
-def _lining(face: Face, corners: Ints, sizes: Ints) -> Bools:
-    """(F,) polygons of skin behind the lips, by the corners of all polygons (L,) and their sizes (F,)."""
-    starts = np.cumsum(sizes) - sizes
-    inner = np.asarray(face.parts) == Part.SKIN
-    inner[face.outer_skin] = False
-    centres = np.add.reduceat(face.vertices[corners], starts) / sizes[:, None]
-    lips, *eyes = (
-        np.linalg.norm(centres - np.mean([face.points[name].position for name in names], axis=0), axis=1)
-        for names in (("2.2", "2.3"), ("3.7", "3.11"), ("3.8", "3.12"))
-    )
-    behind: Bools = np.logical_or.reduceat(inner[corners], starts) & (lips < np.minimum(*eyes))
-    return behind
-
-
-def _gums(face: Face, parts: Ints, first: Ints) -> Bools:
-    """(F,) polygons of gums, by their first corners (F,): where every tooth is a piece, the large pieces are gums."""
-    from ...face.mesh.segmentation import pieces
-
-    label = pieces(face.polygons, len(parts))
-    teeth = np.isin(parts, (Part.TEETH_UPPER, Part.TEETH_LOWER))
-    found, counts = np.unique(label[teeth], return_counts=True)
-    if len(found) < MANY_TEETH:
-        return np.zeros(len(first), dtype=bool)
-    large = found[counts > 4 * np.median(counts)]
-    return np.isin(label[first], large)
+def _show(obj: Object) -> None:
+    """Select the face alone; a face that is in no scene is put into this one."""
+    if obj.name not in bpy.context.scene.objects:
+        bpy.context.scene.collection.objects.link(obj)
+    if obj.name in bpy.context.view_layer.objects:
+        select_only(obj)

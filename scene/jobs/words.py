@@ -14,23 +14,22 @@ from ...errors import ParameterError
 from ...progress import Progress, Report, Work, part_of, run
 from .. import bake
 from ..bake.motion import CueMotion
-from ..bake.performance import ARCHETYPES, FIRST_FRAME, PAUSE, cues_of, line_up, pose_all
-from ..blender_types import Object
+from ..bake.performance import ARCHETYPES, PAUSE, cues_of, line_up, pose_all
 from ..pictures import film
-from ..pictures.framing import framing_of
-from ..pictures.furniture import furnish
 from ..pictures.look import Engine, Look
-from .files import Made, empty_file, save
+from .files import Made, save
+from .inputs import Input
 from .sheet import write_apexes
-from .subjects import subject
+from .stage import cover, dress
+from .subjects import Subject, subject
 
 if TYPE_CHECKING:
     from ...api import Cue
 
 #: Pixels of a picture on the contact sheet.
 SHEET_SIZE = 640
-#: Puts the face of a job into the file.
-Load = Callable[[], Object]
+#: Puts the face of a job into a file.
+Load = Callable[[], Work[Subject]]
 
 
 def bake_file(
@@ -38,8 +37,9 @@ def bake_file(
     *,
     mesh: str | Path | None = None,
     points: str | Path | None = None,
+    object_name: str | None = None,
     words: Sequence[str] = ARCHETYPES,
-    fps: float = 25.0,
+    fps: float | None = None,
     dynamic: bool = False,
     creases: bool | None = None,
     progress: Report | None = None,
@@ -49,7 +49,7 @@ def bake_file(
     Parameters
     ----------
     out : the .blend to write.
-    mesh, points : see `subjects.subject`.
+    mesh, points, object_name, fps : see `inputs.Input`.
     words : shown one after another.
     dynamic : simulate one motion through all words, instead of one shape key per word.
     creases : whether the skin wrinkles where it is squeezed; by default on the default head only. Cycles and EEVEE draw
@@ -60,8 +60,8 @@ def bake_file(
     ------
     RisoriusError : nothing has been written then.
     """
-    load = partial(subject, mesh, points, creases=bool(creases))
-    return run(_bake_file(Path(out), load, words, fps, dynamic, creases), progress)
+    load = partial(subject, Input.of(mesh, points, object_name, fps), creases=bool(creases))
+    return run(_bake_file(Path(out), load, words, dynamic, creases), progress)
 
 
 def render_film(
@@ -69,16 +69,17 @@ def render_film(
     *,
     mesh: str | Path | None = None,
     points: str | Path | None = None,
+    object_name: str | None = None,
     words: Sequence[str] = ARCHETYPES,
     engine: str = "WORKBENCH",
-    fps: float = 25.0,
+    fps: float | None = None,
     creases: bool | None = None,
     progress: Report | None = None,
 ) -> Made:
     """Simulate words on a face and write the film (.mp4). Parameters as in `bake_file` and `demo`."""
     look = Look(engine=_engine(engine))
-    load = partial(subject, mesh, points, creases=bool(creases))
-    return run(_render_film(Path(out), load, words, look, fps, creases), progress)
+    load = partial(subject, Input.of(mesh, points, object_name, fps), creases=bool(creases))
+    return run(_render_film(Path(out), load, words, look, creases), progress)
 
 
 def demo(
@@ -86,9 +87,10 @@ def demo(
     *,
     mesh: str | Path | None = None,
     points: str | Path | None = None,
+    object_name: str | None = None,
     words: Sequence[str] = ARCHETYPES,
     engine: str = "WORKBENCH",
-    fps: float = 25.0,
+    fps: float | None = None,
     creases: bool | None = None,
     progress: Report | None = None,
 ) -> Made:
@@ -97,10 +99,9 @@ def demo(
     Parameters
     ----------
     out_dir : folder for risorius.mp4, risorius.blend and risorius.png; made where missing.
-    mesh, points : see `subjects.subject`.
+    mesh, points, object_name, fps : see `inputs.Input`.
     words : shown one after another.
     engine : "WORKBENCH", "EEVEE" or "CYCLES".
-    fps : frames per second.
     creases : as for `bake_file`.
     progress : called with each step.
 
@@ -108,8 +109,8 @@ def demo(
     ------
     RisoriusError : names the file, the word, the point or the object, and the remedy.
     """
-    load = partial(subject, mesh, points, creases=bool(creases))
-    return run(_demo(Path(out_dir), load, words, Look(engine=_engine(engine)), fps, creases), progress)
+    load = partial(subject, Input.of(mesh, points, object_name, fps), creases=bool(creases))
+    return run(_demo(Path(out_dir), load, words, Look(engine=_engine(engine)), creases), progress)
 
 
 def _engine(name: str) -> Engine:
@@ -120,86 +121,83 @@ def _engine(name: str) -> Engine:
         raise ParameterError("engine", f"must be one of {', '.join(Engine)}", name) from None
 
 
-def _begin(outputs: Sequence[Path], load: Load, words: Sequence[str], fps: float) -> Work[Object]:
-    """Refuse what cannot be written or shown, then put the face into an empty file."""
+def _begin(outputs: Sequence[Path], load: Load, words: Sequence[str]) -> Work[Subject]:
+    """Refuse what cannot be written or shown, then put the face into its file."""
     for path in outputs:
         film.refuse_unwritable_output(path)
     cues_of(words)
-    empty_file(fps)
-    yield Progress(0.0, "Loading the face")
-    return load()
+    return (yield from part_of(load(), 0.0, 0.05))
 
 
-def _move(
-    obj: Object, words: Sequence[str], fps: float, creases: bool | None
-) -> Work[tuple[list[Cue], bake.BakeResult]]:
-    """Simulate all words as one motion."""
+def _move(face: Subject, words: Sequence[str], creases: bool | None) -> Work[tuple[list[Cue], bake.BakeResult]]:
+    """Simulate all words as one motion, from the scene's first frame on."""
     from ... import api
 
     cues = cues_of(words)
     end = max(cue.start + cue.duration for cue in cues)
     rest = api.Cue(api.expression("neutral"), start=end, onset=0.0, apex=PAUSE, offset=0.0)
-    motion = CueMotion([*cues, rest])
-    result = yield from bake.bake_motion(
-        bake.Target(obj), motion, clip="performance", start=FIRST_FRAME, fps=fps, creases=creases
-    )
-    bpy.context.scene.frame_start, bpy.context.scene.frame_end = (int(frame) for frame in result.frame_range)
+    motion, start = CueMotion([*cues, rest]), bpy.context.scene.frame_start
+    result = yield from bake.bake_motion(face.target, motion, clip="performance", start=start, creases=creases)
     return cues, result
 
 
-def _bake_file(
-    out: Path, load: Load, words: Sequence[str], fps: float, dynamic: bool, creases: bool | None = None
-) -> Work[Made]:
+def _bake_file(out: Path, load: Load, words: Sequence[str], dynamic: bool, creases: bool | None = None) -> Work[Made]:
     """See `bake_file`."""
-    obj = yield from _begin([out], load, words, fps)
+    face = yield from _begin([out], load, words)
     if dynamic:
-        _, moved = yield from part_of(_move(obj, words, fps, creases), 0.05, 0.95)
-        results = [moved]
+        _, moved = yield from part_of(_move(face, words, creases), 0.05, 0.95)
+        results, last = [moved], moved.frame_range[1]
     else:
-        target = bake.Target(obj)
-        results = yield from part_of(pose_all(target, cues_of(words), fps, creases), 0.05, 0.95)
-        scene = bpy.context.scene
-        scene.frame_start, scene.frame_end = FIRST_FRAME, line_up(target, results)
-    furnish(bpy.context.scene, framing_of(obj), Look())
+        cues, start = cues_of(words), bpy.context.scene.frame_start
+        posing = pose_all(face.target, cues, bake.scene_fps(), creases, first_frame=start)
+        results = yield from part_of(posing, 0.05, 0.95)
+        last = line_up(face.target, results)
+    said = cover(face, last)
+    dress(face, Look())
     save(out)
-    keys = sum(len(result.keys) for result in results)
-    error = max(result.error for result in results)
-    return Made(blend=out, shape_keys=keys, error_mm=round(error * 1000.0, 4), remarks=results[-1].remarks)
+    return Made(
+        blend=out,
+        face=face.obj.name,
+        shape_keys=sum(len(result.keys) for result in results),
+        error_mm=round(max(result.error for result in results) * 1000.0, 4),
+        remarks=face.remarks + results[-1].remarks + said,
+    )
 
 
-def _render_film(
-    out: Path, load: Load, words: Sequence[str], look: Look, fps: float, creases: bool | None = None
-) -> Work[Made]:
+def _render_film(out: Path, load: Load, words: Sequence[str], look: Look, creases: bool | None = None) -> Work[Made]:
     """See `render_film`."""
-    obj = yield from _begin([out], load, words, fps)
-    _, moved = yield from part_of(_move(obj, words, fps, creases), 0.02, 0.4)
-    scene = bpy.context.scene
-    work = film.render_film([obj], out, start=scene.frame_start, end=scene.frame_end, look=look)
-    rendered = yield from part_of(work, 0.4, 1.0)
-    return Made(film=rendered.path, frames=rendered.frame_count, remarks=moved.remarks + rendered.remarks)
+    face = yield from _begin([out], load, words)
+    _, moved = yield from part_of(_move(face, words, creases), 0.05, 0.4)
+    rendered = yield from part_of(filming(face, moved, out, look), 0.4, 1.0)
+    remarks = face.remarks + moved.remarks + rendered.remarks
+    return Made(film=rendered.path, face=face.obj.name, frames=rendered.frame_count, remarks=remarks)
 
 
-def _demo(
-    out: Path, load: Load, words: Sequence[str], look: Look, fps: float, creases: bool | None = None
-) -> Work[Made]:
+def filming(face: Subject, moved: bake.BakeResult, out: Path, look: Look) -> Work[film.FilmResult]:
+    """Film what was baked."""
+    start, end = (int(frame) for frame in moved.frame_range)
+    return film.render_film(face.target.objects(), out, start=start, end=end, look=look)
+
+
+def _demo(out: Path, load: Load, words: Sequence[str], look: Look, creases: bool | None = None) -> Work[Made]:
     """See `demo`."""
     blend, movie, sheet = (out / f"risorius.{suffix}" for suffix in ("blend", "mp4", "png"))
-    obj = yield from _begin([blend, movie, sheet], load, words, fps)
-    cues, moved = yield from part_of(_move(obj, words, fps, creases), 0.02, 0.35)
-    scene = bpy.context.scene
-    work = film.render_film([obj], movie, start=scene.frame_start, end=scene.frame_end, look=look)
-    rendered = yield from part_of(work, 0.35, 0.9)
+    face = yield from _begin([blend, movie, sheet], load, words)
+    cues, moved = yield from part_of(_move(face, words, creases), 0.05, 0.35)
+    rendered = yield from part_of(filming(face, moved, movie, look), 0.35, 0.9)
     yield Progress(0.91, "Composing the contact sheet")
-    write_apexes(obj, cues, fps, replace(look, width=SHEET_SIZE, height=SHEET_SIZE, fine=True), sheet)
+    write_apexes(face.target, cues, replace(look, width=SHEET_SIZE, height=SHEET_SIZE, fine=True), sheet)
     yield Progress(0.99, "Saving the .blend")
-    furnish(scene, framing_of(obj), look)
+    said = cover(face, moved.frame_range[1])
+    dress(face, look)
     save(blend)
     return Made(
         blend=blend,
         film=movie,
         sheet=sheet,
+        face=face.obj.name,
         frames=rendered.frame_count,
         shape_keys=len(moved.keys),
         error_mm=round(moved.error * 1000.0, 4),
-        remarks=moved.remarks + rendered.remarks,
+        remarks=face.remarks + moved.remarks + rendered.remarks + said,
     )

@@ -20,7 +20,7 @@ from .presets import known_topologies
 
 @dataclass(frozen=True)
 class Finding:
-    """What was found, and written with the mesh.
+    """What was found on a mesh.
 
     Attributes
     ----------
@@ -48,6 +48,18 @@ def find_points(
     obj: Object, clicks: Mapping[str, Floats] | None = None, *, scene: Scene | None = None
 ) -> Work[Finding]:
     """Find the feature points of `obj` and keep them with its mesh; nothing is written before they are found.
+
+    Parameters and errors as for `seek_points`.
+    """
+    finding = yield from seek_points(obj, clicks, scene=scene)
+    write_kept(obj, finding.kept, as_given=True)
+    return finding
+
+
+def seek_points(
+    obj: Object, clicks: Mapping[str, Floats] | None = None, *, scene: Scene | None = None
+) -> Work[Finding]:
+    """Find the feature points of `obj`, and write nothing.
 
     Parameters
     ----------
@@ -79,7 +91,6 @@ def find_points(
     origins = {name: Origin.CLICKED if name in known else origin for name in table}
     kept = bind(obj.data, table, origins=origins, confidence=found.confidence)
     kept = replace(kept, score=0.0 if known else found.score)
-    write_kept(obj, kept, as_given=True)
     return Finding(kept, found.score, found.topology, unreadable)
 
 

@@ -16,7 +16,7 @@ from risorius.api import Face
 from risorius.arrays import Floats
 from risorius.scene import mesh as meshes
 from risorius.scene.head import head_object
-from risorius.scene.jobs.subjects import paint_parts
+from risorius.scene.jobs.painting import paint_parts
 from risorius.scene.pictures.framing import Framing, framing_of
 from risorius.scene.pictures.lettering import read_picture
 from risorius.scene.pictures.look import Look

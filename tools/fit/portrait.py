@@ -18,7 +18,7 @@ from risorius.errors import RisoriusError
 from risorius.face.fit.doubt import DOUBTFUL
 from risorius.scene import mesh as meshes
 from risorius.scene.faces import face_of, read_face
-from risorius.scene.jobs.subjects import paint_parts
+from risorius.scene.jobs.painting import paint_parts
 from risorius.scene.pictures.framing import Framing, framing_of
 from risorius.scene.points.stored import store_points
 

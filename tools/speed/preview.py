@@ -20,6 +20,7 @@ from places import shared_folder
 from risorius.progress import run
 from risorius.scene import mesh as meshes
 from risorius.scene.bake.target import Target
+from risorius.scene.jobs.inputs import Input
 from risorius.scene.jobs.subjects import subject
 from risorius.scene.live.live_face import LiveFace
 
@@ -45,8 +46,7 @@ def drag(face: LiveFace, target: Target, steps: int) -> list[float]:
 
 def measure(name: str, mesh: Path | None, points: Path | None, steps: int) -> None:
     """Print the times of one head."""
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    target = Target(subject(mesh, points))
+    target = run(subject(Input(mesh, points))).target
     begin = time.perf_counter()
     face = LiveFace(target)
     run(face.prepare())

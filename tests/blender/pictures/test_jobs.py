@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 import textwrap
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from risorius.progress import run
 from risorius.scene import mesh as meshes
 from risorius.scene.bake.performance import PAUSE, cues_of
 from risorius.scene.jobs import words
+from risorius.scene.jobs.inputs import Input
 from risorius.scene.jobs.sheet import apex_frame
 from risorius.scene.jobs.subjects import subject
 from risorius.scene.pictures.look import Engine, Look
@@ -84,7 +86,8 @@ def test_a_baked_motion_plays_without_risorius(tmp_path: Path) -> None:
 def test_the_demo_leaves_film_file_and_sheet(tmp_path: Path) -> None:
     steps: list[Any] = []
     look = Look(Engine.WORKBENCH, 64, 64)
-    made = dict(run(words._demo(tmp_path / "out", subject, ["joy", "sad"], look, 4.0), steps.append))
+    load = partial(subject, Input(fps=4.0))
+    made = dict(run(words._demo(tmp_path / "out", load, ["joy", "sad"], look), steps.append))
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"risorius.blend", "risorius.mp4", "risorius.png"}
     assert made["frames"] == len(api.sequence(cues_of(["joy", "sad"]), fps=4.0)) + 1
     fractions = [step.fraction for step in steps]
@@ -132,7 +135,7 @@ def test_a_mesh_without_points_and_without_a_face_is_refused(tmp_path: Path) -> 
     obj = tmp_path / "triangle.obj"
     obj.write_text("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n")
     with pytest.raises(ModelError, match=r"triangle: .*face"):
-        subject(obj)
+        run(subject(Input(obj)))
 
 
 @pytest.mark.slow

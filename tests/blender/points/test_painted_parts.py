@@ -11,7 +11,7 @@ import risorius.api as api
 from risorius.face.mesh.parts import Part
 from risorius.scene import mesh as meshes
 from risorius.scene.faces import face_of, read_face
-from risorius.scene.jobs.subjects import PLAIN_COLOURS, paint_parts
+from risorius.scene.jobs.painting import PLAIN_COLOURS, paint_parts
 from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.irises import IRISES
 from risorius.scene.pictures.look import Look
