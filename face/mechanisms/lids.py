@@ -14,6 +14,7 @@ import numpy as np
 from ...arrays import Floats
 from ..figures import Length, Pair, Place, Share, read_figures
 from ..mechanism import Mechanism
+from ..mesh.eye_parts import is_flat
 from ..mesh.sphere import fit_sphere
 from ..skin.outer import OuterSkin, smoothstep
 from .lid_movers import LidMove
@@ -161,7 +162,7 @@ def _taper(along: Floats, outer: Pair, inner: Pair = EXTENT.inner) -> Floats:
 
 
 def _ball_behind(side: str, middle: Floats, top: Floats, bottom: Floats) -> tuple[Floats, float]:
-    """Centre and radius of an eyeball that no mesh has, behind the middle of its corners and its lids' middles (3,)."""
+    """Centre and radius of the ball behind an eye that has none, from the middles (3,) of its corners and lids."""
     inwards = np.array([-1.0 if side == "l" else 1.0, 1.0, 1.0])
     centre: Floats = middle + BALL.from_corners * inwards
     nearest = float(min(np.linalg.norm(top - centre), np.linalg.norm(bottom - centre)))
@@ -172,7 +173,7 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
     """One eye from its points, the skin, and the eyeball's vertices (k, 3) in head space where the mesh has them."""
     names = ("3.11", "3.7", "3.1", "3.3") if side == "l" else ("3.8", "3.12", "3.2", "3.4")
     inner, outer, top, bottom = (skin.points[n] for n in names)
-    if eyeball is not None and len(eyeball) >= MEASURABLE:
+    if eyeball is not None and len(eyeball) >= MEASURABLE and not is_flat(eyeball):
         centre, radius = fit_sphere(eyeball)
     else:
         centre, radius = _ball_behind(side, (inner + outer) / 2.0, top, bottom)

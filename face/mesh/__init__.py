@@ -8,7 +8,8 @@ fap_units                 its FAP units
 points, own_lip           feature points bound to the mesh
 fap_rows                  which point each FAP reads, along which direction, in which unit
 parts, segmentation,      which vertex is skin, eyeball, tooth or tongue, and how that is told
-  mouth_parts, sphere
+  eye_parts, mouth_parts,
+  sphere
 openings                  where lips and lids end
 template                  the template face of the tables, and the warp from it
 files, point_files        meshes in files; feature points in files
