@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
 
-from .options import add_face, face_of, verb
+from .options import Verbs, add_face, face_of, verb
 from .progress import when_slow
 from .result import Result, UsageError
 
 
-def add_table_verb(verbs: Any) -> None:
+def add_table_verb(verbs: Verbs) -> None:
     """Add tables to the verbs."""
     tables = verb(verbs, "tables", _tables)
     add_face(tables)

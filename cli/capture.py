@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ..errors import FormatError, RisoriusError
 from .films import NEEDS_BLENDER, silent_blender
-from .options import add_scene, face_of, scene_options, verb
+from .options import Verbs, add_scene, face_of, scene_options, verb
 from .progress import ShowProgress
 from .result import Result, UsageError
 
@@ -18,7 +17,7 @@ from .result import Result, UsageError
 BLENDER_SUFFIXES = (".blend", ".glb")
 
 
-def add_capture_verbs(verbs: Any) -> None:
+def add_capture_verbs(verbs: Verbs) -> None:
     """Add import and export to the verbs."""
     importing = verb(verbs, "import", _import)
     importing.add_argument("file", type=Path, help="OpenFace, ARKit, Live Link Face or MediaPipe: .csv, .json, .jsonl")

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
-from .options import add_strength, expression_of, verb
+from .options import Verbs, add_strength, expression_of, verb
 from .result import Result
 
 
-def add_emotion_verbs(verbs: Any) -> None:
+def add_emotion_verbs(verbs: Verbs) -> None:
     """Add profile to the verbs."""
     profile = verb(verbs, "profile", _profile)
     profile.add_argument("word", nargs="?", help="an emotion word")
@@ -22,20 +21,16 @@ def _profile(arguments: argparse.Namespace) -> Result:
     profile = expression_of(arguments)
     from .. import api
 
-    rows = {number: api.fap(number) for number in profile.ranges}
+    rows = [(api.fap(number), low, high) for number, (low, high) in profile.ranges.items()]
     data = {
         "word": profile.word,
         "activation": profile.activation,
         "angle": profile.angle,
         "category": profile.category,
         "ranges": {
-            number: {"name": fap.name, "unit": fap.unit, "low": low, "high": high}
-            for (number, fap), (low, high) in zip(rows.items(), profile.ranges.values(), strict=True)
+            fap.number: {"name": fap.name, "unit": fap.unit, "low": low, "high": high} for fap, low, high in rows
         },
     }
     title = f"{profile.word or 'expression'}: activation {profile.activation:g}, angle {profile.angle:g} degrees"
-    table = [
-        f"F{number:<3} {row['name']:<24} {row['low']:8.1f} .. {row['high']:8.1f}  {row['unit']}"
-        for number, row in data["ranges"].items()
-    ]
+    table = [f"F{fap.number:<3} {fap.name:<24} {low:8.1f} .. {high:8.1f}  {fap.unit}" for fap, low, high in rows]
     return Result(data, [title, *table])

@@ -8,17 +8,21 @@ import math
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats
 from ..errors import ModelError
 from ..files import write_whole
-from .options import add_face, face_of, verb, vertices_of
+from .options import Verbs, add_face, face_of, verb, vertices_of
 from .result import Result, UsageError
 
+if TYPE_CHECKING:
+    from ..api import Face
 
-def add_face_verbs(verbs: Any) -> None:
+
+def add_face_verbs(verbs: Verbs) -> None:
     """Add measure and points to the verbs."""
     measure = verb(verbs, "measure", _measure)
     measure.add_argument(
@@ -41,20 +45,20 @@ def _measure(arguments: argparse.Namespace) -> Result:
     from .. import api
 
     face = face_of(arguments)
-    frames, features = {}, {}
+    measured, features = {}, {}
     for path in arguments.deformed:
         vertices = vertices_of(path, face)
-        frames[str(path)], features[str(path)] = face.measure(vertices), _features(face, vertices)
+        measured[str(path)], features[str(path)] = face.measure(vertices), _features(face, vertices)
     if arguments.out:
-        stream = api.FapStream(frames=np.stack(list(frames.values())), fps=arguments.fps, name=arguments.out.stem)
+        stream = api.FapStream(frames=np.stack(list(measured.values())), fps=arguments.fps, name=arguments.out.stem)
         api.write_fap(arguments.out, stream)
     lines = []
-    for path, frame in frames.items():
-        lines += [path, *_frame_lines(frame), *_feature_lines(features[path])]
-    return Result({path: {**_named(frame), **features[path]} for path, frame in frames.items()}, lines)
+    for path, faps in measured.items():
+        lines += [path, *_fap_lines(faps), *_feature_lines(features[path])]
+    return Result({path: {**_named(faps), **features[path]} for path, faps in measured.items()}, lines)
 
 
-def _features(face: Any, vertices: Any) -> dict[str, float]:
+def _features(face: Face, vertices: Floats) -> dict[str, float]:
     """Features f1 to f15 of a deformed mesh; none where the face lacks points for them."""
     try:
         return {f"f{index + 1}": float(value) for index, value in enumerate(face.features(vertices))}
@@ -106,16 +110,16 @@ def _found_points(arguments: argparse.Namespace) -> Result:
     )
 
 
-def _frame_lines(frame: Any) -> list[str]:
-    """The FAPs of a frame that have a value, a line each."""
+def _fap_lines(faps: Floats) -> list[str]:
+    """The FAPs that have a value, a line each."""
     from .. import api
 
-    named = ((api.fap(index + 1), value) for index, value in enumerate(frame) if not math.isnan(value))
+    named = ((api.fap(index + 1), value) for index, value in enumerate(faps) if not math.isnan(value))
     return [f"F{fap.number:<3} {fap.name:<24} {value:8.1f}  {fap.unit}" for fap, value in named]
 
 
-def _named(frame: Any) -> dict[str, float]:
+def _named(faps: Floats) -> dict[str, float]:
     """FAP name -> value, without the FAPs that have none."""
     from .. import api
 
-    return {api.fap(index + 1).name: float(value) for index, value in enumerate(frame) if not math.isnan(value)}
+    return {api.fap(index + 1).name: float(value) for index, value in enumerate(faps) if not math.isnan(value)}

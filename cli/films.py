@@ -8,10 +8,11 @@ import os
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from ..errors import RisoriusError
-from .options import add_creases, add_engine, add_scene, add_words, scene_options, verb
+from .options import Verbs, add_creases, add_engine, add_scene, add_words, scene_options, verb
 from .progress import ShowProgress
 from .result import Result
 
@@ -20,7 +21,7 @@ NEEDS_BLENDER = (
 )
 
 
-def add_film_verbs(verbs: Any) -> None:
+def add_film_verbs(verbs: Verbs) -> None:
     """Add bake, render and demo to the verbs."""
     bake = verb(verbs, "bake", _bake)
     add_words(bake)
@@ -67,7 +68,7 @@ def _demo(arguments: argparse.Namespace) -> Result:
     return _made("demo", arguments, engine=arguments.engine)
 
 
-def _jobs() -> Any:
+def _jobs() -> ModuleType:
     """The jobs that need Blender; imported only here."""
     try:
         from ..scene.jobs import words

@@ -5,16 +5,23 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
+from ..arrays import Floats
 from ..errors import ParameterError
 from .result import Result, UsageError
 
+if TYPE_CHECKING:
+    from ..api import Face, Profile
 
-def verb(verbs: Any, name: str, run: Callable[[argparse.Namespace], Result]) -> argparse.ArgumentParser:
+#: What verbs are added to.
+Verbs: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
+
+
+def verb(verbs: Verbs, name: str, run: Callable[[argparse.Namespace], Result]) -> argparse.ArgumentParser:
     """A verb: its help is the docstring of the function that runs it."""
     about = (run.__doc__ or "").strip()
-    parser: argparse.ArgumentParser = verbs.add_parser(name, help=about, description=about)
+    parser = verbs.add_parser(name, help=about, description=about)
     parser.set_defaults(run=run)
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
     return parser
@@ -75,7 +82,7 @@ def add_face(parser: argparse.ArgumentParser) -> None:
     add_fps(parser)
 
 
-def expression_of(arguments: argparse.Namespace) -> Any:
+def expression_of(arguments: argparse.Namespace) -> Profile:
     """The profile of the word, or of the angle and activation."""
     from .. import api
 
@@ -88,7 +95,7 @@ def expression_of(arguments: argparse.Namespace) -> Any:
     return api.expression(arguments.word, activation=arguments.activation, variants=arguments.variant)
 
 
-def face_of(arguments: argparse.Namespace) -> Any:
+def face_of(arguments: argparse.Namespace) -> Face:
     """The face of --mesh and --points; the default one without them."""
     from .. import api
 
@@ -100,8 +107,8 @@ def face_of(arguments: argparse.Namespace) -> Any:
     return api.Face.from_arrays(mesh.vertices, mesh.polygons, api.read_point_file(arguments.points))
 
 
-def vertices_of(path: Path, face: Any) -> Any:
-    """The vertices of a deformed mesh, as many as the face has."""
+def vertices_of(path: Path, face: Face) -> Floats:
+    """(V, 3) vertices of a deformed mesh, as many as the face has."""
     from .. import api
 
     vertices = api.read_mesh(path).vertices

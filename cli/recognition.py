@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import FormatError, ParameterError
-from .options import add_face, face_of, verb, vertices_of
+from .options import Verbs, add_face, face_of, verb, vertices_of
 from .progress import ShowProgress
 from .result import Result, UsageError
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 CLOSEST, DECISIVE, MANY = 10, 5, 500
 
 
-def add_recognition_verb(verbs: Any) -> None:
+def add_recognition_verb(verbs: Verbs) -> None:
     """Add recognise to the verbs."""
     recognise = verb(verbs, "recognise", _recognise)
     about = "a FAP stream (.fap, .fba, .json, .csv), a tracker's recording, or deformed meshes, one for each frame"

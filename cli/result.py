@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any
 
 
 @dataclass(frozen=True)
 class Result:
     """What a verb has to say: `data` for --json, `lines` for people."""
 
-    data: Mapping[str, Any]
+    data: Mapping[str, object]
     lines: Sequence[str]
 
 
@@ -20,7 +19,7 @@ class UsageError(Exception):
     """Options that do not go together."""
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> object:
     """What json can write: paths as strings, arrays as lists, NaN as null, dataclasses as objects."""
     if is_dataclass(value) and not isinstance(value, type):
         return {field.name: plain(getattr(value, field.name)) for field in fields(value)}

@@ -6,11 +6,21 @@ import argparse
 import math
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import RisoriusError
 from .films import NEEDS_BLENDER, lines_of, silent_blender
-from .options import add_creases, add_engine, add_fps, add_scene, add_strength, expression_of, scene_options, verb
+from .options import (
+    Verbs,
+    add_creases,
+    add_engine,
+    add_fps,
+    add_scene,
+    add_strength,
+    expression_of,
+    scene_options,
+    verb,
+)
 from .progress import ShowProgress, when_slow
 from .result import Result, UsageError
 
@@ -24,7 +34,7 @@ WRITABLE = ".fap, .fba, .json, .csv"
 ACTIONS = ("info", "convert", "play", "of")
 
 
-def add_stream_verb(verbs: Any) -> None:
+def add_stream_verb(verbs: Verbs) -> None:
     """Add fap to the verbs; what it does are verbs of its own."""
     about = "Inspect a FAP stream, convert it, play it on a face, or write an expression as a stream."
     fap = verbs.add_parser("fap", help=about, description=f"{about} `of` may be left out.")
@@ -175,7 +185,7 @@ def _described(stream: FapStream, recording: Recording | None = None, *, out: Pa
     stated = {number: [value for value in column if not math.isnan(value)] for number, column in columns.items()}
     used = [number for number, values in stated.items() if values]
     seconds = len(stream.frames) / stream.fps
-    data: dict[str, Any] = {
+    data: dict[str, object] = {
         "name": stream.name,
         "fps": stream.fps,
         "frames": len(stream.frames),
@@ -189,9 +199,12 @@ def _described(stream: FapStream, recording: Recording | None = None, *, out: Pa
         "damage": [] if recording is None else [str(problem) for problem in recording.damage],
         "out": out,
     }
+    wrote = []
     if out is not None:
-        data["bytes"] = out.stat().st_size
-        data["kilobits_per_second"] = out.stat().st_size * 8 / 1000.0 / seconds
+        size = out.stat().st_size
+        rate = size * 8 / 1000.0 / seconds
+        data |= {"bytes": size, "kilobits_per_second": rate}
+        wrote = [f"wrote {out}: {rate:.1f} kilobits per second"]
     title = f"{stream.name}: {len(stream.frames)} frames at {stream.fps:g} per second, {len(used)} FAPs"
     extra = [
         f"{len(fields)} frames with {what}"
@@ -202,5 +215,4 @@ def _described(stream: FapStream, recording: Recording | None = None, *, out: Pa
         f"F{number:<3} {api.fap(number).name:<24} {min(stated[number]):8.0f} .. {max(stated[number]):8.0f}"
         for number in used
     ]
-    wrote = [f"wrote {out}: {data['kilobits_per_second']:.1f} kilobits per second"] if out is not None else []
     return Result(data, [title, *extra, *peaks, *wrote])

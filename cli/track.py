@@ -7,11 +7,11 @@ import math
 import re
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import RisoriusError
 from ..tables import write_csv
-from .options import verb
+from .options import Verbs, verb
 from .progress import ShowProgress
 from .result import Result, UsageError
 
@@ -29,7 +29,7 @@ WRITABLE = (".fap", ".json")
 OUTSIDE_BLENDER = "tracking runs outside Blender: install Risorius in a separate Python (docs/tracking.md)"
 
 
-def add_track_verb(verbs: Any) -> None:
+def add_track_verb(verbs: Verbs) -> None:
     """Add track to the verbs."""
     track = verb(verbs, "track", _track)
     track.add_argument("source", nargs="+", metavar="SOURCE", help=SOURCES)
