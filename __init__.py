@@ -2,8 +2,8 @@
 
 The layers, each knowing only those above it:
 
-- ``errors``, ``files``, ``tables``, ``resources``, ``arrays``, ``progress`` the ground: errors, files, tables, where
-  they lie, how far long work is;
+- ``errors``, ``files``, ``tables``, ``resources``, ``arrays``, ``polygons``, ``progress`` the ground: errors, files,
+  tables, where they lie, polygons as arrays, how far long work is;
 - ``mpeg4`` the standard's face animation parameters and the emotion model; ``physics`` skin, muscles, solvers;
 - ``face`` one particular face: its parts, feature points, muscles, and the way from parameters to contractions;
 - ``api`` the public interface, arrays in and out, without Blender: what scripts and the command line use;

@@ -12,6 +12,7 @@ from ..errors import ModelError
 from ..mpeg4 import FAPS
 from ..physics import mesh
 from ..physics.elastic import laplacian
+from ..polygons import PolygonTable
 from .bodies.contact import Contact, build_contact
 from .bodies.eyeball import Eyeball, build_eyeball
 from .bodies.head_turn import HeadTurn, build_head_turn
@@ -83,10 +84,9 @@ class Anatomy:
         return TemplateWarp(self.mesh.landmarks)
 
     @cached_property
-    def _skin_polygons(self) -> list[Ints]:
-        parts = self.mesh.parts
-        polygons = [p for p in self.mesh.polygons if (parts[p] == Part.SKIN).all()]
-        if not polygons:
+    def _skin_polygons(self) -> PolygonTable:
+        polygons = self.mesh.polygons.kept(self.mesh.polygons.within(self.mesh.parts == Part.SKIN))
+        if not len(polygons):
             raise ModelError("the face has no skin polygons: check its parts")
         return polygons
 
@@ -100,8 +100,8 @@ class Anatomy:
         openings = [find_opening(graph, nearest, LIP_UPPER, LIP_LOWER)]
         openings += [find_opening(graph, nearest, *LIDS[side]) for side in "lr"]
         outside = outer_faces(polygons, openings, nearest["9.3"])
-        kept = [polygon for polygon, keep in zip(polygons, outside, strict=True) if keep]
-        index = np.unique(np.concatenate(kept))
+        kept = polygons.kept(outside)
+        index = np.unique(kept.loops)
         local = np.full(len(face_mesh.positions), -1, dtype=np.int64)
         local[index] = np.arange(len(index))
 
@@ -111,7 +111,7 @@ class Anatomy:
         return OuterSkin(
             index=index,
             positions=face_mesh.positions[index],
-            polygons=[local[p] for p in kept],
+            polygons=kept.numbered(local),
             points=dict(face_mesh.landmarks),
             mouth=inside(openings[0]),
             eyes={"l": inside(openings[1]), "r": inside(openings[2])},

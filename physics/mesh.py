@@ -16,6 +16,7 @@ from scipy import sparse
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import ParameterError
+from ..polygons import PolygonTable
 
 Polygons: TypeAlias = Sequence[Sequence[int]] | Sequence[Ints] | Ints
 Sparse: TypeAlias = "sparse.csr_array[np.float64]"
@@ -41,12 +42,8 @@ def corners(polygons: Polygons, vertex_count: int | None = None) -> tuple[Ints, 
     ------
     ParameterError : a polygon with fewer than three corners, or an index out of range.
     """
-    if isinstance(polygons, np.ndarray) and polygons.ndim == 2:
-        sizes: Ints = np.full(len(polygons), polygons.shape[1], dtype=np.int64)
-        loops: Ints = polygons.astype(np.int64).ravel()
-    else:
-        sizes = np.fromiter((len(polygon) for polygon in polygons), dtype=np.int64, count=len(polygons))
-        loops = np.fromiter((i for polygon in polygons for i in polygon), dtype=np.int64, count=int(sizes.sum()))
+    table = PolygonTable.of(polygons)
+    loops, sizes = table.loops, table.sizes
     if len(sizes) and sizes.min() < 3:
         raise ParameterError("polygons", "must have three corners or more", int(np.argmin(sizes)))
     if len(loops) and loops.min() < 0:
@@ -58,23 +55,19 @@ def corners(polygons: Polygons, vertex_count: int | None = None) -> tuple[Ints, 
 
 def by_size(polygons: Polygons, vertex_count: int | None = None) -> Iterator[tuple[Ints, Ints]]:
     """Polygons gathered by their number of corners: (face numbers (F_n,), corner indices (F_n, n)) for each n."""
-    loops, sizes = corners(polygons, vertex_count)
-    starts = np.cumsum(sizes) - sizes
-    for size in np.unique(sizes):
-        faces = np.flatnonzero(sizes == size)
-        yield faces, loops[starts[faces][:, None] + np.arange(size)]
+    table = PolygonTable.of(polygons)
+    corners(table, vertex_count)
+    yield from table.by_size
 
 
 def within(polygons: Polygons, mask: Bools) -> Polygons:
     """The polygons whose corners all lie in `mask` (V,) bool, as a sequence in the same order."""
-    loops, sizes = corners(polygons, len(mask))
-    if len(sizes) == 0:
-        return polygons
-    starts = np.cumsum(sizes) - sizes
-    kept = np.logical_and.reduceat(mask[loops], starts)
+    table = PolygonTable.of(polygons)
+    corners(table, len(mask))
+    kept = table.within(mask)
     if isinstance(polygons, np.ndarray):
         return np.asarray(polygons[kept], dtype=np.int64)
-    return [loops[start : start + size] for start, size in zip(starts[kept], sizes[kept], strict=True)]
+    return table.kept(kept)
 
 
 def triangulate(polygons: Polygons) -> Ints:

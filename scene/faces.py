@@ -14,6 +14,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..face.mesh.parts import Part
 from ..face.mesh.point_files import PointTable
+from ..polygons import PolygonTable
 from . import mesh as meshes
 from .blender_types import Mesh, Object, Scene
 from .companions import Companion, placements, refuse_twice
@@ -75,14 +76,14 @@ class FaceSource:
     ----------
     pieces : the head first.
     vertices : (V, 3).
-    polygons : index sequences into `vertices`.
+    polygons : between `vertices`.
     points : name -> vertex index, or position (3,) in metres.
     parts : (V,) of `Part`, -1 where the face itself is to say; None where nothing is known.
     """
 
     pieces: tuple[Piece, ...]
     vertices: Floats
-    polygons: list[tuple[int, ...]]
+    polygons: PolygonTable
     points: Mapping[str, int | Floats]
     parts: Ints | None
     fingerprint: Fingerprint
@@ -122,13 +123,15 @@ def read_face(
     refuse_twice(obj, companions)
     table = points if points is not None else stored_points(obj)
     members = [obj, *(companion.obj for companion in companions)]
-    pieces, polygons = [], []
+    pieces: list[Piece] = []
+    polygons: list[PolygonTable] = []
     first = 0
     for member, to_metres in zip(members, placements(obj, companions, scene), strict=True):
         refuse_unreadable(member)
         refuse_broken_vertices(member)
         pieces.append(Piece(member, first, meshes.rest_vertices(member.data), to_metres))
-        polygons += meshes.polygon_sequence(*meshes.polygon_arrays(member.data), first_vertex=first)
+        corners, sizes = meshes.polygon_arrays(member.data)
+        polygons.append(PolygonTable(corners + first, sizes))
         first = pieces[-1].slice.stop
     stretch = pieces[0].to_metres[:3, :3]
     metric = {n: p if isinstance(p, int) else stretch @ np.asarray(p, float) for n, p in table.items()}
@@ -137,7 +140,7 @@ def read_face(
     return FaceSource(
         tuple(pieces),
         np.concatenate([piece.metric for piece in pieces]),
-        polygons,
+        PolygonTable.joined(polygons),
         metric,
         None if (parts < 0).all() else parts,
         fingerprint(obj, companions, points=points, scene=scene),
@@ -185,7 +188,7 @@ def _derived_head_parts(source: FaceSource) -> Ints:
     from .. import api
 
     count = len(source.pieces[0].rest)
-    alone = [polygon for polygon in source.polygons if polygon[0] < count]
+    alone = source.polygons.kept(source.polygons.within(np.arange(len(source.vertices)) < count))
     head = api.Face.from_arrays(source.vertices[:count], alone, dict(source.points))
     parts = np.full(len(source.vertices), int(Part.OTHER), dtype=np.int64)
     parts[:count] = head.parts

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Floats, Ints
-from ...physics.mesh import fans
+from ...physics.mesh import fans, within
 from ...physics.skin import State
 from ..figures import Pair, Share, read_figures
 from ..mechanism import Mechanism
@@ -192,8 +192,7 @@ def build_contact(
 
 def _triangles(mesh: FaceMesh, part: Part) -> Ints:
     """(t, 3) vertices of a part's surface; none where the face has none."""
-    polygons = [polygon for polygon in mesh.polygons if (mesh.parts[polygon] == part).all()]
-    return fans(polygons)[0]
+    return fans(within(mesh.polygons, mesh.parts == part))[0]
 
 
 def _near(distance: Floats, within: tuple[float, float]) -> tuple[Ints, Floats]:

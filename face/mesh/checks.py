@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Floats, Ints
 from ...errors import ModelError
+from ...polygons import PolygonTable
 from .parts import Part
 from .points import FeaturePoints, PointSource
 from .segmentation import derive_parts
@@ -30,18 +31,30 @@ def checked_vertices(vertices: ArrayLike) -> Floats:
     return array
 
 
-def checked_polygons(polygons: Sequence[Sequence[int]] | ArrayLike, vertex_count: int) -> list[Ints]:
-    """Polygons as index arrays, in range."""
-    faces = [np.asarray(polygon, dtype=np.int64) for polygon in polygons]  # type: ignore[union-attr]
-    if not faces:
+def checked_polygons(polygons: Sequence[Sequence[int]] | ArrayLike, vertex_count: int) -> PolygonTable:
+    """Polygons, in range."""
+    table = _table(polygons)
+    if not len(table):
         raise ModelError("the mesh has no polygons: the face needs a surface")
-    for number, polygon in enumerate(faces):
-        if polygon.ndim != 1 or len(polygon) < 3:
+    small = np.flatnonzero(table.sizes < 3)
+    if len(small):
+        raise ModelError(f"polygon {small[0]} needs at least three corners")
+    outside = np.flatnonzero((table.loops < 0) | (table.loops >= vertex_count))
+    if len(outside):
+        number, vertex = table.owners[outside[0]], table.loops[outside[0]]
+        raise ModelError(f"polygon {number} uses vertex {vertex}, but the mesh has {vertex_count} vertices")
+    return table
+
+
+def _table(polygons: Sequence[Sequence[int]] | ArrayLike) -> PolygonTable:
+    """Polygons of any kind as a table; index sequences may be nested in anything that NumPy reads."""
+    if isinstance(polygons, PolygonTable):
+        return polygons
+    rows = [np.asarray(polygon, dtype=np.int64) for polygon in polygons]  # type: ignore[union-attr]
+    for number, polygon in enumerate(rows):
+        if polygon.ndim != 1:
             raise ModelError(f"polygon {number} needs at least three corners")
-        outside = polygon[(polygon < 0) | (polygon >= vertex_count)]
-        if len(outside):
-            raise ModelError(f"polygon {number} uses vertex {outside[0]}, but the mesh has {vertex_count} vertices")
-    return faces
+    return PolygonTable.of(rows)
 
 
 def with_pupils(points: Mapping[str, PointSource], vertices: Floats) -> dict[str, PointSource]:
@@ -72,7 +85,7 @@ def _place(source: PointSource, vertices: Floats) -> Floats | None:
 def checked_parts(
     parts: ArrayLike | None,
     head: Floats,
-    polygons: Sequence[Ints],
+    polygons: PolygonTable,
     landmarks: Mapping[str, Floats],
     points: FeaturePoints,
 ) -> Ints:

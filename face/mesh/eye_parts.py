@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays import Bools, Floats, Ints
 from ...physics.mesh import fans
+from ...polygons import PolygonTable
 from ..figures import Length, Pair, Share, read_figures
 from .mouth_parts import loose_pieces
 from .parts import Part
@@ -71,7 +72,7 @@ def is_flat(eye: Floats) -> bool:
 
 
 def add_eyes(
-    parts: Ints, labels: Ints, positions: Floats, polygons: Sequence[Ints], points: Mapping[str, Floats]
+    parts: Ints, labels: Ints, positions: Floats, polygons: PolygonTable, points: Mapping[str, Floats]
 ) -> None:
     """Give pieces of `Part.OTHER` that are eyeballs, flat eyes, or lie in or on one, to their eye, in place.
 
@@ -109,7 +110,7 @@ def _width(lids: Floats) -> float:
 
 
 def _plates(
-    members: Sequence[Ints], labels: Ints, positions: Floats, polygons: Sequence[Ints], lids: Floats
+    members: Sequence[Ints], labels: Ints, positions: Floats, polygons: PolygonTable, lids: Floats
 ) -> list[Ints]:
     """Pieces that fill the lids' opening (4, 3) as seen from the front, and those that lie on them there."""
     middle = lids.mean(axis=0)
@@ -130,10 +131,10 @@ def _fits(piece: Floats, lids: Floats) -> bool:
     return bool(beside and -FLAT_EYE.behind < away[2] < FLAT_EYE.before)
 
 
-def _covers(member: Ints, labels: Ints, positions: Floats, polygons: Sequence[Ints], places: Floats) -> Bools:
+def _covers(member: Ints, labels: Ints, positions: Floats, polygons: PolygonTable, places: Floats) -> Bools:
     """(n,) which of some places (n, 3) a piece covers, as seen from the front."""
     label = labels[member[0]]
-    triangles = fans([polygon for polygon in polygons if labels[polygon[0]] == label])[0]
+    triangles = fans(polygons.kept(polygons.within(labels == label)))[0]
     corners = positions[triangles][:, :, :2]
     edges = np.roll(corners, -1, axis=1) - corners
     away = places[:, None, None, :2] - corners

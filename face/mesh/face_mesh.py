@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...arrays import Floats, Ints
+from ...polygons import PolygonTable
 from .fap_units import Fapu
 from .head_frame import HeadFrame
 from .points import FeaturePoints
@@ -23,7 +24,7 @@ class FaceMesh:
 
     Attributes
     ----------
-    positions : (V, 3) metres. polygons : vertex index arrays, seams welded. parts : (V,) numbers of `Part`, or `COPY`.
+    positions : (V, 3) metres. polygons : seams welded. parts : (V,) numbers of `Part`, or `COPY`.
     seams : which vertices are one.
     points : bound feature points (their positions in the face's own coordinates).
     landmarks : feature point -> (3,) in head space.
@@ -31,7 +32,7 @@ class FaceMesh:
     """
 
     positions: Floats
-    polygons: Sequence[Ints]
+    polygons: PolygonTable
     parts: Ints
     points: FeaturePoints
     landmarks: Mapping[str, Floats]

@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Bools, Floats, Ints
 from ...physics import mesh
+from ...polygons import PolygonTable
 from ..figures import Length, Pair, Share, read_figures
 from .parts import Part
 
@@ -167,7 +168,7 @@ def _is_arch(piece: Floats) -> bool:
     return not (middle & (along > MOUTH.arch_depth[0]) & (along < MOUTH.arch_depth[1])).any()
 
 
-def split_gums(parts: Ints, gums: Bools, positions: Floats, polygons: Sequence[Ints]) -> None:
+def split_gums(parts: Ints, gums: Bools, positions: Floats, polygons: PolygonTable) -> None:
     """Give each vertex of `gums` (V,) to the jaw whose teeth are nearer along the surface, in place.
 
     Without any teeth they are two rows themselves. With teeth of one jaw nothing is known and `parts` stays as it is.
@@ -188,7 +189,7 @@ def split_gums(parts: Ints, gums: Bools, positions: Floats, polygons: Sequence[I
         return
     if any(len(seed) == 0 for seed in seeds):
         return
-    own = [polygon for polygon in polygons if gums[polygon].all()]
+    own = polygons.kept(polygons.within(gums))
     graph = mesh.adjacency(positions, own, diagonals=False)
     far = [dijkstra(graph, directed=False, indices=seed, min_only=True)[index] for seed in seeds]
     parts[index] = np.where(far[0] <= far[1], int(Part.TEETH_UPPER), int(Part.TEETH_LOWER))
@@ -202,7 +203,7 @@ def _outer_halves(positions: Floats, index: Ints) -> list[Ints]:
 
 
 def split_tongue(
-    parts: Ints, labels: Ints, positions: Floats, polygons: Sequence[Ints], points: Mapping[str, Floats]
+    parts: Ints, labels: Ints, positions: Floats, polygons: PolygonTable, points: Mapping[str, Floats]
 ) -> None:
     """Tell a tongue from the lower gums that it is one surface with, by its feature points 6.1 to 6.4, in place.
 
@@ -238,8 +239,8 @@ def split_tongue(
     off_teeth = cKDTree(teeth).query(positions[index])[0] >= MOUTH.gum
     inside[index] = off_teeth | above_borders
     inside[foremost] = True
-    own = [polygon for polygon in polygons if inside[polygon].all()]
-    if own:
+    own = polygons.kept(polygons.within(inside))
+    if len(own):
         graph = mesh.adjacency(positions, own, diagonals=False)
         far = dijkstra(graph, directed=False, indices=np.array([foremost]), min_only=True)
         parts[np.isfinite(far)] = int(Part.TONGUE)

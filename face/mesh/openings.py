@@ -16,7 +16,8 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from ...arrays import Bools, Ints
 from ...errors import ModelError
-from ...physics.mesh import Sparse
+from ...physics.mesh import Polygons, Sparse, pair_keys
+from ...polygons import PolygonTable
 
 #: Closed path through the lips: upper arc from the left corner to the right one, then the lower arc back.
 LIP_UPPER = ("2.4", "2.6", "2.2", "2.7", "2.5")
@@ -89,12 +90,12 @@ def find_opening(graph: Sparse, nearest: Mapping[str, int], upper: Sequence[str]
     return Opening(upper=arcs[0], lower=arcs[1])
 
 
-def outer_faces(polygons: Sequence[Ints], openings: Sequence[Opening], seed: int) -> Bools:
+def outer_faces(polygons: Polygons, openings: Sequence[Opening], seed: int) -> Bools:
     """Which polygons belong to the outer skin: those joined to a seed vertex without crossing an opening's margin.
 
     Parameters
     ----------
-    polygons : sequence of vertex index arrays.
+    polygons : those of the skin.
     openings : margins that are not crossed.
     seed : a vertex well outside every opening, such as the nose tip.
 
@@ -102,26 +103,17 @@ def outer_faces(polygons: Sequence[Ints], openings: Sequence[Opening], seed: int
     -------
     (F,) mask.
     """
-    margin: set[tuple[int, int]] = set()
-    for opening in openings:
-        for arc in (opening.upper, opening.lower):
-            margin |= {(min(a, b), max(a, b)) for a, b in zip(arc.tolist(), arc[1:].tolist(), strict=False)}
-    owners: dict[tuple[int, int], int] = {}
-    first, second = [], []
-    for face, polygon in enumerate(polygons):
-        corners = polygon.tolist()
-        for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
-            edge = (a, b) if a < b else (b, a)
-            if edge in margin:
-                continue
-            other = owners.setdefault(edge, face)
-            if other != face:
-                first.append(other)
-                second.append(face)
-    n = len(polygons)
-    graph = sparse.coo_array((np.ones(len(first)), (first, second)), shape=(n, n))
+    arcs = [arc for opening in openings for arc in (opening.upper, opening.lower)]
+    margins = [np.sort(np.stack([arc[:-1], arc[1:]], axis=1), axis=1) for arc in arcs]
+    polygons = PolygonTable.of(polygons)
+    sides = pair_keys(np.sort(np.stack([polygons.loops, polygons.after], axis=1), axis=1))
+    free = np.flatnonzero(~np.isin(sides, pair_keys(np.concatenate(margins))))
+    order = free[np.argsort(sides[free], kind="stable")]
+    same = sides[order[1:]] == sides[order[:-1]]
+    first, second = polygons.owners[order[:-1][same]], polygons.owners[order[1:][same]]
+    graph = sparse.coo_array((np.ones(len(first)), (first, second)), shape=(len(polygons), len(polygons)))
     _, labels = connected_components(graph, directed=False)
-    home = next((face for face, polygon in enumerate(polygons) if seed in polygon), None)
-    if home is None:
+    at_home = np.flatnonzero(polygons.loops == seed)
+    if not len(at_home):
         raise ModelError("the nose tip 9.3 is not on a polygon of the skin")
-    return np.asarray(labels == labels[home])
+    return np.asarray(labels == labels[polygons.owners[at_home[0]]])

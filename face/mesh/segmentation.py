@@ -2,33 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from ...arrays import Floats, Ints
+from ...physics.mesh import Polygons
+from ...polygons import PolygonTable
 from .eye_parts import add_eyes
 from .mouth_parts import add_mouth_parts, split_gums, split_tongue
 from .parts import Part
 
 
-def pieces(polygons: Sequence[Ints], vertex_count: int) -> Ints:
+def pieces(polygons: Polygons, vertex_count: int) -> Ints:
     """(V,) number of the connected piece of each vertex."""
-    first = np.concatenate([np.repeat(p[:1], len(p) - 1) for p in polygons])
-    second = np.concatenate([p[1:] for p in polygons])
-    graph = sparse.coo_array((np.ones(len(first)), (first, second)), shape=(vertex_count, vertex_count))
+    table = PolygonTable.of(polygons)
+    ends = (table.loops, table.after)
+    graph = sparse.coo_array((np.ones(len(table.loops)), ends), shape=(vertex_count, vertex_count))
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
 
 
-def derive_parts(positions: Floats, polygons: Sequence[Ints], points: Mapping[str, Floats], skin_vertex: int) -> Ints:
+def derive_parts(positions: Floats, polygons: PolygonTable, points: Mapping[str, Floats], skin_vertex: int) -> Ints:
     """Part of every vertex of a mesh.
 
     Parameters
     ----------
     positions : (V, 3) neutral mesh in head space, metres.
-    polygons : sequence of vertex index arrays.
+    polygons : its polygons.
     points : feature point -> (3,) in head space.
     skin_vertex : a vertex that is certainly skin (the nose tip).
 

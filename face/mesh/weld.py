@@ -18,6 +18,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Bools, Floats, Ints
 from ...physics.mesh import Polygons, corners
+from ...polygons import PolygonTable
 from .points import PointSource
 
 #: Two vertices are in one place when they lie nearer than this share of the mesh's median edge.
@@ -41,7 +42,7 @@ class Weld:
     """
 
     leads: Ints
-    polygons: tuple[Ints, ...]
+    polygons: PolygonTable
 
     @property
     def copies(self) -> Ints:
@@ -174,10 +175,10 @@ def _normals(vertices: Floats, loops: Ints, sizes: Ints) -> Floats:
     return normals
 
 
-def _without_slivers(loops: Ints, sizes: Ints, doubles: Bools) -> tuple[Ints, ...]:
+def _without_slivers(loops: Ints, sizes: Ints, doubles: Bools) -> PolygonTable:
     """Polygons without corners that repeat the one before, doubles and what has no three corners left out."""
     repeats = loops == _next(loops, sizes)
     ends = np.cumsum(sizes)
     left = sizes - np.add.reduceat(repeats, ends - sizes) if len(sizes) else sizes
     kept = np.repeat(~doubles & (left >= 3), sizes) & ~repeats
-    return tuple(np.split(loops[kept], np.cumsum(left[~doubles & (left >= 3)])[:-1]))
+    return PolygonTable(loops[kept], left[~doubles & (left >= 3)])

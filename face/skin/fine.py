@@ -17,6 +17,7 @@ from ...arrays import Floats
 from ...physics.elastic import diagonal_matrix
 from ...physics.mesh import Sparse
 from ...physics.split import Split, split
+from ...polygons import PolygonTable
 from ..mesh.openings import Opening
 from ..mesh.template import MM
 from .outer import OuterSkin
@@ -61,7 +62,7 @@ def fine_skin(skin: OuterSkin, spacing: float) -> tuple[OuterSkin, Sparse]:
         fine = replace(
             fine,
             positions=_curved(fine, once),
-            polygons=list(once.quads),
+            polygons=PolygonTable.of(once.quads),
             mouth=_halved(fine.mouth, once),
             eyes={side: _halved(opening, once) for side, opening in fine.eyes.items()},
             _cache={},

@@ -6,7 +6,7 @@ eye sockets are left out of it and follow (`followers.py`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -18,6 +18,7 @@ from ...arrays import Floats, Ints
 from ...physics import mesh
 from ...physics.elastic import Factor, diagonal_matrix, laplacian
 from ...physics.mesh import Sparse
+from ...polygons import PolygonTable
 from ..figures import Length, read_figures
 from ..mechanism import EVERY, Mechanism
 from ..mesh.openings import Opening
@@ -57,7 +58,7 @@ class OuterSkin:
     index : (g,) vertex numbers of the face's mesh. Of a skin that is split (`fine_skin`) these are the first g of its
         vertices, of any other all of them.
     positions : (n, 3) rest positions in head space, metres.
-    polygons : sequence of local vertex index arrays.
+    polygons : in local vertex numbers.
     points : feature point -> (3,) position in head space.
     mouth, eyes : the openings, in local vertex numbers; eyes by "l" and "r".
     mechanisms : those that this skin has; what is built on it leaves the others out.
@@ -65,7 +66,7 @@ class OuterSkin:
 
     index: Ints
     positions: Floats
-    polygons: Sequence[Ints]
+    polygons: PolygonTable
     points: Mapping[str, Floats]
     mouth: Opening
     eyes: Mapping[str, Opening]
