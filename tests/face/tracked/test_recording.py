@@ -122,7 +122,7 @@ def test_damage_is_told_or_refused(stream: FapStream, tmp_path: Path) -> None:
     ("name", "content", "told"),
     [
         ("a.mp4", b"\x00\x00\x00\x18ftypmp42", r"byte 0: is binary, and not a FAP stream or a recording: use \.fap"),
-        ("a.doc", b"dear sir,\nhello,\n", r"line 1: has none of the columns of FAPs \(F03_open_jaw\), landmarks"),
+        ("a.doc", b"dear sir,\nhello,\n", r"line 1: has none of the columns of .*FAPs \(F03_open_jaw\), landmarks"),
         ("a.json", b'{"format": "soup", "version": 1}', 'must be an object with "format": "risorius fap stream"'),
         ("a.json", b'{"frames": [{"hot": true}]}', "has no blend shapes or landmarks in any frame"),
         ("a.fap", b"dear sir", "the header must be"),
