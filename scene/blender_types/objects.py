@@ -46,6 +46,8 @@ class Object(Datablock, Protocol):
     location: Numbers
     matrix_world: Matrix
     add_rest_position_attribute: bool
+    hide_render: bool
+    visible_camera: bool
     show_only_shape_key: bool
 
     @property
@@ -93,6 +95,28 @@ class Collection(Datablock, Protocol):
 
     objects: Objects
     children: Collections
+    hide_render: bool
+
+
+class LayerCollection(Protocol):
+    """A collection as a view layer has it."""
+
+    exclude: bool
+    holdout: bool
+    indirect_only: bool
+
+    @property
+    def collection(self) -> Collection: ...
+    @property
+    def children(self) -> Items[LayerCollection]: ...
+
+
+class Lens(Protocol):
+    """The data of a camera."""
+
+    type: str
+    clip_start: float
+    clip_end: float
 
 
 class DepsgraphUpdate(Protocol):

@@ -7,7 +7,7 @@ from typing import Protocol
 from .animation import Datablock
 from .collections import Items, Numbers
 from .nodes import World
-from .objects import Collection, Depsgraph, Object
+from .objects import Collection, Depsgraph, LayerCollection, Object
 
 
 class ImageSettings(Protocol):
@@ -135,8 +135,23 @@ class ViewLayer(Protocol):
 
     objects: LayerObjects
     depsgraph: Depsgraph
+    layer_collection: LayerCollection
 
     def update(self) -> None: ...
+
+
+class SceneMarker(Protocol):
+    """A marker on a scene's timeline; one with a camera switches to it."""
+
+    name: str
+    frame: int
+    camera: Object | None
+
+
+class SceneMarkers(Items[SceneMarker], Protocol):
+    """Markers on a scene's timeline."""
+
+    def new(self, name: str, *, frame: int) -> SceneMarker: ...
 
 
 class Scene(Datablock, Protocol):
@@ -162,6 +177,8 @@ class Scene(Datablock, Protocol):
     def objects(self) -> Items[Object]: ...
     @property
     def view_layers(self) -> Items[ViewLayer]: ...
+    @property
+    def timeline_markers(self) -> SceneMarkers: ...
     @property
     def frame_current(self) -> int: ...
     @property

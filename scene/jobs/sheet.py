@@ -18,6 +18,7 @@ from ..blender_types import Object
 from ..faces import face_of, read_face
 from ..mesh import key_vertices, keys_of
 from ..pictures.contact_sheet import Exhibit, exhibit_values, write_sheet
+from ..pictures.following import FollowingCamera
 from ..pictures.framing import framing_of
 from ..pictures.look import Look
 from ..pictures.studio import render_frame, studio
@@ -35,9 +36,14 @@ def write_apexes(target: Target, cues: Sequence[Cue], look: Look, path: Path) ->
     """Picture each cue's apex, with what was asked against what the baked face shows."""
     first, fps = bpy.context.scene.frame_start, scene_fps()
     frames = [apex_frame(cue, fps, first) for cue in cues]
+    framing = framing_of(target.obj)
     with tempfile.TemporaryDirectory(prefix="risorius-") as name:
-        with studio(target.objects(), framing_of(target.obj), look) as scene:
-            pictures = [render_frame(scene, frame, Path(name)) for frame in frames]
+        pictures = []
+        with studio(target.objects(), framing, look) as scene:
+            camera = FollowingCamera(scene, target.obj, framing)
+            for frame in frames:
+                camera.go_to(frame)
+                pictures.append(render_frame(scene, frame, Path(name)))
         write_sheet(_exhibits(target.obj, cues, frames, pictures), path)
 
 

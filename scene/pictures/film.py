@@ -11,11 +11,16 @@ from pathlib import Path
 import bpy
 
 from ...errors import SceneError
-from ...progress import Progress, Work
+from ...progress import Progress, Work, part_of
 from ..blender_types import Object, Scene
+from .following import FollowingCamera
 from .framing import framing_of
-from .look import Look, usable_engine
+from .look import Camera, Look, usable_engine
+from .seen import look_ahead, refuse_hidden
 from .studio import render_frame, studio
+
+#: The share of looking at the frames before they are rendered.
+LOOKING = 0.05
 
 
 @dataclass(frozen=True)
@@ -59,7 +64,7 @@ def render_film(
     look: Look | None = None,
     frames: str | Path | None = None,
 ) -> Work[FilmResult]:
-    """Render the face of ``objects[0]``, well framed and lit, as an MP4.
+    """Render the face of ``objects[0]``, well framed and lit, as an MP4; the portrait camera goes where the face goes.
 
     Parameters
     ----------
@@ -70,7 +75,8 @@ def render_film(
 
     Raises
     ------
-    SceneError : an output that cannot be written, no frames, or an engine that is not there.
+    SceneError : an output that cannot be written, no frames, a face that renders do not show, or an engine that is not
+        there.
     """
     look = look or Look()
     film = Path(path) if path is not None else None
@@ -85,22 +91,33 @@ def render_film(
     _, remark = usable_engine(look.engine)
     with tempfile.TemporaryDirectory(prefix="risorius-") as temporary:
         folder = kept if kept is not None else Path(temporary)
-        pictures = yield from render_frames(objects, folder, start=start, end=end, look=look)
+        pictures, said = yield from render_frames(objects, folder, start=start, end=end, look=look)
         if film is not None:
             yield Progress(0.95, "Encoding the video")
             shutil.copyfile(encode(pictures, Path(temporary) / "film.mp4", look=look), film)
-    return FilmResult(film, len(pictures), kept, (remark,) if remark else ())
+    return FilmResult(film, len(pictures), kept, ((remark,) if remark else ()) + said)
 
 
-def render_frames(objects: Sequence[Object], folder: Path, *, start: int, end: int, look: Look) -> Work[list[Path]]:
-    """Render frames `start` to `end` as numbered PNGs into `folder`."""
+def render_frames(
+    objects: Sequence[Object], folder: Path, *, start: int, end: int, look: Look
+) -> Work[tuple[list[Path], tuple[str, ...]]]:
+    """Render frames `start` to `end` as numbered PNGs into `folder`; also returns remarks on what they do not show."""
     pictures = []
-    count = end - start + 1
-    with studio(objects, framing_of(objects[0]), look) as scene:
+    count, is_portrait = end - start + 1, look.camera is Camera.FACE
+    framing = framing_of(objects[0])
+    with studio(objects, framing, look) as scene:
+        said = refuse_hidden(objects, scene)
+        ahead = look_ahead(objects[0], scene, start, end, camera=not is_portrait)
+        said += yield from part_of(ahead, 0.0, LOOKING)
+        yield Progress(LOOKING, "; ".join(said) or "Rendering")
+        camera = FollowingCamera(scene, objects[0], framing) if is_portrait else None
         for index, frame in enumerate(range(start, end + 1)):
+            if camera is not None:
+                camera.go_to(frame)
             pictures.append(render_frame(scene, frame, folder))
-            yield Progress(0.95 * (index + 1) / count, f"Rendering frame {index + 1} of {count}")
-    return pictures
+            done = LOOKING + (0.95 - LOOKING) * (index + 1) / count
+            yield Progress(done, f"Rendering frame {index + 1} of {count}")
+    return pictures, said
 
 
 def encode(pictures: Sequence[Path], path: Path, *, look: Look, fps: tuple[int, float] | None = None) -> Path:

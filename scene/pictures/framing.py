@@ -40,10 +40,15 @@ class Framing:
         return position
 
 
-def framing_of(obj: Object) -> Framing:
-    """How to frame the face of `obj`: by its feature points, or by its bounding box where it has none."""
+def framing_of(obj: Object, *, world: Floats | None = None) -> Framing:
+    """How to frame the face of `obj`: by its feature points, or by its bounding box where it has none.
+
+    Parameters
+    ----------
+    world : (4, 4) from its own coordinates to the world's; by default where it stands now.
+    """
     local = meshes.rest_vertices(obj.data)
-    world = meshes.world_matrix(obj)
+    world = meshes.world_matrix(obj) if world is None else world
     vertices = local @ world[:3, :3].T + world[:3, 3]
     points = _world_points(obj, local, world)
     if points is None:

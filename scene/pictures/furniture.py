@@ -53,6 +53,13 @@ def discard(made: Furniture) -> None:
     bpy.data.worlds.remove(made.world)
 
 
+def carry(scene: Scene, motion: Floats) -> None:
+    """Move the camera and the lights of a furnished scene by a (4, 4) motion."""
+    for obj in scene.collection.objects:
+        if obj.type in {"CAMERA", "LIGHT"}:
+            obj.matrix_world = Matrix(motion.tolist()) @ obj.matrix_world
+
+
 def aim(position: Floats, target: Floats, up: Floats) -> Matrix:
     """(4, 4) matrix of a camera or light at `position` that looks at `target`."""
     back = Vector(position - target).normalized()

@@ -13,7 +13,7 @@ from pathlib import Path
 import bpy
 
 from ...errors import SceneError
-from ..blender_types import Object, Scene
+from ..blender_types import LayerCollection, Object, Scene
 from ..creases.marks import unmeasured
 from .framing import Framing
 from .furniture import Furniture, discard, furnish
@@ -58,10 +58,25 @@ def _borrow(scene: Scene, source: Scene, look: Look) -> None:
         scene.collection.objects.link(obj)
     for collection in source.collection.children:
         scene.collection.children.link(collection)
+    _take_over(bpy.context.view_layer.layer_collection, scene.view_layers[0].layer_collection)
+    for marker in source.timeline_markers:  # those that switch cameras
+        if marker.camera is not None:
+            scene.timeline_markers.new(marker.name, frame=marker.frame).camera = marker.camera
     apply_look(scene, look)
     scene.camera, scene.world = source.camera, source.world
     for name in ("view_transform", "look", "exposure", "gamma"):
         setattr(scene.view_settings, name, getattr(source.view_settings, name))
+
+
+def _take_over(ours: LayerCollection, theirs: LayerCollection) -> None:
+    """Let a view layer leave out what another leaves out."""
+    there = {layer.collection.name: layer for layer in ours.children}
+    for layer in theirs.children:
+        like = there.get(layer.collection.name)
+        if like is None:
+            continue
+        layer.exclude, layer.holdout, layer.indirect_only = like.exclude, like.holdout, like.indirect_only
+        _take_over(like, layer)
 
 
 def render_frame(scene: Scene, frame: int, folder: Path) -> Path:
