@@ -31,6 +31,25 @@ PREVIEWED = (
 #: Places of the active face's vertices as the preview shows them.
 SHOWN = "bpy.context.object.data.attributes['risorius_preview'].data"
 PREVIEW = "bl_ext.user_default.risorius.operators.preview.live"
+#: The head from the front, and where in the window its feature points are: name -> pixel from the upper left.
+FROM_THE_FRONT = """
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+kept_points = import_module("bl_ext.user_default.risorius.scene.points.kept")
+seen_points = import_module("bl_ext.user_default.risorius.scene.points.seen")
+with in_viewport():
+    bpy.ops.view3d.view_axis(type="FRONT")
+    bpy.ops.view3d.view_selected()
+    region, view = bpy.context.region, bpy.context.region_data
+    view.update()
+    visible = seen_points.Visible.of(bpy.context.object, bpy.context.evaluated_depsgraph_get())
+    pixels = {
+        name: location_3d_to_region_2d(region, view, place)
+        for name, place in visible.places(kept_points.read_kept(bpy.context.object)).items()
+    }
+    result = {name: [region.x + x, HEIGHT - region.y - y] for name, (x, y) in pixels.items()}
+"""
+#: Operators that listen to events now.
+LISTENING = "[operator.bl_idname for operator in bpy.context.window_manager.windows[0].modal_operators]"
 
 
 @pytest.fixture(scope="module")
@@ -210,6 +229,48 @@ def test_a_muscle_slider_moves_the_face(window: Window) -> None:
         " zip(bpy.context.object.data.attributes['risorius_preview'].data, was)) > 0.005"
     )
     assert window.ask("result = [entry.name for entry in bpy.context.object.risorius.muscles.by_hand]") == ["jaw_open"]
+
+
+def test_clicking_is_cancelled_and_leaves_the_window_as_it_was(window: Window) -> None:
+    window.ask(
+        "for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)\n"
+        "bpy.context.window_manager.risorius.preview.show = False\n"
+        "with in_viewport(): bpy.ops.risorius.add_head()\n"
+        "points = bpy.context.window_manager.risorius.points\n"
+        "points.show, bpy.context.window_manager.risorius.wheel.show = True, False"
+    )
+    pixels = window.ask(f"HEIGHT = {HEIGHT}\n{FROM_THE_FRONT}")
+    window.ask("bpy.ops.risorius.forget_points()")
+    window.ask("with in_viewport(): bpy.ops.risorius.click_points('INVOKE_DEFAULT')")
+    assert window.ask(f"result = {LISTENING}") == ["RISORIUS_OT_click_points"]
+    assert window.ask("result = points.show") is False
+    window.click(*map(round, pixels["3.7"]))
+    window.shot(PICTURES / "6-clicking.png")
+    window.key("Escape")
+    window.wait(f"not {LISTENING}")
+    assert window.ask("result = points.show") is True
+    assert window.ask("result = kept_points.has_points(bpy.context.object)") is False
+
+
+def test_four_clicks_and_their_counterparts_find_the_face(window: Window) -> None:
+    window.ask("with in_viewport(): bpy.ops.risorius.add_head()")
+    pixels = window.ask(FROM_THE_FRONT)
+    window.ask("true = {n: list(p) for n, p in visible.places(kept_points.read_kept(bpy.context.object)).items()}")
+    window.ask("bpy.ops.risorius.forget_points()")
+    window.ask("with in_viewport(): bpy.ops.risorius.click_points('INVOKE_DEFAULT')")
+    window.click(*map(round, pixels["9.3"]))  # where the corner of the eye is asked for: taken back
+    window.key("BackSpace")
+    for name in ("3.7", "8.3", "9.3", "2.1"):
+        window.click(*map(round, pixels[name]))
+    window.wait(f"kept_points.has_points(bpy.context.object) and not {LISTENING}")
+    off = window.ask(
+        "found = seen_points.Visible.of(bpy.context.object, bpy.context.evaluated_depsgraph_get()).places("
+        "kept_points.read_kept(bpy.context.object))\n"
+        "result = {n: max(abs(a - b) for a, b in zip(found[n], place)) for n, place in true.items() if n in found}"
+    )
+    assert len(off) > 40
+    assert max(off[name] for name in ("3.7", "3.12", "8.3", "8.4", "9.3")) < 0.004
+    window.shot(PICTURES / "7-clicked.png")
 
 
 def test_a_deleted_face_leaves_nothing_of_its_preview(window: Window) -> None:
