@@ -111,8 +111,6 @@ class KeyMapItem(Protocol):
     """What a key does."""
 
     @property
-    def idname(self) -> str: ...
-    @property
     def properties(self) -> OperatorProperties: ...
 
 

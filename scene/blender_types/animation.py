@@ -56,7 +56,6 @@ class FCurve(Protocol):
     keyframe_points: Growing[Keyframe]
 
     def update(self) -> None: ...
-    def evaluate(self, frame: float) -> float: ...
 
 
 class FCurves(Protocol):
