@@ -27,6 +27,7 @@ from .mesh.fap_units import unit_length
 from .mesh.openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, find_opening, outer_faces
 from .mesh.parts import Part
 from .mesh.points import FeaturePoints
+from .mesh.reach import within_reach
 from .mesh.template import TEMPLATE_POINTS, TemplateWarp
 from .muscles.placement import PlacedMuscle, place_muscles
 from .muscles.table import muscles_of
@@ -84,11 +85,23 @@ class Anatomy:
         return TemplateWarp(self.mesh.landmarks)
 
     @cached_property
-    def _skin_polygons(self) -> PolygonTable:
-        polygons = self.mesh.polygons.kept(self.mesh.polygons.within(self.mesh.parts == Part.SKIN))
+    def _movable(self) -> Bools:
+        """(V,) which skin the face can move."""
+        skin = self.mesh.parts == Part.SKIN
+        polygons = self.mesh.polygons.kept(self.mesh.polygons.within(skin))
         if not len(polygons):
             raise ModelError("the face has no skin polygons: check its parts")
-        return polygons
+        held = np.array(list(_vertex_of(self.mesh.points).values()), dtype=np.int64)
+        return within_reach(self.mesh.positions, polygons, held[np.isin(held, polygons.loops)])
+
+    @cached_property
+    def still_skin(self) -> Ints:
+        """Vertices of skin that no face moves."""
+        return np.flatnonzero((self.mesh.parts == Part.SKIN) & ~self._movable)
+
+    @cached_property
+    def _skin_polygons(self) -> PolygonTable:
+        return self.mesh.polygons.kept(self.mesh.polygons.within(self._movable))
 
     @cached_property
     def given_skin(self) -> OuterSkin:
@@ -218,8 +231,8 @@ class Anatomy:
     @cached_property
     def inner_skin(self) -> InnerSkin:
         """Mouth bag and sockets."""
-        inner: Bools = self.mesh.parts == Part.SKIN
-        inner[self.skin.index] = False
+        inner = self._movable.copy()
+        inner[self.given_skin.index] = False
         positions, polygons = self.mesh.positions, self._skin_polygons
         areas = mesh.vertex_areas(positions, polygons)
         return InnerSkin(laplacian(positions, polygons), areas, inner, positions, self.given_skin)
@@ -227,7 +240,8 @@ class Anatomy:
     @cached_property
     def loose_parts(self) -> LooseParts:
         """Brows, lashes and whatever has no part of its own: they go with outer skin and teeth."""
-        carriers = np.union1d(self.skin.index, np.union1d(self._part(Part.TEETH_UPPER), self._part(Part.TEETH_LOWER)))
+        teeth = (self._part(Part.TEETH_UPPER), self._part(Part.TEETH_LOWER))
+        carriers = np.unique(np.concatenate([self.given_skin.index, self.still_skin, *teeth]))
         return LooseParts(self.mesh.positions, self._part(Part.OTHER), carriers)
 
     def _fap_unit(self, number: int) -> float:

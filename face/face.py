@@ -184,7 +184,8 @@ class Face:
     @property
     def outer_skin(self) -> Ints:
         """(n,) vertices of the skin that shows: without the lining of mouth and eyes."""
-        return self.anatomy.mesh.with_copies(self.anatomy.given_skin.index)
+        showing = np.union1d(self.anatomy.given_skin.index, self.anatomy.still_skin)
+        return self.anatomy.mesh.with_copies(showing)
 
     @property
     def eyeballs(self) -> tuple[EyeballPlace, ...]:

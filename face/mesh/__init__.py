@@ -11,6 +11,7 @@ parts, segmentation,      which vertex is skin, eyeball, tooth or tongue, and ho
   eye_parts, mouth_parts,
   sphere
 openings                  where lips and lids end
+reach                     which skin a face can move
 template                  the template face of the tables, and the warp from it
 files, point_files        meshes in files; feature points in files
 """
