@@ -85,23 +85,25 @@ class Anatomy:
         return TemplateWarp(self.mesh.landmarks)
 
     @cached_property
-    def _movable(self) -> Bools:
-        """(V,) which skin the face can move."""
-        skin = self.mesh.parts == Part.SKIN
-        polygons = self.mesh.polygons.kept(self.mesh.polygons.within(skin))
+    def _whole_skin(self) -> PolygonTable:
+        """Polygons of all skin, a body's too."""
+        polygons = self.mesh.polygons.kept(self.mesh.polygons.within(self.mesh.parts == Part.SKIN))
         if not len(polygons):
             raise ModelError("the face has no skin polygons: check its parts")
+        return polygons
+
+    @cached_property
+    def _skin_polygons(self) -> PolygonTable:
+        """Polygons of the skin that the face can move."""
+        polygons = self._whole_skin
         held = np.array(list(_vertex_of(self.mesh.points).values()), dtype=np.int64)
-        return within_reach(self.mesh.positions, polygons, held[np.isin(held, polygons.loops)])
+        near = within_reach(self.mesh.positions, polygons, held[np.isin(held, polygons.loops)])
+        return polygons.kept(polygons.within(near))
 
     @cached_property
     def still_skin(self) -> Ints:
         """Vertices of skin that no face moves."""
-        return np.flatnonzero((self.mesh.parts == Part.SKIN) & ~self._movable)
-
-    @cached_property
-    def _skin_polygons(self) -> PolygonTable:
-        return self.mesh.polygons.kept(self.mesh.polygons.within(self._movable))
+        return np.setdiff1d(self._whole_skin.loops, self._skin_polygons.loops)
 
     @cached_property
     def given_skin(self) -> OuterSkin:
@@ -231,7 +233,8 @@ class Anatomy:
     @cached_property
     def inner_skin(self) -> InnerSkin:
         """Mouth bag and sockets."""
-        inner = self._movable.copy()
+        inner: Bools = self.mesh.parts == Part.SKIN
+        inner[self.still_skin] = False
         inner[self.given_skin.index] = False
         positions, polygons = self.mesh.positions, self._skin_polygons
         areas = mesh.vertex_areas(positions, polygons)

@@ -27,6 +27,11 @@ def straight(length: float) -> np.ndarray:
     return np.stack([np.zeros_like(along), np.zeros_like(along), along], axis=1)
 
 
+def aside(width: float, along: float = 0.0) -> np.ndarray:
+    """A shift beside the band, and along it."""
+    return np.array([0.0, width, along])
+
+
 def test_skin_farther_than_the_reach_is_left_out() -> None:
     vertices, polygons = band(straight(1.0))
     near = within_reach(vertices, polygons, np.array([0]))
@@ -35,13 +40,13 @@ def test_skin_farther_than_the_reach_is_left_out() -> None:
 
 
 def test_a_head_that_lies_within_reach_is_taken_whole_though_its_skin_winds() -> None:
-    winding = np.concatenate([straight(0.25), straight(0.25)[::-1] + [0.0, 0.02, 0.0]])
+    winding = np.concatenate([straight(0.25), straight(0.25)[::-1] + aside(0.02)])
     vertices, polygons = band(winding)
     assert within_reach(vertices, polygons, np.array([0])).all()
 
 
 def test_a_hand_before_the_face_is_far_along_the_skin() -> None:
-    arm = np.concatenate([straight(0.5), straight(0.5)[::-1] + [0.0, 0.05, 0.0]])
+    arm = np.concatenate([straight(0.5), straight(0.5)[::-1] + aside(0.05)])
     vertices, polygons = band(arm)
     near = within_reach(vertices, polygons, np.array([0]))
     hand = (vertices[:, 1] > 0.04) & (vertices[:, 2] < 0.2)
@@ -52,8 +57,8 @@ def test_a_hand_before_the_face_is_far_along_the_skin() -> None:
 
 def test_a_mouth_bag_of_its_own_is_within_reach_through_the_air() -> None:
     body, skin = band(straight(1.0))
-    bag, inside = band(straight(0.1) + [0.0, 0.02, 0.0])
-    far, away = band(straight(0.1) + [0.0, 0.02, 0.8])
+    bag, inside = band(straight(0.1) + aside(0.02))
+    far, away = band(straight(0.1) + aside(0.02, 0.8))
     vertices = np.concatenate([body, bag, far])
     polygons = PolygonTable.joined(
         [
