@@ -1,9 +1,11 @@
 """The public API: arrays and dataclasses in and out, no Blender.
 
-Everything here may be used by scripts; names and shapes are kept. Your scripts and the command line need nothing else.
-Importing it loads SciPy, which a Blender may lack; so `scene` and `operators` use what is here too, but import it late,
-and take what registering needs straight from `mpeg4` and from the outer rooms of `face`. The inner rooms of a face
-(pyproject.toml names them) are closed to them as to everybody.
+Everything here may be used by scripts; names and shapes are kept. Examples in docstrings know it as `api`, and NumPy as
+`np`; tests/test_examples.py runs them.
+
+Your scripts and the command line need nothing else. Importing it loads SciPy, which a Blender may lack; so `scene` and
+`operators` use what is here too, but import it late, and take what registering needs straight from `mpeg4` and from the
+outer rooms of `face`. The inner rooms of a face (pyproject.toml names them) are closed to them as to everybody.
 """
 
 from __future__ import annotations
@@ -214,7 +216,14 @@ FitProgress = Progress
 
 @lru_cache(maxsize=1)
 def default_face() -> Face:
-    """The default head as a face; built once."""
+    """The default head as a face; built once.
+
+    Examples
+    --------
+    >>> face = api.default_face()
+    >>> round(face.units.mns0, 3)  # from nose to mouth, metres
+    0.023
+    """
     head = build_default_head()
     return Face.from_arrays(head.vertices, head.polygons, head.points, head.parts)
 
@@ -227,6 +236,12 @@ def save_topology(path: str | Path, face: Face, *, name: str, source: str = "") 
     Raises
     ------
     ModelError : when none of its points follows the mesh.
+
+    Examples
+    --------
+    >>> topology = api.save_topology("mine.toml", api.default_face(), name="my heads")
+    >>> api.read_topology("mine.toml").name
+    'my heads'
     """
     points = {key: TopologyPoint(point.vertices, point.weights) for key, point in face.points.items() if point.is_bound}
     topology = topology_of(name, source, len(face.vertices), face.polygons, points)

@@ -32,7 +32,14 @@ class Contractible:
 
 @cache
 def contractibles() -> Mapping[str, Contractible]:
-    """All of them by name, in the order of the table: forehead first."""
+    """All of them by name, in the order of the table: forehead first.
+
+    Examples
+    --------
+    >>> muscle = api.contractibles()["zygomaticus_major_l"]
+    >>> muscle.mirror
+    'zygomaticus_major_r'
+    """
     rows = [(name, row.title, row.au, str(row.mechanism)) for name, row in read_muscles().items()]
     rows += [(mover.name, mover.title, mover.au, "lids") for mover in LID_MOVERS.values()]
     found = [

@@ -27,7 +27,7 @@ from .mesh.parts import Part
 from .mesh.points import FeaturePoints, PointSource, bind_points, check_sides
 from .mesh.weld import weld
 from .muscles.placement import PlacedMuscle
-from .pose import Pose, Poser, Sketch
+from .pose import Pose, Poser, Sketcher
 from .requests import checked_drive, checked_emotions, checked_request, checked_stream
 from .response.relaxation import Memory
 from .simulate import Simulation
@@ -56,28 +56,6 @@ class EyeballPlace:
     gaze: Floats
     iris: float
     pupil: float
-
-
-class Sketcher:
-    """Poses one face again and again, as a slider is dragged: each begins where the last one ended.
-
-    A sketch is within a tenth of a millimetre of the pose, and takes a third of its time.
-    """
-
-    def __init__(self, poser: Poser) -> None:
-        self._poser, self._memory = poser, Memory()
-
-    def sketch(
-        self,
-        frame: ArrayLike,
-        *,
-        drive: str | Drive = Drive.NATURAL,
-        emotion: EmotionShares | None = None,
-        contractions: Mapping[str, float] | None = None,
-    ) -> Sketch:
-        """The face for one frame of FAPs; parameters and errors as `Face.pose`."""
-        request = checked_request(frame, drive, emotion, contractions)
-        return self._poser.sketch(request, self._memory)
 
 
 class Face:
@@ -116,6 +94,13 @@ class Face:
         Raises
         ------
         ModelError : names what the mesh or the points lack, and the remedy.
+
+        Examples
+        --------
+        >>> head = api.build_default_head()
+        >>> face = api.Face.from_arrays(head.vertices, head.polygons, head.points)
+        >>> len(face.vertices) == len(head.vertices)
+        True
         """
         array = checked_vertices(vertices)
         faces = checked_polygons(polygons, len(array))
@@ -145,6 +130,12 @@ class Face:
         Raises
         ------
         ParameterError : an unknown mechanism; lists the known ones.
+
+        Examples
+        --------
+        >>> face = api.default_face().without("contact", "folds")
+        >>> "contact" in face.mechanisms
+        False
         """
         whole = self.anatomy
         left = Anatomy(whole.mesh, whole.mechanisms - named(mechanisms), whole=whole)
@@ -218,11 +209,25 @@ class Face:
         return {muscle.name: muscle for muscle in self.anatomy.muscles}
 
     def measure(self, positions: ArrayLike) -> Floats:
-        """(68,) FAPs read off deformed vertices (V, 3); NaN where the face has no such point."""
+        """(68,) FAPs read off deformed vertices (V, 3); NaN where the face has no such point.
+
+        Examples
+        --------
+        >>> face = api.default_face()
+        >>> bool(np.nanmax(np.abs(face.measure(face.vertices))) < 1e-6)  # at rest
+        True
+        """
         return measure(self.anatomy, np.asarray(positions, dtype=np.float64))
 
     def features(self, positions: ArrayLike) -> Floats:
-        """(15,) features of Table 3 of Raouzaiou et al. 2002 read off deformed vertices (V, 3)."""
+        """(15,) features of Table 3 of Raouzaiou et al. 2002 read off deformed vertices (V, 3).
+
+        Examples
+        --------
+        >>> face = api.default_face()
+        >>> face.features(face.vertices).shape
+        (15,)
+        """
         return features(self.anatomy, np.asarray(positions, dtype=np.float64))
 
     @cached_property
@@ -249,6 +254,19 @@ class Face:
         Raises
         ------
         ParameterError : a frame of another shape, an unknown drive, muscle or archetype.
+
+        Examples
+        --------
+        >>> face = api.default_face()
+        >>> joy = api.expression("joy")
+        >>> pose = face.pose(joy.frame(), emotion=joy.weights)
+        >>> pose.positions.shape == face.vertices.shape
+        True
+        >>> bool(pose.achieved[12 - 1] > 100.0)  # raise_l_cornerlip
+        True
+        >>> by_hand = face.pose(np.full(68, np.nan), contractions={"zygomaticus_major_l": 0.8})
+        >>> round(by_hand.contractions["zygomaticus_major_l"], 3)
+        0.8
         """
         return self._poser.pose(checked_request(frame, drive, emotion, contractions))
 
@@ -256,6 +274,11 @@ class Face:
         """Work out what a first pose needs, bit by bit; yields how far it is and what comes next.
 
         A first pose does the same by itself; this is for whoever shows progress.
+
+        Examples
+        --------
+        >>> [step.text for step in api.default_face().prepare()][0]
+        'Preparing the skin'
         """
         anatomy, poser = self.anatomy, self._poser
         yield Progress(0.0, "Preparing the skin")
@@ -270,7 +293,14 @@ class Face:
         poser.sketch(Request(silent_faps()), Memory())
 
     def sketcher(self) -> Sketcher:
-        """Quick poses for a live preview; see `Sketcher`."""
+        """Quick poses for a live preview; see `Sketcher`.
+
+        Examples
+        --------
+        >>> sketcher = api.default_face().sketcher()
+        >>> sketcher.sketch(api.expression("joy", activation=3.0).frame()).positions.shape[1]
+        3
+        """
         return Sketcher(self._poser)
 
     def simulation(
@@ -284,7 +314,15 @@ class Face:
         substeps: int = 2,
         tissue: str | Tissue = "default",
     ) -> Iterator[Floats]:
-        """Positions (V, 3) frame by frame of the moving face; see `simulate`."""
+        """Positions (V, 3) frame by frame of the moving face; see `simulate`.
+
+        Examples
+        --------
+        >>> face = api.default_face()
+        >>> frames = api.envelope(api.expression("joy"), onset=0.2, apex=0.0, offset=0.2, fps=10.0)
+        >>> for positions in face.simulation(frames, fps=10.0):
+        ...     assert positions.shape == face.vertices.shape
+        """
         checked = checked_stream(frames)
         weights = checked_emotions(emotions, len(checked))
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
@@ -307,6 +345,13 @@ class Face:
         In the natural drive each cue is planned at its apex and the plans are blended, so that an apex that is held is
         the pose of its profile. `contractions`, one mapping per cue, are set by hand and come and go with it.
         `liveliness` adds blinks and small motions of head and eyes. Other keywords and errors as `simulate`.
+
+        Examples
+        --------
+        >>> face = api.default_face()
+        >>> cue = api.Cue(api.expression("joy"), onset=0.2, apex=0.0, offset=0.2)
+        >>> len(list(face.performance([cue], fps=10.0)))
+        5
         """
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
         return simulation.run(cue_plans(cues, fps, checked_drive(drive), contractions, liveliness))
@@ -337,6 +382,14 @@ class Face:
         ------
         ParameterError : frames or emotions of another shape or not finite, unknown names, fps or substeps out of range.
         SolverError : names the frame whose motion was not solved.
+
+        Examples
+        --------
+        >>> face = api.default_face()
+        >>> frames = api.envelope(api.expression("joy"), onset=0.2, apex=0.0, offset=0.2, fps=10.0)
+        >>> clip = face.simulate(frames, fps=10.0)
+        >>> clip.positions.shape == (5, *face.vertices.shape)
+        True
         """
         moving = self.simulation(
             frames, fps, drive=drive, emotions=emotions, integrator=integrator, substeps=substeps, tissue=tissue

@@ -12,14 +12,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from numpy.typing import ArrayLike
+
 from ..arrays import Floats
 from .anatomy import Anatomy
 from .assembly import Assembly
 from .drive.drives import DRIVES
 from .drive.plan import Plan
-from .drive.request import Request
+from .drive.request import Drive, EmotionShares, Request
 from .measure import measure
 from .posture import Balance, Posture
+from .requests import checked_request
 from .response.relaxation import Memory
 
 
@@ -86,3 +89,25 @@ class Poser:
     def _positions(self, posture: Posture, request: Request) -> Floats:
         """(V, 3) in the face's coordinates."""
         return self.assembly.positions(posture.displacement, posture.amounts.jaw, request)
+
+
+class Sketcher:
+    """Poses one face again and again, as a slider is dragged: each begins where the last one ended.
+
+    A sketch is within a tenth of a millimetre of the pose, and takes a third of its time.
+    """
+
+    def __init__(self, poser: Poser) -> None:
+        self._poser, self._memory = poser, Memory()
+
+    def sketch(
+        self,
+        frame: ArrayLike,
+        *,
+        drive: str | Drive = Drive.NATURAL,
+        emotion: EmotionShares | None = None,
+        contractions: Mapping[str, float] | None = None,
+    ) -> Sketch:
+        """The face for one frame of FAPs; parameters and errors as `Face.pose`."""
+        request = checked_request(frame, drive, emotion, contractions)
+        return self._poser.sketch(request, self._memory)

@@ -167,6 +167,12 @@ def expression_frame(field: ExpressionField) -> Floats:
     Returns
     -------
     (68,) float64, FAP units; NaN where neither expression asks.
+
+    Examples
+    --------
+    >>> frame = api.expression_frame(api.ExpressionField(select1=1, intensity1=63))  # all of joy
+    >>> print(api.recognise(frame).best)
+    joy
     """
     frames = []
     for code, intensity in ((field.select1, field.intensity1), (field.select2, field.intensity2)):
@@ -193,6 +199,12 @@ def viseme_frame(field: VisemeField, shapes: Mapping[int, Floats] = VISEME_SHAPE
     ------
     ParameterError
         When a viseme in use has no shape.
+
+    Examples
+    --------
+    >>> frame = api.viseme_frame(api.VisemeField(select1=10))  # "A" as in "car"
+    >>> bool(frame[api.fap("open_jaw").number - 1] > 0.0)
+    True
     """
     frames = []
     for number, weight in ((field.select1, field.blend / FULL), (field.select2, 1.0 - field.blend / FULL)):

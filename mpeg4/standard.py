@@ -204,6 +204,13 @@ def fap(which: str | SupportsIndex) -> Fap:
     ------
     ParameterError
         When no FAP has this number or name; the message names the nearest names.
+
+    Examples
+    --------
+    >>> api.fap("open_jaw").number
+    3
+    >>> print(api.fap(3).unit)
+    MNS
     """
     if isinstance(which, str):
         if which in _NUMBERS:

@@ -130,6 +130,12 @@ class Cue:
     ------
     ParameterError
         When a time is negative, nothing lasts, or the peak is outside 0..1.
+
+    Examples
+    --------
+    >>> cue = api.Cue(api.expression("joy"), onset=0.4, apex=1.0, offset=0.6)
+    >>> cue.strength(np.array([0.0, 0.2, 0.4, 1.4, 2.0])).round(3).tolist()
+    [0.0, 0.5, 1.0, 1.0, 0.0]
     """
 
     profile: Profile
@@ -191,6 +197,14 @@ def envelope(
     ------
     ParameterError
         When a time, the rate, the peak or the ramp breaks its rule.
+
+    Examples
+    --------
+    >>> frames = api.envelope(api.expression("joy"), onset=0.4, apex=1.0, offset=0.6, fps=25.0)
+    >>> frames.shape
+    (51, 68)
+    >>> frames[[0, 10, -1], 12 - 1].round(1).tolist()  # raise_l_cornerlip
+    [0.0, 300.0, 0.0]
     """
     if ramp not in list(Ramp):
         raise ParameterError("ramp", f"must be one of {', '.join(Ramp)}", ramp)
@@ -219,6 +233,13 @@ def sequence(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
     ------
     ParameterError
         When there is no cue or the rate is not positive.
+
+    Examples
+    --------
+    >>> joy = api.Cue(api.expression("joy"), onset=0.4, apex=1.0, offset=0.6)
+    >>> fear = api.Cue(api.expression("fear"), start=1.4, onset=0.4, apex=1.0, offset=0.6)
+    >>> api.sequence([joy, fear], fps=25.0).shape
+    (86, 68)
     """
     strength = strengths(cues, fps=fps)
     wanted = np.array([cue.profile.frame(cue.seed) for cue in cues])  # (C, 68)
@@ -240,6 +261,13 @@ def emotion_weights(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
     ------
     ParameterError
         As `sequence`.
+
+    Examples
+    --------
+    >>> joy = api.Cue(api.expression("joy"), onset=0.4, apex=1.0, offset=0.6)
+    >>> shown = api.emotion_weights([joy], fps=25.0)
+    >>> shown[10, api.ARCHETYPES.index("joy")].tolist()
+    1.0
     """
     strength = strengths(cues, fps=fps)
     shares = np.array([[cue.profile.weights.get(name, 0.0) for name in ARCHETYPES] for cue in cues])
@@ -271,6 +299,12 @@ def load_timings(path: str | Path = TIMINGS) -> Mapping[str, Timing]:
     ------
     FormatError
         Names the file, the key and the rule it breaks.
+
+    Examples
+    --------
+    >>> timing = api.load_timings()["spontaneous"]
+    >>> timing.onset < timing.offset
+    True
     """
     document = read_toml(path)
     return MappingProxyType({name: _timing(name, document.table(name)) for name in document})

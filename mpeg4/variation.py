@@ -199,6 +199,15 @@ def drawn_within(profile: Profile, drawn: Drawn) -> Profile:
     Raises
     ------
     ParameterError : the amount is above 1.
+
+    Examples
+    --------
+    >>> joy = api.expression("joy")
+    >>> low, high = api.drawn_within(joy, api.Drawn(amount=1.0, seed=3)).ranges[12]
+    >>> low == high
+    True
+    >>> joy.ranges[12][0] <= low <= joy.ranges[12][1]
+    True
     """
     if drawn.amount > 1.0:
         raise ParameterError("amount of draws", "must be in 0..1", drawn.amount)

@@ -40,6 +40,12 @@ def build_default_head(figures: str | Path | HeadFigures = DEFAULT_FIGURES) -> H
     ------
     FormatError : a table with a missing or wrong entry.
     ModelError, SolverError : figures that make no head.
+
+    Examples
+    --------
+    >>> head = api.build_default_head()
+    >>> head.vertices.shape[1], len(head.polygons[0])
+    (3, 4)
     """
     measured = figures if isinstance(figures, HeadFigures) else read_figures(figures)
     skin = build_skin(measured)

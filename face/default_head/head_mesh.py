@@ -76,6 +76,11 @@ class HeadMesh:
         Raises
         ------
         ModelError : a point this head does not carry.
+
+        Examples
+        --------
+        >>> api.build_default_head().position("8.3").shape  # the left corner of the mouth
+        (3,)
         """
         if point not in self.points:
             raise ModelError(f"the head has no feature point {point!r}; it has {', '.join(sorted(self.points))}")

@@ -83,6 +83,14 @@ def find_points(
     ------
     ModelError : where there is no face; states the score, the limit and the remedy. Broken meshes.
     ParameterError : clicks that name no point of the skin, or no place.
+
+    Examples
+    --------
+    >>> head = api.build_default_head()
+    >>> found = api.find_points(head.vertices, head.polygons)
+    >>> face = api.Face.from_arrays(head.vertices, head.polygons, found.positions)
+    >>> min(found.confidence.values()) > 0.0
+    True
     """
     return run(find_points_steps(vertices, polygons, clicks, topologies=topologies))
 
@@ -94,7 +102,16 @@ def find_points_steps(
     *,
     topologies: Sequence[Topology] | None = None,
 ) -> Work[FoundPoints]:
-    """`find_points` as a generator: yields `Progress(fraction, text)`, returns the points; close it to cancel."""
+    """`find_points` as a generator: yields `Progress(fraction, text)`, returns the points; close it to cancel.
+
+    Examples
+    --------
+    >>> head = api.build_default_head()
+    >>> steps = api.find_points_steps(head.vertices, head.polygons)
+    >>> next(steps).fraction < 1.0  # run it on, or close it
+    True
+    >>> steps.close()
+    """
     yield Progress(0.0, "Reading the mesh")
     places = checked_vertices(vertices)
     faces = _checked_faces(polygons, len(places))

@@ -62,7 +62,15 @@ class Topology:
 
 
 def recognise_topology(vertex_count: int, polygons: Polygons, topologies: Sequence[Topology]) -> Topology | None:
-    """The known topology of a mesh, the largest where there are several; None where it is unknown."""
+    """The known topology of a mesh, the largest where there are several; None where it is unknown.
+
+    Examples
+    --------
+    >>> _ = api.save_topology("mine.toml", api.default_face(), name="my heads")
+    >>> face = api.default_face()
+    >>> api.recognise_topology(len(face.vertices), face.polygons, api.load_topologies(".")).name
+    'Risorius, default head'
+    """
     edges = unique_edges(polygons)
     for topology in sorted(topologies, key=lambda known: -known.vertices):
         if topology.vertices <= vertex_count:
@@ -83,6 +91,12 @@ def load_topologies(*folders: str | Path) -> tuple[Topology, ...]:
     Raises
     ------
     FormatError : a table with a missing or wrong entry.
+
+    Examples
+    --------
+    >>> _ = api.save_topology("mine.toml", api.default_face(), name="my heads")
+    >>> api.load_topologies(".")[-1].name
+    'my heads'
     """
     found = list(_shipped())
     for folder in folders:
@@ -101,6 +115,12 @@ def read_topology(path: str | Path) -> Topology:
     Raises
     ------
     FormatError : says which entry is missing or wrong.
+
+    Examples
+    --------
+    >>> _ = api.save_topology("mine.toml", api.default_face(), name="my heads")
+    >>> "8.3" in api.read_topology("mine.toml").points
+    True
     """
     table = read_toml(path)
     count, points = table.integer("vertices", least=1), table.table("points")

@@ -43,6 +43,13 @@ def read_mesh(path: str | Path) -> MeshFile:
     ------
     FormatError
         where the file is missing, of another kind or damaged; says which line or array.
+
+    Examples
+    --------
+    >>> _ = open("square.obj", "w").write("v 0 0 0\\nv 1 0 0\\nv 1 1 0\\nv 0 1 0\\nf 1 2 3 4\\n")
+    >>> mesh = api.read_mesh("square.obj")
+    >>> mesh.vertices.shape, mesh.polygons
+    ((4, 3), ((0, 1, 2, 3),))
     """
     path = Path(path)
     if path.suffix.lower() not in SUFFIXES:

@@ -25,6 +25,12 @@ def read_point_file(path: str | Path) -> dict[str, int | tuple[float, float, flo
     Raises
     ------
     FormatError : with the line of a JSON error, or the key of a wrong entry.
+
+    Examples
+    --------
+    >>> _ = open("points.json", "w").write('{"points": {"8.4": 17, "2.1": [0.0, -0.1, -0.06]}}')
+    >>> api.read_point_file("points.json")
+    {'8.4': 17, '2.1': (0.0, -0.1, -0.06)}
     """
     try:
         table = json.loads(read_bytes(path).decode("utf-8-sig"))

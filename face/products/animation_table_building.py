@@ -94,6 +94,12 @@ def face_animation_tables(
     Raises
     ------
     ParameterError : no low-level FAP, steps below 1, an unknown drive.
+
+    Examples
+    --------
+    >>> tables = api.face_animation_tables(api.default_face(), faps=[3], steps=1)
+    >>> list(tables.tables)
+    [3]
     """
     numbers = sorted(set(faps))
     if not numbers or not set(numbers) <= set(LOW_LEVEL):

@@ -26,6 +26,13 @@ def write_animation_tables(path: str | Path, tables: AnimationTables) -> None:
     Raises
     ------
     FormatError : the file cannot be written.
+
+    Examples
+    --------
+    >>> tables = api.face_animation_tables(api.default_face(), faps=[3], steps=1)
+    >>> api.write_animation_tables("face.json", tables)
+    >>> list(api.read_animation_tables("face.json").tables)
+    [3]
     """
     document = {
         "format": FORMAT,
@@ -42,6 +49,13 @@ def read_animation_tables(path: str | Path) -> AnimationTables:
     Raises
     ------
     FormatError : names the file, the key and the rule it breaks.
+
+    Examples
+    --------
+    >>> tables = api.face_animation_tables(api.default_face(), faps=[3], steps=1)
+    >>> api.write_animation_tables("face.json", tables)
+    >>> api.read_animation_tables("face.json").tables[3].borders.tolist()
+    [-121, 0, 1546]
     """
     document = read_json(path, kind=FORMAT, version=VERSION)
     found: dict[int, AnimationTable] = {}
@@ -62,6 +76,13 @@ def write_face_def_tables(path: str | Path, tables: AnimationTables, *, node: st
     ------
     FormatError : the file cannot be written.
     ParameterError : the node's name is no name in VRML.
+
+    Examples
+    --------
+    >>> tables = api.face_animation_tables(api.default_face(), faps=[3], steps=1)
+    >>> api.write_face_def_tables("face.txt", tables)
+    >>> "FaceDefTables" in open("face.txt").read()
+    True
     """
     if not node.isidentifier():
         raise ParameterError("node", "must be a name of letters, digits and _", node)

@@ -67,7 +67,14 @@ class AnimationTable:
             raise ParameterError("slopes", f"must be finite, of the shape {expected}", self.slopes.shape)
 
     def displacement(self, value: float) -> Floats:
-        """(n, 3) metres that the vertices move at a value of the FAP; beyond the borders the last slope goes on."""
+        """(n, 3) metres that the vertices move at a value of the FAP; beyond the borders the last slope goes on.
+
+        Examples
+        --------
+        >>> jaw = api.face_animation_tables(api.default_face(), faps=[3], steps=1).tables[3]
+        >>> jaw.displacement(200.0).shape == (len(jaw.vertices), 3)
+        True
+        """
         low, high = self.borders[:-1].astype(np.float64), self.borders[1:].astype(np.float64)
         low[0], high[-1] = -np.inf, np.inf
         covered = np.clip(value, low, high) - np.clip(0.0, low, high)
@@ -107,6 +114,14 @@ class AnimationTables:
         Raises
         ------
         ParameterError : a frame of another shape, or infinite.
+
+        Examples
+        --------
+        >>> tables = api.face_animation_tables(api.default_face(), faps=[3], steps=1)
+        >>> frame = np.full(68, np.nan)
+        >>> frame[3 - 1] = 200.0  # open_jaw
+        >>> tables.play(frame).shape == tables.vertices.shape
+        True
         """
         values = np.asarray(frame, dtype=np.float64)
         if values.shape != (FAP_COUNT,) or np.isinf(values).any():

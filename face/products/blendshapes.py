@@ -32,6 +32,13 @@ def arkit_shapes(face: Face, names: str | Path = "arkit") -> dict[str, Floats]:
     ------
     FormatError : a table of names that breaks a rule.
     ParameterError : a shape of muscles that this face has not.
+
+    Examples
+    --------
+    >>> face = api.default_face()
+    >>> shapes = api.arkit_shapes(face, "oculus_visemes")
+    >>> shapes["viseme_aa"].shape == face.vertices.shape
+    True
     """
     return run(arkit_shape_steps(face, load_key_names(names)))
 

@@ -42,7 +42,16 @@ class Crease:
 
 
 class Creases:
-    """The creases of one face, and how full they are in a pose."""
+    """The creases of one face, and how full they are in a pose.
+
+    Examples
+    --------
+    >>> face = api.default_face()
+    >>> creases = api.Creases(face)
+    >>> surprised = face.pose(api.archetype("surprise").frame())
+    >>> creases.amounts(surprised.positions)["forehead"] > creases.amounts(face.vertices)["forehead"]
+    True
+    """
 
     def __init__(self, face: Face, rows: Sequence[CreaseRow] | None = None) -> None:
         """Place the creases of a table (the built-in one) on a face."""

@@ -94,6 +94,15 @@ def read_points(
     ------
     ParameterError : shapes, or a neutral stretch outside the recording or without a face.
     ModelError : points that the units or the pose need are missing, or no frame shows a face.
+
+    Examples
+    --------
+    >>> face, names = api.default_face(), list(api.REQUIRED_POINTS)
+    >>> still = np.array([face.points[name].position for name in names]) @ face.axes.T
+    >>> stable = ["3.7", "3.8", "3.11", "3.12", "9.15"]
+    >>> reading = api.read_points(np.stack([still, still]), names, stable=stable, eye_radius=0.2)
+    >>> bool(np.nanmax(np.abs(reading.frames)) < 1e-6)  # nothing moves
+    True
     """
     points = np.asarray(points, dtype=np.float64)
     if points.ndim != 3 or points.shape[1:] != (len(names), 3):

@@ -69,6 +69,13 @@ def read_recording(
     ------
     FormatError : names the file, line and column, frame or byte, and the remedy.
     ParameterError : an option outside its rule.
+
+    Examples
+    --------
+    >>> _ = open("take.csv", "w").write("timestamp, AU45_r\\n0.00, 0\\n0.04, 2.5\\n0.08, 5\\n")
+    >>> recording = api.read_recording("take.csv")
+    >>> print(recording.format, recording.stream.fps)
+    openface 25.0
     """
     if rate is not None and not (np.isfinite(rate) and rate > 0.0):
         raise ParameterError("rate", "must be a positive number of frames per second", rate)
@@ -95,7 +102,14 @@ def read_stream(
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
 ) -> FapStream:
-    """The stream of a file of any format; parameters and errors as `read_recording`."""
+    """The stream of a file of any format; parameters and errors as `read_recording`.
+
+    Examples
+    --------
+    >>> _ = open("take.csv", "w").write("timestamp, AU45_r\\n0.00, 0\\n0.04, 2.5\\n0.08, 5\\n")  # OpenFace
+    >>> api.read_stream("take.csv").frames[:, 19 - 1].round().tolist()  # close_t_l_eyelid
+    [0.0, 468.0, 937.0]
+    """
     return read_recording(path, format, fps=fps, rate=rate, aspect=aspect, neutral=neutral).stream
 
 
@@ -108,7 +122,14 @@ def read_capture(
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
 ) -> FapStream:
-    """The stream of a tracker's file: the older name of `read_stream`, whose `format` is called `kind` here."""
+    """The stream of a tracker's file: the older name of `read_stream`, whose `format` is called `kind` here.
+
+    Examples
+    --------
+    >>> api.write_fap_csv("still.csv", api.FapStream(np.zeros((3, 68)), fps=25.0))
+    >>> len(api.read_capture("still.csv").frames)
+    3
+    """
     return read_stream(path, kind, fps=fps, rate=rate, aspect=aspect, neutral=neutral)
 
 
@@ -134,6 +155,14 @@ def write_stream(
     ------
     FormatError : an ending or format that is not written; the file cannot be written.
     ParameterError : an option, or a value of the stream, outside its rule.
+
+    Examples
+    --------
+    >>> stream = api.FapStream(np.zeros((3, 68)), fps=25.0)
+    >>> for name in ("a.fap", "a.fba", "a.json", "a.csv"):
+    ...     api.write_stream(name, stream)
+    >>> {api.read_stream(name).fps for name in ("a.fap", "a.fba", "a.json", "a.csv")}
+    {25.0}
     """
     chosen = _ENDINGS.get(Path(path).suffix.lower()) if format is None else StreamFormat.of(format)
     if chosen is StreamFormat.FAP:

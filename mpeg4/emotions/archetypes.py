@@ -151,6 +151,14 @@ def archetype(name: str, variant: int = 0, *, signs: str = Signs.MPEG4, activati
     ------
     ParameterError
         When there is no such archetype, variant or sign convention, or the activation is off the scale.
+
+    Examples
+    --------
+    >>> fear = api.archetype("fear", 8)
+    >>> fear.activation
+    4.9
+    >>> fear.ranges[3]  # open_jaw, in MNS / 1024
+    (400.0, 560.0)
     """
     emotion, convention = check_archetype(name), check_signs(signs)
     if variant not in VARIANTS[emotion]:
@@ -180,6 +188,12 @@ def initial_profile(name: str, *, signs: str = Signs.MPEG4, activation: float | 
     ------
     ParameterError
         When there is no such archetype or sign convention, or the activation is off the scale.
+
+    Examples
+    --------
+    >>> low, high = api.initial_profile("joy").ranges[19]  # close_t_l_eyelid
+    >>> low < high
+    True
     """
     emotion, convention = check_archetype(name), check_signs(signs)
     ranges: dict[int, Range] = {}

@@ -68,6 +68,12 @@ def recognise_over_time(
     ------
     ParameterError
         When the frames have another shape or infinite values, or there is no such rule.
+
+    Examples
+    --------
+    >>> frames = api.envelope(api.expression("joy"), onset=0.2, apex=0.2, offset=0.2, fps=10.0)
+    >>> print(api.recognise_over_time(frames, fps=10.0).best[3])
+    joy
     """
     values = np.asarray(frames, dtype=np.float64)
     if values.ndim != 2 or values.shape[1] != FAP_COUNT:
@@ -92,6 +98,13 @@ def write_belief_csv(path: str | Path, track: BeliefTrack) -> None:
     ------
     FormatError
         When the file cannot be written.
+
+    Examples
+    --------
+    >>> frames = api.envelope(api.expression("joy"), onset=0.2, apex=0.2, offset=0.2, fps=10.0)
+    >>> api.write_belief_csv("beliefs.csv", api.recognise_over_time(frames, fps=10.0))
+    >>> open("beliefs.csv").readline()[:22]
+    'frame,seconds,joy,sadn'
     """
     seen = [number for number in FAPS if not np.isnan(track.frames[:, number - 1]).all()]
     head = ["frame", "seconds", *map(str, ARCHETYPES), "best", "strength"]

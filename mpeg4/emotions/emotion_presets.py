@@ -41,6 +41,14 @@ def load_emotions(paths: Iterable[str | Path] = (), *, bundled: bool = True) -> 
     ------
     FormatError
         Names the file, the key and the rule it breaks.
+
+    Examples
+    --------
+    >>> text = '[wistful]\\nactivation = 2.4\\nangle = 95.0\\nneighbours = ["joy", "sadness"]\\n'
+    >>> _ = open("mine.toml", "w").write(text + 'reason = "a weak smile"\\nsource = "our own choice"\\n')
+    >>> words = api.load_emotions(["mine.toml"])
+    >>> api.expression("wistful", words=words).activation
+    2.4
     """
     words: dict[str, Word] = {}
     for path in ([EMOTION_PRESETS] if bundled else []) + [Path(path) for path in paths]:

@@ -46,6 +46,15 @@ def expression(
     ParameterError
         When the word is unknown (the message suggests others), when both or neither of word and angle are given, or
         when activation, angle or variants break their rule.
+
+    Examples
+    --------
+    >>> terrified = api.expression("terrified")
+    >>> print(terrified.category, terrified.activation)
+    fear 6.3
+    >>> between = api.expression(angle=20.0, activation=5.0)
+    >>> {str(name): round(share, 2) for name, share in between.weights.items()}
+    {'joy': 0.47, 'fear': 0.53}
     """
     known = WORDS if words is None else words
     if (word is None) == (angle is None):

@@ -31,6 +31,13 @@ def between(first: Profile, second: Profile, *, activation: float, angle: float)
     ParameterError
         When the activation is off the scale, the angle off the arc, the sign conventions differ, or a profile is the
         neutral face.
+
+    Examples
+    --------
+    >>> fear, sad = api.archetype("fear"), api.archetype("sadness")
+    >>> guilty = api.between(fear, sad, activation=4.0, angle=102.3)
+    >>> {str(name): round(share, 2) for name, share in guilty.weights.items()}
+    {'fear': 0.16, 'sadness': 0.84}
     """
     for name, profile in (("first profile", first), ("second profile", second)):
         if profile.neutral:

@@ -141,6 +141,12 @@ class Profile:
         ------
         ParameterError
             When the activation is off the scale.
+
+        Examples
+        --------
+        >>> joy = api.expression("joy", activation=3.0)
+        >>> joy.scaled(6.0).ranges[12][0] / joy.ranges[12][0]
+        2.0
         """
         wanted, own = check_activation(activation), self.activation
         if wanted == own:
@@ -149,7 +155,13 @@ class Profile:
         return replace(self, ranges=ranges, activation=wanted)
 
     def named(self, word: str | None) -> Profile:
-        """The same profile under an emotion word."""
+        """The same profile under an emotion word.
+
+        Examples
+        --------
+        >>> api.archetype("joy").named("blissful").word
+        'blissful'
+        """
         return replace(self, word=word)
 
     def frame(self, rng: np.random.Generator | int | None = None, *, asymmetry: float = 0.0) -> Floats:
@@ -171,6 +183,15 @@ class Profile:
         ------
         ParameterError
             When the asymmetry is outside 0..1.
+
+        Examples
+        --------
+        >>> joy = api.expression("joy")
+        >>> low, high = joy.ranges[12]  # raise_l_cornerlip
+        >>> float(joy.frame()[12 - 1]) == (low + high) / 2
+        True
+        >>> bool(low <= joy.frame(7)[12 - 1] <= high)  # a draw with the seed 7
+        True
         """
         if not 0.0 <= asymmetry <= 1.0:
             raise ParameterError("asymmetry", "must be in 0..1", asymmetry)

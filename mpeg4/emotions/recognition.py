@@ -134,6 +134,12 @@ def recognise(frame: ArrayLike, *, rule: str | Rule = Rule.PAPER) -> Beliefs:
     ------
     ParameterError
         When the frame has another shape or infinite values, or there is no such rule.
+
+    Examples
+    --------
+    >>> beliefs = api.recognise(api.archetype("surprise").frame())
+    >>> print(beliefs.best)
+    surprise
     """
     return _beliefs(_checked(frame), np.ones(FAP_COUNT, dtype=np.bool_), _rule(rule))
 
@@ -155,6 +161,12 @@ def recognise_words(frame: ArrayLike, words: Iterable[str], *, rule: str | Rule 
     ------
     ParameterError
         As `recognise`, and for an unknown word.
+
+    Examples
+    --------
+    >>> beliefs = api.recognise_words(api.expression("terrified").frame(), ["terrified", "joy", "sad"])
+    >>> next(iter(beliefs))
+    'terrified'
     """
     values, chosen, everything = _checked(frame), _rule(rule), np.ones(FAP_COUNT, dtype=np.bool_)
     profiles = {word: expression(word) for word in words}
@@ -180,6 +192,14 @@ def shown_strength(frame: ArrayLike, profile: Profile) -> float:
     ------
     ParameterError
         When the frame has another shape or infinite values.
+
+    Examples
+    --------
+    >>> joy = api.archetype("joy")
+    >>> round(api.shown_strength(joy.frame(), joy), 6)
+    1.0
+    >>> round(api.shown_strength(0.5 * joy.frame(), joy), 6)
+    0.5
     """
     values, centres = _checked(frame), profile.frame()
     counted = ~np.isnan(values) & ~np.isnan(centres)
@@ -205,6 +225,13 @@ def recognise_features(features: ArrayLike, *, rule: str | Rule = Rule.PAPER) ->
     ------
     ParameterError
         When there are not 15 finite-or-NaN numbers, or there is no such rule.
+
+    Examples
+    --------
+    >>> face = api.default_face()
+    >>> surprised = face.pose(api.archetype("surprise").frame(), drive="exact")
+    >>> print(api.recognise_features(face.features(surprised.positions)).best)
+    surprise
     """
     return _beliefs(faps_from_features(features), _shown_by_features(), _rule(rule))
 

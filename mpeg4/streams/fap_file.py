@@ -57,6 +57,13 @@ def read_fap(path: str | Path) -> FapStream:
     ------
     FormatError
         Names the file, the line, what is wrong and the remedy.
+
+    Examples
+    --------
+    >>> api.write_fap("still.fap", api.FapStream(np.zeros((3, 68)), fps=25.0))
+    >>> stream = api.read_fap("still.fap")
+    >>> stream.fps, len(stream.frames)
+    (25.0, 3)
     """
     file = Path(path)
     lines = _lines(file)
@@ -108,6 +115,13 @@ def write_fap(path: str | Path, stream: FapStream, *, decimals: int = 0) -> None
         When the file cannot be written.
     ParameterError
         When the decimals are negative, the stream has no frame, or a value is too large for the reader.
+
+    Examples
+    --------
+    >>> stream = api.FapStream(np.zeros((3, 68)), fps=25.0, name="still")
+    >>> api.write_fap("still.fap", stream)
+    >>> api.read_fap("still.fap").name
+    'still'
     """
     if decimals < 0:
         raise ParameterError("decimals", "must be 0 or more", decimals)

@@ -33,6 +33,12 @@ def write_fap_json(path: str | Path, stream: FapStream) -> None:
     Raises
     ------
     FormatError : the file cannot be written.
+
+    Examples
+    --------
+    >>> api.write_fap_json("still.json", api.FapStream(np.zeros((3, 68)), fps=25.0))
+    >>> api.read_fap_json("still.json").fps
+    25.0
     """
     used = [number for number in NUMBERS.values() if stream.mask[:, number - 1].any()]
     columns = stream.frames[:, [number - 1 for number in used]]
@@ -57,6 +63,12 @@ def read_fap_json(path: str | Path) -> FapStream:
     Raises
     ------
     FormatError : names the file, the key and the rule it breaks.
+
+    Examples
+    --------
+    >>> api.write_fap_json("still.json", api.FapStream(np.zeros((3, 68)), fps=25.0))
+    >>> len(api.read_fap_json("still.json").frames)
+    3
     """
     return _stream(read_json(path, kind=FORMAT, version=VERSION))
 

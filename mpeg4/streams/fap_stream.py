@@ -42,6 +42,14 @@ class FapStream:
     ------
     ParameterError
         When shapes, rate, name or mask break their rule.
+
+    Examples
+    --------
+    >>> frames = np.full((50, 68), np.nan)
+    >>> frames[:, api.fap("open_jaw").number - 1] = np.linspace(0.0, 300.0, 50)
+    >>> stream = api.FapStream(frames, fps=25.0, name="yawn")
+    >>> bool(stream.mask[0, 2]), bool(stream.mask[0, 3])
+    (True, False)
     """
 
     frames: Floats
@@ -93,6 +101,12 @@ class FapStream:
         ------
         ParameterError
             When a viseme in use has no shape.
+
+        Examples
+        --------
+        >>> stream = api.FapStream(np.full((2, 68), np.nan), visemes={0: api.VisemeField(select1=10)})
+        >>> bool(np.isnan(stream.frames[0, 2])), bool(np.isnan(stream.expanded()[0, 2]))
+        (True, False)
         """
         frames = self.frames.copy()
         for index in sorted({*self.visemes, *self.expressions}):
@@ -113,6 +127,13 @@ class FapStream:
         ------
         ParameterError
             When there is no such rule.
+
+        Examples
+        --------
+        >>> frames = np.full((1, 68), np.nan)
+        >>> frames[0, 12 - 1] = 100.0  # raise_l_cornerlip
+        >>> float(api.FapStream(frames).filled().frames[0, 13 - 1])  # raise_r_cornerlip
+        100.0
         """
         frames = fill(self.frames, rule)
         if checked_filling(rule) is Filling.COPY:

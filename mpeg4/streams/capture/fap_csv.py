@@ -26,6 +26,12 @@ def write_fap_csv(path: str | Path, stream: FapStream) -> None:
     Raises
     ------
     FormatError : the file cannot be written.
+
+    Examples
+    --------
+    >>> api.write_fap_csv("still.csv", api.FapStream(np.zeros((3, 68)), fps=25.0))
+    >>> api.read_stream("still.csv").fps
+    25.0
     """
     rows = []
     for index, values in enumerate(stream.expanded()):

@@ -45,7 +45,15 @@ class CaptureShape:
     over: str | None = None
 
     def mirrored(self, name: str) -> CaptureShape:
-        """The other side's shape."""
+        """The other side's shape.
+
+        Examples
+        --------
+        >>> left = api.load_shapes()["mouthSmileLeft"]
+        >>> right = left.mirrored("mouthSmileRight")
+        >>> bool(right.frame[13 - 1] == left.frame[12 - 1])  # the corners of the lips
+        True
+        """
         frame = np.full(FAP_COUNT, np.nan)
         for number in np.flatnonzero(~np.isnan(self.frame)) + 1:
             fap = FAPS[int(number)]
@@ -68,6 +76,11 @@ def load_shapes(path: str | Path = CAPTURE_PRESETS / "arkit.toml") -> Mapping[st
     Raises
     ------
     FormatError : names the file, the key and the rule.
+
+    Examples
+    --------
+    >>> "jawOpen" in api.load_shapes()
+    True
     """
     return _load(Path(path))
 

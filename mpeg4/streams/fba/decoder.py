@@ -58,7 +58,14 @@ class _Reading:
 
 
 def read_fba(path: str | Path, *, strict: bool = False) -> FapStream:
-    """The stream of an FBA file, named after the file; keyword and errors as `decode_fba`."""
+    """The stream of an FBA file, named after the file; keyword and errors as `decode_fba`.
+
+    Examples
+    --------
+    >>> api.write_fba("still.fba", api.FapStream(np.zeros((3, 68)), fps=25.0))
+    >>> api.read_fba("still.fba").name
+    'still'
+    """
     file = Path(path)
     return decode_fba(read_bytes(file), path=file, strict=strict).stream
 
@@ -91,6 +98,13 @@ def decode_fba(
     ------
     FormatError : no frame can be decoded (DCT coding and body animation are refused by name), or anything is damaged
         and `strict`; with the byte.
+
+    Examples
+    --------
+    >>> data = api.encode_fba(api.FapStream(np.zeros((3, 68)), fps=25.0))
+    >>> decoded = api.decode_fba(data)
+    >>> len(decoded.stream.frames), decoded.damage
+    (3, ())
     """
     reading = _Reading(BitReader(data))
     damage: list[FormatError] = []

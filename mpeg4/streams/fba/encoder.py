@@ -47,6 +47,14 @@ def encode_fba(
     Raises
     ------
     ParameterError : quantiser, refresh or rate out of range; a value that no limit allows, with frame and FAP.
+
+    Examples
+    --------
+    >>> frames = np.full((5, 68), np.nan)
+    >>> frames[:, 2] = [0, 40, 80, 120, 160]
+    >>> data = api.encode_fba(api.FapStream(frames, fps=25.0))
+    >>> api.decode_fba(data).stream.frames[:, 2].tolist()
+    [0.0, 40.0, 80.0, 120.0, 160.0]
     """
     if not 0 <= quantiser <= LARGEST_QUANTISER:
         raise ParameterError("quantiser", f"must be a whole number in 0..{LARGEST_QUANTISER}", quantiser)
@@ -75,7 +83,14 @@ def write_fba(
     refresh: float = 10.0,
     progress: Report | None = None,
 ) -> None:
-    """Write a stream as an FBA file; as `encode_fba`, and FormatError where it cannot be written."""
+    """Write a stream as an FBA file; as `encode_fba`, and FormatError where it cannot be written.
+
+    Examples
+    --------
+    >>> api.write_fba("still.fba", api.FapStream(np.zeros((3, 68)), fps=25.0))
+    >>> len(api.read_fba("still.fba").frames)
+    3
+    """
     write_whole(path, encode_fba(stream, quantiser=quantiser, refresh=refresh, progress=progress))
 
 

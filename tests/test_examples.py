@@ -1,0 +1,68 @@
+"""The examples in docstrings do what they show; each runs in an empty folder and knows `api` and `np`."""
+
+from __future__ import annotations
+
+import doctest
+import inspect
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import risorius.api as api
+
+#: Those that take more than about a second.
+SLOW = {"arkit_shapes", "Creases", "find_points"}
+
+
+def documented() -> Iterator[tuple[str, Any]]:
+    """Everything public that has a docstring of its own, by name: functions, classes and their methods."""
+    for name in api.__all__:
+        value = getattr(api, name)
+        if inspect.isclass(value) and value.__module__.startswith("risorius."):
+            yield value.__name__, value
+            for method, function in vars(value).items():
+                if not method.startswith("_") and is_function(function):
+                    yield f"{value.__name__}.{method}", function
+        elif is_function(value):
+            yield name, value
+
+
+def is_function(value: Any) -> bool:
+    """Whether it is a function or method, cached or not."""
+    return inspect.isfunction(inspect.unwrap(getattr(value, "__func__", value)))
+
+
+DOCUMENTED: dict[str, Any] = dict(documented())
+EXAMPLES = {name: text for name, value in DOCUMENTED.items() if ">>>" in (text := inspect.getdoc(value) or "")}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in EXAMPLES]
+)
+def test_an_example_does_what_it_shows(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    run(EXAMPLES[name], name)
+
+
+def run(text: str, name: str) -> None:
+    """Run the examples in a text; fails with what came instead."""
+    example = doctest.DocTestParser().get_doctest(text, {"api": api, "np": np}, name, None, None)
+    told: list[str] = []
+    found = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(example, out=told.append)
+    assert found.attempted
+    assert not found.failed, "".join(told)
+
+
+def test_every_public_function_and_each_method_of_a_face_has_an_example() -> None:
+    """So have profiles and streams, which are what faces are given."""
+    functions = {name for name, value in DOCUMENTED.items() if not inspect.isclass(value)}
+    wanted = {name for name in functions if "." not in name or name.startswith(("Face.", "Profile.", "FapStream."))}
+    assert sorted(wanted - set(EXAMPLES)) == []
+    assert {"fap", "Face.pose", "Face.from_arrays", "FapStream.expanded", "default_face"} <= functions
+
+
+def test_a_wrong_example_fails() -> None:
+    with pytest.raises(AssertionError, match=r"Got:\n +4"):
+        run(">>> api.fap(4).number\n3\n", "wrong")
