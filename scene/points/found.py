@@ -16,6 +16,7 @@ from ..refusals import refuse_broken_vertices, refuse_unreadable
 from .bound import bind
 from .kept import KeptPoints, Origin, triple, write_kept
 from .presets import known_topologies
+from .refused import keep_refusal, refusal_of, search_digest
 
 
 @dataclass(frozen=True)
@@ -78,12 +79,18 @@ def seek_points(
     refuse_broken_vertices(obj)
     stretch = meshes.metres_matrix(obj, scene)
     vertices = meshes.rest_vertices(obj.data) @ stretch.T
-    polygons = meshes.polygon_sequence(*meshes.polygon_arrays(obj.data))
+    arrays = meshes.polygon_arrays(obj.data)
     known = {name: stretch @ np.asarray(place, dtype=np.float64) for name, place in (clicks or {}).items()}
     topologies, unreadable = known_topologies()
+    search = search_digest(vertices, arrays, known, topologies)
+    said = refusal_of(search)
+    if said is not None:
+        raise _explained(obj, ModelError(said))
     try:
+        polygons = meshes.polygon_sequence(*arrays)
         found = yield from api.find_points_steps(vertices, polygons, known or None, topologies=topologies)
     except ModelError as refusal:
+        keep_refusal(search, str(refusal))
         raise _explained(obj, refusal) from refusal
     back = np.linalg.inv(stretch)
     table = {name: triple(back @ place) for name, place in found.positions.items()}

@@ -28,8 +28,11 @@ HEAD_BOX = ((-0.12, -0.185, -0.175), (0.12, 0.135, 0.175))
 FACE_BOX = ((-0.068, -0.185, -0.09), (0.068, 0.0, 0.076))
 #: Guesses that are aligned, and those of them that are aligned twice.
 ALIGNED, FINALISTS = 10, 3
-#: From this score on it is asked whether the mouth is open, by so many degrees; an open one must score better by this.
-GOOD_SCORE, JAW_DEGREES, OPEN_COST = 0.55, (7.0, 14.0, 21.0), 0.1
+#: Guesses that are aligned of each end of a mesh; from this score on no further end is looked at.
+ALIGNED_AT_END, CERTAIN_SCORE = 3, 0.8
+#: From this score on it is asked whether the mouth is open, by so many degrees, up to that one, which is no face with
+#: any mouth; an open one must score better by this.
+GOOD_SCORE, HOPELESS_SCORE, JAW_DEGREES, OPEN_COST = 0.55, 2.6, (7.0, 14.0, 21.0), 0.1
 #: Half width and half height of the middle of a face, metres, and the share of it that lies foremost.
 FRONT, FOREMOST = (0.05, 0.07), 0.4
 #: Poses nearer than a centimetre and about 20 degrees (trace of the turn between them) are one.
@@ -70,12 +73,11 @@ def locate(surface: Surface, *, refuse: bool = True) -> Work[Located]:
     if len(cloud) == 0:
         raise ModelError("no face found: the mesh has no area; feature points need a surface")
     guesses = yield from part_of(_guesses_of_whole(surface, cloud), 0.0, 0.55)
-    place = yield from part_of(_best_place(surface, cloud, guesses), 0.55, 0.7)
+    place = yield from part_of(_best_place(surface, cloud, guesses[:ALIGNED]), 0.55, 0.7)
     if place is None or not place.score.is_face:
-        guesses = yield from part_of(guesses_at_ends(surface, cloud), 0.7, 0.9)
-        turned = yield from part_of(_best_place(surface, cloud, guesses), 0.9, 0.95)
+        turned = yield from part_of(_place_at_ends(surface, cloud), 0.7, 0.95)
         place = min((other for other in (place, turned) if other), key=lambda other: other.score.value, default=None)
-    if place is not None and place.score.value > GOOD_SCORE:
+    if place is not None and GOOD_SCORE < place.score.value < HOPELESS_SCORE:
         yield Progress(0.95, "Checking for an open mouth")
         place = _opened(place)
     return accepted(place, refuse=refuse)
@@ -96,13 +98,26 @@ def _guesses_of_whole(surface: Surface, cloud: Cloud) -> Work[list[Guess]]:
 def _best_place(surface: Surface, cloud: Cloud, guesses: Sequence[Guess]) -> Work[Located | None]:
     """The place among some guesses that looks most like a face."""
     found: list[Located] = []
-    for number, guess in enumerate(guesses[:ALIGNED]):
-        yield Progress(0.8 * number / len(guesses[:ALIGNED]), "Finding the size of the face")
+    for number, guess in enumerate(guesses):
+        yield Progress(0.8 * number / len(guesses), "Finding the size of the face")
         found.append(_aligned(surface, cloud, guess.pose))
     found.sort(key=lambda place: place.score.value)
     yield Progress(0.8, "Comparing the best places")
     best = [aligned_again(place.surface, place.pose) for place in _distinct(found)[:FINALISTS]]
     return min(best, key=lambda place: place.score.value, default=None)
+
+
+def _place_at_ends(surface: Surface, cloud: Cloud) -> Work[Located | None]:
+    """The place at an end of the mesh that looks most like a face; the first that surely is one."""
+    best: Located | None = None
+    for number, guesses in enumerate(guesses_at_ends(surface)):
+        done, then = number / (number + 2), (number + 1) / (number + 3)
+        yield Progress(done, "Searching for a turned head")
+        place = yield from part_of(_best_place(surface, cloud, guesses[:ALIGNED_AT_END]), done, then)
+        best = min((other for other in (best, place) if other), key=lambda other: other.score.value, default=None)
+        if best is not None and best.score.is_face and best.score.value < CERTAIN_SCORE:
+            break
+    return best
 
 
 def _opened(place: Located) -> Located:

@@ -6,14 +6,12 @@ picture slides over each of them along the plane. Both sides of the plane are fo
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
-from ....arrays import Floats
+from ....arrays import Floats, Ints
 from ..surface.cloud import Cloud
 from ..surface.symmetry import SymmetryPlane
 from ..template.template import fit_template
@@ -37,6 +35,8 @@ MISSING, CLIP, COVERAGE = 9e-3, 15e-3, 0.7
 SMOOTH_COST = 0.6
 #: How many guesses of each size are looked at twice, how many are returned in all.
 SHORTLIST, GUESSES = 14, 12
+#: Windows that start within so many rows of each other are one.
+NEAR_ROWS = 3
 #: Guesses that differ by less than these are one: metres, ratio, cosine.
 SAME_PLACE, SAME_SIZE, SAME_COSINE = 25e-3, 1.5, 0.7
 
@@ -66,7 +66,26 @@ class _View:
     plane: SymmetryPlane
     height: float
     depth: Floats
-    cost: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Pictures:
+    """The pictures of one size along every direction round a plane's normal.
+
+    Attributes
+    ----------
+    depth : (TURNS, R, COLUMNS) less `middle`; 0 where nothing is seen. Rows past the end of a picture are empty.
+    known : the same, 1 where something is seen.
+    middle : (TURNS,) mean depth.
+    lowest : (TURNS,) height of the lowest row.
+    rows : (TURNS,) how many rows each picture has.
+    """
+
+    depth: Floats
+    known: Floats
+    middle: Floats
+    lowest: Floats
+    rows: Ints
 
 
 def search_plane(
@@ -86,6 +105,7 @@ def search_plane(
     order = np.argsort(aside)
     positions, aside = cloud.positions[order], aside[order]
     views: list[_View] = []
+    fronts = _fronts(plane.normal)
     for size in _sizes(diagonal, lengths):
         density = len(positions) / area * (PIXEL * size) ** 2
         stride = max(1, int(density / DENSITY))
@@ -93,10 +113,7 @@ def search_plane(
         near, near_aside = positions[:count:stride], aside[:count:stride]
         if len(near) < ROWS * COLUMNS:
             continue
-        of_size = [
-            view for front in _fronts(plane.normal) for view in _best_windows(near, near_aside, plane, front, size)
-        ]
-        views += sorted(of_size, key=lambda view: view.cost)[:SHORTLIST]
+        views += _best_views(near, near_aside, plane, fronts, size)
     return _distinct(_judged(views))
 
 
@@ -112,66 +129,80 @@ def _sizes(diagonal: float, lengths: tuple[float, float]) -> Floats:
     return np.asarray(length / lengths[1] * SIZE_STEP ** np.arange(count), dtype=np.float64)
 
 
-def _fronts(normal: Floats) -> Iterator[Floats]:
-    """Unit vectors round a normal."""
+def _fronts(normal: Floats) -> Floats:
+    """(TURNS, 3) unit vectors round a normal."""
     first = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
     first /= np.linalg.norm(first)
     second = np.cross(normal, first)
-    for angle in 2.0 * np.pi * np.arange(TURNS) / TURNS:
-        yield np.cos(angle) * first + np.sin(angle) * second
+    angle = 2.0 * np.pi * np.arange(TURNS)[:, None] / TURNS
+    return np.asarray(np.cos(angle) * first + np.sin(angle) * second, dtype=np.float64)
 
 
-def _best_windows(
-    positions: Floats, aside: Floats, plane: SymmetryPlane, front: Floats, size: float
-) -> Iterator[_View]:
-    """For both ways up, the windows of one picture that best agree with the template."""
-    up = np.cross(plane.normal, front)
+def _best_views(positions: Floats, aside: Floats, plane: SymmetryPlane, fronts: Floats, size: float) -> list[_View]:
+    """Of all directions, both ways up, the windows of one size that best agree with the template; at most `SHORTLIST`.
+
+    From each picture at most two are taken, so that one direction does not crowd out the others.
+    """
+    ups = np.cross(plane.normal, fronts)
+    pictures = _pictures(positions, aside, fronts, ups, size)
+    costs = np.stack([_quick_costs(pictures, _template_picture(upright=upright)) for upright in (True, False)], axis=1)
+    first = costs.argmin(axis=2)
+    beside = np.abs(np.arange(costs.shape[2]) - first[:, :, None]) <= NEAR_ROWS
+    others = np.where(beside, np.inf, costs)
+    starts = np.stack([first, others.argmin(axis=2)], axis=2)
+    lowest = np.stack([costs.min(axis=2), others.min(axis=2)], axis=2)
+    best = np.argsort(lowest, axis=None, kind="stable")[:SHORTLIST]
+    best = best[np.isfinite(lowest.ravel()[best])]
+    views = []
+    for turn, way, rank in zip(*np.unravel_index(best, lowest.shape), strict=True):
+        start, sense = int(starts[turn, way, rank]), 1 - 2 * int(way)
+        part = slice(start, start + ROWS)
+        seen = np.where(pictures.known[turn, part] > 0.0, pictures.depth[turn, part], np.nan)
+        edge = start * PIXEL - BOTTOM if sense > 0 else (start + ROWS) * PIXEL + BOTTOM
+        axes = np.array([np.cross(-fronts[turn], sense * ups[turn]), -fronts[turn], sense * ups[turn]])
+        height = sense * float(pictures.lowest[turn] + edge)
+        views.append(_View(axes, size, plane, height, seen[::sense] + pictures.middle[turn]))
+    return views
+
+
+def _pictures(positions: Floats, aside: Floats, fronts: Floats, ups: Floats, size: float) -> _Pictures:
+    """What is seen along each of some directions (TURNS, 3): the nearest depth in each pixel, both sides folded."""
+    height = ups @ positions.T / size
+    lowest = height.min(axis=1) - 6.0 * PIXEL
+    row = ((height - lowest[:, None]) / PIXEL).astype(np.int64)
+    rows = np.maximum(row.max(axis=1) + 7, ROWS)
+    shape = (len(fronts), int(rows.max()), COLUMNS)
     column = np.minimum((aside / (PIXEL * size)).astype(np.int64), COLUMNS - 1)
-    height = positions @ up / size
-    lowest = float(height.min()) - 6.0 * PIXEL
-    row = ((height - lowest) / PIXEL).astype(np.int64)
-    rows = max(int(row.max()) + 7, ROWS)
-    nearest = np.full(rows * COLUMNS, np.inf)
-    np.minimum.at(nearest, row * COLUMNS + column, -(positions @ front) / size)
-    picture = nearest.reshape(rows, COLUMNS)
-    known = np.isfinite(picture)
-    middle = float(picture[known].mean())
-    depth = np.where(known, picture - middle, 0.0)
-    windows = [
-        sliding_window_view(layer, (ROWS, COLUMNS)).reshape(rows - ROWS + 1, ROWS * COLUMNS)
-        for layer in (known.astype(np.float64), depth, depth * depth)
-    ]
-    for sense in (1.0, -1.0):
-        costs = _quick_costs(windows, _template_picture(upright=sense > 0.0))
-        for first in _lowest_two(costs):
-            seen = np.where(known, depth, np.nan)[first : first + ROWS]
-            bottom = lowest + first * PIXEL - BOTTOM if sense > 0.0 else lowest + (first + ROWS) * PIXEL + BOTTOM
-            axes = np.array([np.cross(-front, sense * up), -front, sense * up])
-            yield _View(axes, size, plane, sense * bottom, seen[:: int(sense)] + middle, float(costs[first]))
+    pixel = (np.arange(shape[0])[:, None] * shape[1] + row) * shape[2] + column
+    nearest = np.full(np.prod(shape), np.inf)
+    np.minimum.at(nearest, pixel.ravel(), (-(fronts @ positions.T) / size).ravel())
+    nearest = nearest.reshape(shape)
+    known = np.isfinite(nearest)
+    middle = np.where(known, nearest, 0.0).sum(axis=(1, 2)) / known.sum(axis=(1, 2))
+    depth = np.where(known, nearest - middle[:, None, None], 0.0)
+    return _Pictures(depth, known.astype(np.float64), middle, lowest, rows)
 
 
-def _lowest_two(costs: Floats) -> list[int]:
-    """Places of the lowest finite cost, and of the lowest that is not beside it."""
-    first = int(costs.argmin())
-    if not np.isfinite(costs[first]):
-        return []
-    others = costs.copy()
-    others[max(0, first - 3) : first + 4] = np.inf
-    second = int(others.argmin())
-    return [first, second] if np.isfinite(others[second]) else [first]
-
-
-def _quick_costs(windows: list[Floats], template: _Picture) -> Floats:
-    """Root mean squared difference in depth of every window, its mean offset taken out."""
-    known, depth, squared = windows
-    weight, model = template.weight.ravel(), template.depth.ravel()
-    share = known @ weight
+def _quick_costs(pictures: _Pictures, template: _Picture) -> Floats:
+    """(TURNS, W) root mean squared difference in depth of every window, its mean offset taken out."""
+    weight, model = template.weight, template.depth
+    known, depth = pictures.known, pictures.depth
+    share, seen, seen_squared = (_slid(known, weight * model**power) for power in range(3))
+    level, product = (_slid(depth, weight * model**power) for power in range(2))
     safe = np.maximum(share, 1e-12)
-    offset = (depth @ weight - known @ (weight * model)) / safe
-    square = (squared @ weight - 2.0 * depth @ (weight * model) + known @ (weight * model**2)) / safe
+    offset = (level - seen) / safe
+    square = (_slid(depth * depth, weight) - 2.0 * product + seen_squared) / safe
     share = share / weight.sum()
     cost = share * np.maximum(square - offset**2, 0.0) + (1.0 - share) * MISSING**2
-    return np.where(share >= COVERAGE, np.sqrt(cost), np.inf)
+    inside = np.arange(cost.shape[1]) <= (pictures.rows - ROWS)[:, None]
+    return np.where(inside & (share >= COVERAGE), np.sqrt(cost), np.inf)
+
+
+def _slid(pictures: Floats, window: Floats) -> Floats:
+    """(TURNS, W) sums of pictures (TURNS, R, COLUMNS) times a window (ROWS, COLUMNS) that slides along their rows."""
+    products = pictures @ window.T
+    count = pictures.shape[1] - ROWS + 1
+    return np.asarray(sum(products[:, row : row + count, row] for row in range(ROWS)))
 
 
 def _judged(views: list[_View]) -> list[Guess]:

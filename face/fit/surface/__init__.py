@@ -5,5 +5,6 @@ depth_map   its front as a picture of depths
 pieces      its skin among its connected pieces
 rims        closed lines along which the skin ends
 margins     those of eyes and mouth among the rims
+skeleton    how far its places lie from each other along it
 symmetry    planes about which it is nearly its own mirror image
 """

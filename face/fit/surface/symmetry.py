@@ -35,8 +35,13 @@ class SymmetryPlane:
         return np.asarray(positions - 2.0 * np.outer(positions @ self.normal - self.offset, self.normal))
 
 
-def symmetry_planes(positions: Floats) -> list[SymmetryPlane]:
-    """The best planes of symmetry of points (N, 3) spread over a surface, best first, at most `PLANES`."""
+def symmetry_planes(positions: Floats, *, refined: int = REFINED) -> list[SymmetryPlane]:
+    """The best planes of symmetry of points (N, 3) spread over a surface, best first, at most `PLANES`.
+
+    Parameters
+    ----------
+    refined : how many of the best directions are looked at closely.
+    """
     centre = positions.mean(axis=0)
     radius = float(np.sqrt(((positions - centre) ** 2).sum(axis=1).mean()))
     tree = cKDTree(positions)
@@ -46,9 +51,9 @@ def symmetry_planes(positions: Floats) -> list[SymmetryPlane]:
         SymmetryPlane(normal, float(centre @ normal), 0.0) for normal in np.vstack([_half_sphere(DIRECTIONS), axes])
     ]
     found = sorted((_judged(plane, probes, tree, radius) for plane in tried), key=lambda plane: plane.misfit)
-    refined = [_refined(plane, positions, tree, radius) for plane in _distinct(found, REFINED)]
-    refined = _distinct(sorted(refined, key=lambda plane: plane.misfit), PLANES)
-    return [plane for plane in refined if plane.misfit <= WORSE * refined[0].misfit]
+    closer = [_refined(plane, positions, tree, radius) for plane in _distinct(found, refined)]
+    closer = _distinct(sorted(closer, key=lambda plane: plane.misfit), PLANES)
+    return [plane for plane in closer if plane.misfit <= WORSE * closer[0].misfit]
 
 
 def _half_sphere(count: int) -> Floats:
