@@ -232,7 +232,7 @@ class Anatomy:
 
     @cached_property
     def inner_skin(self) -> InnerSkin:
-        """Mouth bag and sockets."""
+        """Mouth cavity and eye sockets."""
         inner: Bools = self.mesh.parts == Part.SKIN
         inner[self.still_skin] = False
         inner[self.given_skin.index] = False
@@ -252,8 +252,8 @@ class Anatomy:
         return unit_length(FAPS[number].unit, self.mesh.units) / self.mesh.head_frame.scale
 
     @cached_property
-    def lower_teeth(self) -> Ints:
-        """Vertices that go with the mandible: lower teeth and tongue."""
+    def jaw_parts(self) -> Ints:
+        """Vertices that turn with the mandible: lower teeth and tongue."""
         return np.union1d(self._part(Part.TEETH_LOWER), self._part(Part.TONGUE))
 
     @cached_property

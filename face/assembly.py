@@ -41,7 +41,7 @@ class Assembly:
         moved = np.zeros_like(rest)
         moved[anatomy.given_skin.index] = self._folded(displacement, request)
         anatomy.inner_skin.follow(moved)
-        moved[anatomy.lower_teeth] = anatomy.jaw.rigid(rest[anatomy.lower_teeth], jaw)
+        moved[anatomy.jaw_parts] = anatomy.jaw.rigid(rest[anatomy.jaw_parts], jaw)
         if anatomy.tongue is not None:
             opening = jaw.angle * anatomy.actuators.chin_lever
             moved[anatomy.tongue.index] += anatomy.tongue.displacement(faps) + anatomy.tongue.sunk(opening, faps)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .blender_types import Context, UILayout
+from .blender_types import Context
 
 #: Letters that fit on a line of the sidebar at its usual width.
 LINE = 38
@@ -14,7 +14,6 @@ class Sidebar:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Risorius"
-    layout: UILayout
 
 
 class MeshSidebar(Sidebar):

@@ -21,7 +21,7 @@ from ..skin.outer import OuterSkin, smoothstep
 
 @dataclass(frozen=True)
 class SeparationFigures:
-    """Widths of the change from one side to the other beside the corners (presets/anatomy/skin.toml)."""
+    """Widths along the skin of the change from side to side beside the corners (presets/anatomy/skin.toml)."""
 
     lips: Length
     lids: Length
@@ -30,13 +30,21 @@ class SeparationFigures:
 SEPARATION = read_figures("skin.separation", SeparationFigures)
 
 
-def upper_lip_side(skin: OuterSkin, blend: float = SEPARATION.lips) -> Floats:
-    """(n,) 1 on the upper lip's side of the skin, 0 on the lower lip's, over a blend in metres beside the corners."""
+def upper_lip_side(skin: OuterSkin, width: float = SEPARATION.lips) -> Floats:
+    """(n,) 1 on the upper lip's side of the skin, 0 on the lower lip's; beside the corners it changes over `width`."""
     upper, lower = skin.lip_distances
-    return smoothstep(((lower - upper) / blend + 1.0) / 2.0)
+    return _side(lower - upper, width)
 
 
 def lower_lid_side(skin: OuterSkin) -> Floats:
-    """(n,) 1 on the lower lids' side of both eyes, 0 on an upper lid's, beside the corners a blend."""
+    """(n,) 1 on the lower lids' side of both eyes, 0 on an upper lid's."""
     nearer = np.min([upper - lower for upper, lower in (skin.lid_distances(side) for side in "lr")], axis=0)
-    return smoothstep(nearer / SEPARATION.lids + 0.5)
+    return _side(nearer, SEPARATION.lids)
+
+
+def _side(nearer: Floats, width: float) -> Floats:
+    """(n,) 1 where one side is nearer along the skin by `width` and more, 0 where the other is; both in metres.
+
+    One step across takes a step off the way to one side and adds it to the other: what is between is `width` wide.
+    """
+    return smoothstep((nearer / width + 1.0) / 2.0)

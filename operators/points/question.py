@@ -15,6 +15,9 @@ from ..blender_types import Context, UILayout
 from ..face.ops import RISORIUS_OT_forget_points
 from .reasons import no_points_reason
 
+#: By its name: clicking ends in this question.
+CLICK_POINTS = "risorius.click_points"
+
 
 class RISORIUS_OT_accept_points(RisoriusOperator, Operator):
     """Keep these points. Single points can still be dragged"""
@@ -44,7 +47,6 @@ class RISORIUS_MT_is_this_the_face(Menu):
 
     bl_idname = "RISORIUS_MT_is_this_the_face"
     bl_label = "Is this the face?"
-    layout: UILayout
 
     def draw(self, context: Context) -> None:
         """Why it is asked, and the answers."""
@@ -58,7 +60,7 @@ def draw_question(layout: UILayout, kept: KeptPoints) -> None:
     layout.label(text=f"score {kept.score:.2f} (most: up to {DOUBTFUL_SCORE:g})", icon="BLANK1")
     layout.operator_context = "INVOKE_DEFAULT"
     layout.operator(RISORIUS_OT_accept_points.bl_idname, icon="CHECKMARK")
-    layout.operator("risorius.click_points", text="Click Six Points", icon="RESTRICT_SELECT_OFF")
+    layout.operator(CLICK_POINTS, text="Click Six Points", icon="RESTRICT_SELECT_OFF")
     layout.operator(RISORIUS_OT_forget_points.bl_idname, text="No, Clear Points", icon="X")
 
 

@@ -15,7 +15,7 @@ from ..attributes import remove_attribute, write_vectors
 from ..blender_types import Material, Modifier, Node, NodeSocket, NodeTree, Object
 from ..faces import FaceSource, face_of
 from ..materials import node_tree_of, principled_of
-from . import nodes as nodes
+from . import nodes
 
 if TYPE_CHECKING:
     from ...face.products.creases import Creases

@@ -26,6 +26,7 @@ RANGE_COLUMNS = ("fap", "low_mm", "high_mm", "low_linear", "high_linear", "sourc
 #: The unit that is the mandible opening, and its FAP.
 JAW, JAW_FAP = "AU27", 3
 
+
 def template_unit(number: int) -> float:
     """Metres on the template per unit of a displacement FAP."""
     return unit_length(FAPS[number].unit, TEMPLATE_FAPU)

@@ -49,7 +49,7 @@ def align(cloud: Cloud, pose: HeadPose, template: FitTemplate) -> HeadPose:
     chosen = np.flatnonzero(template.front)
     chosen = chosen[:: max(1, len(chosen) // PROBES)]
     model, normals = template.surface.vertices[chosen], template.surface.normals[chosen]
-    alike = pose.alike()
+    alike = pose.with_one_scale()
     near = HeadPose(np.eye(3), np.zeros(3), pose.scale / alike.size)
     positions, directions = alike.to_template(cloud.positions), alike.normals_to_template(cloud.normals)
     tree = cKDTree(positions)

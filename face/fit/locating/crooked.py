@@ -64,7 +64,7 @@ def _flow(place: Located, pose: HeadPose, passes: tuple[Pass, ...]) -> Flow:
 
 def pose_of(model: Floats, places: Floats, near: HeadPose) -> HeadPose:
     """The pose near another that brings template points (N, 3) to places (N, 3) of the mesh; outliers count less."""
-    alike = near.alike()
+    alike = near.with_one_scale()
     own, aims = model * (near.scale / near.size), alike.to_template(places)
     firm = ALIKE * np.sqrt(len(model))
 

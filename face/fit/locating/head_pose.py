@@ -48,6 +48,6 @@ class HeadPose:
         """This pose, given in coordinates of `other` (which has one scale), as a pose in those of the mesh."""
         return HeadPose(self.axes @ other.axes, other.to_mesh(self.origin), self.scale * other.size)
 
-    def alike(self) -> HeadPose:
+    def with_one_scale(self) -> HeadPose:
         """The same place and directions with one scale for all axes."""
         return HeadPose(self.axes, self.origin, np.full(3, self.size))

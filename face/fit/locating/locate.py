@@ -164,7 +164,7 @@ def in_box(surface: Surface, pose: HeadPose, box: Box) -> Bools:
     """(T,) which triangles touch a box round the head."""
     if len(surface.triangles) > MANY:
         return np.asarray(lies_in_box(surface.vertices, pose, box)[surface.triangles].any(axis=1), dtype=np.bool_)
-    corners = pose.alike().to_template(surface.vertices)[surface.triangles]
+    corners = pose.with_one_scale().to_template(surface.vertices)[surface.triangles]
     touches: Bools = ((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)
     return touches
 
@@ -179,7 +179,7 @@ def box_cloud(surface: Surface, pose: HeadPose, box: Box, count: int) -> Cloud:
 
 def lies_in_box(positions: Floats, pose: HeadPose, box: Box) -> Bools:
     """Which positions (N, 3) of the mesh lie in a box round the head."""
-    local = pose.alike().to_template(positions)
+    local = pose.with_one_scale().to_template(positions)
     inside: Bools = np.all((local >= np.array(box[0])) & (local <= np.array(box[1])), axis=1)
     return inside
 

@@ -61,7 +61,7 @@ def tongue_top(face: Face, frame: np.ndarray) -> float:
     posed = anatomy.mesh.head_frame.to_head(pose.positions)
     tongue = anatomy.tongue.index
     top = tongue[np.argmax(anatomy.mesh.positions[tongue, 1])]
-    lower = np.setdiff1d(anatomy.lower_teeth, tongue)
+    lower = np.setdiff1d(anatomy.jaw_parts, tongue)
     return float((posed[top, 1] - posed[lower, 1].max()) / MM)
 
 
