@@ -44,6 +44,7 @@ from .face.tracked.formats import WRITABLE as WRITABLE_STREAMS
 from .face.tracked.formats import StreamFormat
 from .face.tracked.landmarks import LandmarkReading, read_points
 from .face.tracked.recording import Recording, read_capture, read_recording, read_stream, write_stream
+from .face.unmet import unmet_lines
 from .mpeg4 import (
     ARCHETYPES,
     FAPS,
@@ -195,6 +196,7 @@ __all__ = [
     "save_topology",
     "sequence",
     "shown_strength",
+    "unmet_lines",
     "viseme_frame",
     "write_animation_tables",
     "write_belief_csv",

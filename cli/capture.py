@@ -110,19 +110,19 @@ def _export_shapes(arguments: argparse.Namespace) -> Result:
     if arguments.source:
         raise UsageError("export shapes takes no input file: set the face with --mesh and --points")
     suffix = arguments.out.suffix.lower()
-    replaced: tuple[str, ...] = ()
     if suffix == ".npz":
-        keys = _shapes_to_npz(arguments)
+        made = _shapes_to_npz(arguments)
     elif suffix in BLENDER_SUFFIXES:
-        keys, replaced = _shapes_in_blender(arguments)
+        made = _shapes_in_blender(arguments)
     else:
         raise UsageError(f"--out must end in .npz, {' or '.join(BLENDER_SUFFIXES)}")
-    data = {"keys": keys, "replaced": replaced, "out": arguments.out}
-    return Result(data, [f"wrote {arguments.out}: {len(keys)} shape keys", *keys])
+    keys, remarks = made["keys"], made["remarks"]
+    lines = [f"wrote {arguments.out}: {len(keys)} shape keys", *keys, *(f"note: {remark}" for remark in remarks)]
+    return Result({**made, "out": arguments.out}, lines)
 
 
-def _shapes_to_npz(arguments: argparse.Namespace) -> tuple[str, ...]:
-    """Names (N,) and displacements (N, V, 3) in metres as NumPy's file."""
+def _shapes_to_npz(arguments: argparse.Namespace) -> dict[str, tuple[str, ...]]:
+    """Write names (N,) and displacements (N, V, 3) in metres as NumPy's file; returns what there is to say."""
     from .. import api
 
     scene_options(arguments)  # refuses --object where nothing has objects
@@ -134,11 +134,12 @@ def _shapes_to_npz(arguments: argparse.Namespace) -> tuple[str, ...]:
     except OSError as error:
         problem = f"cannot be written ({error.strerror}): choose a folder you may write to"
         raise FormatError(arguments.out, problem) from error
-    return tuple(shapes)
+    remarks = tuple(f"{name}: {why}" for name, why in shapes.unmet.items())
+    return {"keys": tuple(shapes), "replaced": (), "remarks": remarks}
 
 
-def _shapes_in_blender(arguments: argparse.Namespace) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Names of the keys, and of those that were replaced."""
+def _shapes_in_blender(arguments: argparse.Namespace) -> dict[str, tuple[str, ...]]:
+    """Write them by Blender; returns what there is to say."""
     options = scene_options(arguments) | {"names": arguments.names, "replace": arguments.replace}
     try:
         from ..scene.jobs.shapes import blendshape_file
@@ -148,4 +149,4 @@ def _shapes_in_blender(arguments: argparse.Namespace) -> tuple[tuple[str, ...], 
         raise
     with silent_blender():
         written = blendshape_file(arguments.out, **options, progress=ShowProgress())
-    return written.keys, written.replaced
+    return {"keys": written.keys, "replaced": written.replaced, "remarks": written.remarks}

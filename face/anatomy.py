@@ -26,7 +26,7 @@ from .mesh.fap_rows import FapRows, displacement_rows
 from .mesh.fap_units import unit_length
 from .mesh.openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, find_opening, outer_faces
 from .mesh.parts import Part
-from .mesh.points import FeaturePoints
+from .mesh.points import FeaturePoints, lies_on_skin, rebound
 from .mesh.reach import within_reach
 from .mesh.template import TEMPLATE_POINTS, TemplateWarp
 from .muscles.placement import PlacedMuscle, place_muscles
@@ -188,16 +188,42 @@ class Anatomy:
         return Relaxation(self.skin, self.sheet, self.actuators)
 
     @cached_property
+    def points(self) -> FeaturePoints:
+        """The feature points that FAPs are read off and moved by.
+
+        A point of lips or lids may lie between vertices of which some are behind the margin: inside, nothing that acts
+        on the outer skin reaches it. It is taken to be at the nearest place of the outer skin.
+        """
+        face_mesh, outside = self.mesh, self._is_outside
+        behind = [
+            name
+            for name, point in face_mesh.points.items()
+            if lies_on_skin(name)
+            and point.is_bound
+            and (face_mesh.parts[point.vertices] == Part.SKIN).all()
+            and not outside[point.vertices].all()
+        ]
+        if not behind:
+            return face_mesh.points
+        triangles = self.given_skin.index[mesh.fans(self.given_skin.polygons)[0]]
+        return rebound(face_mesh.points, face_mesh.head_frame.to_face(face_mesh.positions), triangles, behind)
+
+    @cached_property
+    def _is_outside(self) -> Bools:
+        """(V,) which vertices are of the outer skin."""
+        outside = np.zeros(len(self.mesh.positions), dtype=bool)
+        outside[self.given_skin.index] = True
+        return outside
+
+    @cached_property
     def rows(self) -> FapRows:
         """Displacement FAPs whose points lie on the mesh."""
-        return displacement_rows(self.mesh.points, self.mesh.units, self.mesh.head_frame)
+        return displacement_rows(self.points, self.mesh.units, self.mesh.head_frame)
 
     @cached_property
     def skin_rows(self) -> FapRows:
         """Those of `rows` whose points lie wholly on the outer skin."""
-        on_skin = np.zeros(len(self.mesh.positions), dtype=bool)
-        on_skin[self.skin.index] = True
-        keep = np.array([bool(on_skin[self.mesh.points[n].vertices].all()) for n in self.rows.names])
+        keep = np.array([bool(self._is_outside[self.points[n].vertices].all()) for n in self.rows.names])
         return FapRows(
             numbers=self.rows.numbers[keep],
             names=tuple(n for n, k in zip(self.rows.names, keep, strict=True) if k),
@@ -216,7 +242,7 @@ class Anatomy:
         rows = self.inverse_rows
         if self._same_skin is not None:
             return self._same_skin.kernel.first(len(rows))
-        own = self.mesh.points.matrix(rows.names)[:, self.skin.index]
+        own = self.points.matrix(rows.names)[:, self.skin.index]
         shape = (len(rows), self.skin.vertex_count)
         return kernel_of(rows, sparse.csr_array((own.data, own.indices, own.indptr), shape=shape), self.sheet)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -31,6 +31,7 @@ from .pose import Pose, Poser, Sketcher
 from .requests import checked_drive, checked_emotions, checked_request, checked_stream
 from .response.relaxation import Memory
 from .simulate import Simulation
+from .unmet import unmet
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,6 +230,16 @@ class Face:
         (15,)
         """
         return features(self.anatomy, np.asarray(positions, dtype=np.float64))
+
+    def unmet(self, asked: ArrayLike, positions: Iterable[ArrayLike]) -> dict[int, str]:
+        """FAP number -> why, of FAPs that are asked of a motion and of which nothing shows; a pose has its own.
+
+        Parameters
+        ----------
+        asked : (T, 68) FAP units; NaN = silent.
+        positions : (V, 3) of each step, of as many steps as there are.
+        """
+        return unmet(self.anatomy, checked_stream(asked), np.stack([self.measure(step) for step in positions]))
 
     @cached_property
     def _poser(self) -> Poser:

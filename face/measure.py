@@ -35,7 +35,7 @@ def measure(anatomy: Anatomy, positions: Floats) -> Floats:
     for number, value in turn.items():
         faps[number - 1] = value
     rows = anatomy.rows
-    reader = anatomy.mesh.points.matrix(rows.names)
+    reader = anatomy.points.matrix(rows.names)
     shift = np.asarray(reader @ (head - rest))
     faps[rows.numbers - 1] = (shift * rows.directions).sum(axis=1) / rows.units
     roll = _tongue_roll(anatomy, head, rest)
@@ -68,7 +68,7 @@ def features(anatomy: Anatomy, positions: Floats) -> Floats:
     """
     now = _checked(anatomy, positions)
     rest = anatomy.mesh.head_frame.to_face(anatomy.mesh.positions)
-    points = anatomy.mesh.points
+    points = anatomy.points
     values = np.empty(len(FEATURES))
     for i, feature in enumerate(FEATURES):
         pair = (feature.point_a, feature.point_b)

@@ -24,6 +24,7 @@ from .measure import measure
 from .posture import Balance, Posture
 from .requests import checked_request
 from .response.relaxation import Memory
+from .unmet import unmet
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +38,7 @@ class Pose:
     asked : (68,) the FAPs as given. goal : (68,) what the drive decided to do. achieved : (68,) measured on the
         positions. All in FAP units, NaN where silent or not measurable.
     reasons : FAP number -> why the goal differs from what was asked, natural drive only.
+    unmet : FAP number -> why, of FAPs that were asked and of which nothing shows.
     """
 
     positions: Floats
@@ -45,6 +47,7 @@ class Pose:
     goal: Floats
     achieved: Floats
     reasons: Mapping[int, str]
+    unmet: Mapping[int, str]
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,13 +75,15 @@ class Poser:
         plan = self.plan(request)
         posture = self.balance.posture(plan)
         positions = self._positions(posture, request)
+        achieved, reasons = measure(self.anatomy, positions), plan.reasons()
         return Pose(
             positions=positions,
             contractions=self.anatomy.actuators.contractions(posture.amounts),
             asked=request.faps.copy(),
             goal=plan.goal.copy(),
-            achieved=measure(self.anatomy, positions),
-            reasons=plan.reasons(),
+            achieved=achieved,
+            reasons=reasons,
+            unmet=unmet(self.anatomy, request.faps, achieved, reasons),
         )
 
     def sketch(self, request: Request, memory: Memory) -> Sketch:

@@ -15,10 +15,17 @@ from ..scene.live.reading import FaceReader, Reading
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """What a preview shows: muscle name -> contraction, 0..1; and the skin's ways there (k, T, 3), if wanted."""
+    """What a preview shows.
+
+    Attributes
+    ----------
+    contractions : muscle name -> 0..1. paths : (k, T, 3) the skin's ways there, if wanted.
+    unmet : what is requested and does not show, in words.
+    """
 
     contractions: Mapping[str, float]
     paths: Floats | None = None
+    unmet: tuple[str, ...] = ()
 
 
 @dataclass

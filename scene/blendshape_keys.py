@@ -20,10 +20,17 @@ from .refusals import own_mesh
 
 @dataclass(frozen=True)
 class WrittenKeys:
-    """What was written: the keys by name, and those that the object had before and that were replaced."""
+    """What was written.
+
+    Attributes
+    ----------
+    keys : by name. replaced : those that the object had before and that were replaced.
+    remarks : what the user should know.
+    """
 
     keys: tuple[str, ...]
     replaced: tuple[str, ...]
+    remarks: tuple[str, ...] = ()
 
 
 def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: bool = False) -> Work[WrittenKeys]:
@@ -66,7 +73,8 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
             if piece is source.pieces[0] or piece.moves(moved, STILL * face.scale)
         }
         _write(piece.obj, moving)
-    return WrittenKeys(tuple(shapes), there)
+    missed = (f"{name}: {why}" for name, why in posed.unmet.items())
+    return WrittenKeys(tuple(shapes), there, tuple(missed))
 
 
 def _taken(source: FaceSource, wanted: Mapping[str, object]) -> tuple[str, ...]:

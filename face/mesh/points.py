@@ -176,6 +176,22 @@ def bind_points(
     return FeaturePoints(bound | _on_their_lips(bound, points, vertices, on_skin.triangles), len(vertices))
 
 
+def rebound(points: FeaturePoints, vertices: Floats, triangles: Ints, names: Sequence[str]) -> FeaturePoints:
+    """Feature points, some of them bound to the nearest place of a part of the mesh instead.
+
+    Parameters
+    ----------
+    vertices : (V, 3) the neutral mesh, in the coordinates of the points.
+    triangles : (T, 3) of that part.
+    names : of the points that are bound again; one that has no place within reach stays as it is.
+    """
+    surface = _Surface(vertices, triangles)
+    found = {name: surface.bind(name, points[name].position) for name in names}
+    now = {**points, **{name: point for name, point in found.items() if point.is_bound}}
+    given = {name: points[name].position for name in names}
+    return FeaturePoints(now | _on_their_lips(now, given, vertices, triangles), len(vertices))
+
+
 def _on_their_lips(
     bound: Mapping[str, BoundPoint], points: Mapping[str, PointSource], vertices: Floats, triangles: Ints
 ) -> dict[str, BoundPoint]:

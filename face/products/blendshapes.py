@@ -13,9 +13,22 @@ from ...mpeg4.streams.capture import CaptureShape, KeyShape, load_key_names, loa
 from ...progress import Progress, Work, run
 from ..drive.request import Drive
 from ..face import Face
+from ..pose import Pose
+from ..unmet import unmet_lines
+
+#: A shape that moves a life-size face less than this, metres, moves nothing.
+STILL = 1e-5
 
 
-def arkit_shapes(face: Face, names: str | Path = "arkit") -> dict[str, Floats]:
+class Shapes(dict[str, Floats]):
+    """Name -> (V, 3) positions at full strength; `unmet`: name -> why, of shapes that ask for what does not show."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.unmet: dict[str, str] = {}
+
+
+def arkit_shapes(face: Face, names: str | Path = "arkit") -> Shapes:
     """Shape keys of a face, by name.
 
     Parameters
@@ -26,7 +39,8 @@ def arkit_shapes(face: Face, names: str | Path = "arkit") -> dict[str, Floats]:
     Returns
     -------
     name -> (V, 3) positions at full strength, in the face's coordinates. The key's displacement is what differs from
-    ``face.vertices``; displacements of several keys add up, as in any engine.
+    ``face.vertices``; displacements of several keys add up, as in any engine. `unmet` of the mapping names the shapes
+    that ask for what does not show on this face, and why.
 
     Raises
     ------
@@ -43,17 +57,20 @@ def arkit_shapes(face: Face, names: str | Path = "arkit") -> dict[str, Floats]:
     return run(arkit_shape_steps(face, load_key_names(names)))
 
 
-def arkit_shape_steps(face: Face, keys: Mapping[str, KeyShape]) -> Work[dict[str, Floats]]:
+def arkit_shape_steps(face: Face, keys: Mapping[str, KeyShape]) -> Work[Shapes]:
     """`arkit_shapes` as a generator, for callers that show progress."""
     yield Progress(0.0, "Placing the muscles")
     poser = _ShapePoser(face)
-    shapes: dict[str, Floats] = {}
+    shapes = Shapes()
     for name, key in keys.items():
         yield Progress(0.1 + 0.9 * len(shapes) / len(keys), f"Posing {name}")
         moved = sum(
             (share * poser.moved(shape, key.natural) for shape, share in key.parts), np.zeros_like(face.vertices)
         )
         shapes[name] = face.vertices + moved
+        why = dict.fromkeys(why for shape, _ in key.parts for why in poser.unmet[shape.name, key.natural])
+        if why:
+            shapes.unmet[name] = "; ".join(why)
     return shapes
 
 
@@ -64,23 +81,28 @@ class _ShapePoser:
         self.face = face
         self.rest = face.pose(np.full(FAP_COUNT, np.nan), drive=Drive.MUSCLES).positions
         self.done: dict[tuple[str, bool], Floats] = {}
+        self.unmet: dict[tuple[str, bool], tuple[str, ...]] = {}
 
     def moved(self, shape: CaptureShape, natural: bool) -> Floats:
         """(V, 3) displacement of a shape at full strength."""
         key = (shape.name, natural)
         if key not in self.done:
-            self.done[key] = self._moved(shape, natural)
+            moved, pose = self._moved(shape, natural)
+            self.done[key], self.unmet[key] = moved, unmet_lines(pose.unmet)
+            if shape.contractions and not np.abs(moved).max() > STILL * self.face.scale:
+                self.unmet[key] = (f"its muscles ({', '.join(shape.contractions)}) move nothing",)
         return self.done[key]
 
-    def _moved(self, shape: CaptureShape, natural: bool) -> Floats:
+    def _moved(self, shape: CaptureShape, natural: bool) -> tuple[Floats, Pose]:
         """See `moved`: muscles as they are given, measured FAPs met exactly, a correction over what it corrects."""
         if shape.contractions:
             silent = np.full(FAP_COUNT, np.nan)
             pose = self.face.pose(silent, drive=Drive.MUSCLES, contractions=shape.contractions)
-            return pose.positions - self.rest
+            return pose.positions - self.rest, pose
         if shape.over is None:
             pose = self.face.pose(shape.frame, drive=Drive.NATURAL if natural else Drive.EXACT)
-            return pose.positions - self.face.vertices
+            return pose.positions - self.face.vertices, pose
         below = load_shapes()[shape.over]
         both = np.where(np.isnan(shape.frame), below.frame, np.nan_to_num(below.frame) + shape.frame)
-        return self.face.pose(both, drive=Drive.EXACT).positions - self.face.vertices - self.moved(below, False)
+        pose = self.face.pose(both, drive=Drive.EXACT)
+        return pose.positions - self.face.vertices - self.moved(below, False), pose

@@ -15,6 +15,7 @@ import numpy as np
 
 from ...errors import RisoriusError
 from ...scene.bake import shape_keys
+from ...scene.bake.remarks import unmet_remarks
 from ...scene.fingerprint import uid_of
 from ...scene.live import preview
 from ...scene.live.held_faces import REST
@@ -41,10 +42,11 @@ def is_on() -> bool:
 
 
 def why_not(obj: Object) -> str:
-    """Why a face does not show what is chosen for it, or nothing."""
+    """Why a face does not show what is chosen for it, or not all of it; or nothing."""
     if not is_on() or not has_points(obj):
         return ""
-    return ready_reason(obj) or session().previews.trouble
+    seen = shown(obj)
+    return ready_reason(obj) or session().previews.trouble or "; ".join(seen.unmet if seen else ())
 
 
 def ask(obj: Object) -> None:
@@ -132,7 +134,7 @@ def show(obj: Object, face: LiveFace, *, exact: bool) -> None:
     context: Context = bpy.context
     with_paths = exact and context.window_manager.risorius.show.paths
     paths = face.paths_to(wanted.faps, **_asked_of(wanted)) if with_paths else None
-    previews.shown[face.uid] = Shown(pose.contractions, paths)
+    previews.shown[face.uid] = Shown(pose.contractions, paths, unmet_remarks(pose.unmet))
     previews.trouble = ""
 
 

@@ -46,5 +46,7 @@ change them"""
         """Say how many, and which were replaced."""
         if isinstance(result, Finding):
             return show_finding(self, context, result)
+        for remark in result.remarks:
+            self.report({"WARNING"}, remark)
         replaced = f", {len(result.replaced)} replaced" if result.replaced else ""
         return f"{active_object(context).name}: {len(result.keys)} shape keys added{replaced}"

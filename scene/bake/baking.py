@@ -21,7 +21,7 @@ from . import shape_keys
 from .compress import TOLERANCE, compress
 from .motion import Motion
 from .notes import Note
-from .remarks import remarks
+from .remarks import remarks, unmet_remarks
 from .target import Target
 from .timing import ClipTiming, scene_fps
 from .writing import Written, write_baked
@@ -93,7 +93,7 @@ def bake_expression(
     written = write_baked(
         target, source, clip, [clip], shapes, [timing.curve(peak)], slider_min=0.0, creases=marks, note=note
     )
-    return _result(clip, written, source, achieved=np.asarray(pose.achieved))
+    return _result(clip, written, source, pose.unmet, achieved=np.asarray(pose.achieved))
 
 
 def bake_motion(
@@ -134,6 +134,7 @@ def bake_motion(
     for index, positions in enumerate(motion.positions(face, rate, drive)):
         displacements[index] = positions - face.vertices
         yield Progress(0.1 + 0.75 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
+    missed = face.unmet(motion.asked, face.vertices + displacements)
     yield Progress(0.87, "Compressing the motion to shape keys")
     packed = compress(displacements, tolerance=tolerance * face.scale)
     if len(packed.shapes) == 0:
@@ -144,12 +145,19 @@ def bake_motion(
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
     marks = crease_marks.prepare(source, creases)
     written = write_baked(target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks, note=note)
-    return _result(clip, written, source, error=packed.error)
+    return _result(clip, written, source, missed, error=packed.error)
 
 
 def _result(
-    clip: str, written: Written, source: FaceSource, *, error: float = 0.0, achieved: Floats | None = None
+    clip: str,
+    written: Written,
+    source: FaceSource,
+    missed: Mapping[int, str],
+    *,
+    error: float = 0.0,
+    achieved: Floats | None = None,
 ) -> BakeResult:
-    """What to tell of a bake."""
-    frames, said = actions.frames_of(written.action), remarks(source.head) + written.remarks
+    """What to tell of a bake; `missed` : FAP number -> why, of what was asked and does not show."""
+    frames = actions.frames_of(written.action)
+    said = remarks(source.head) + written.remarks + unmet_remarks(missed, clip)
     return BakeResult(clip, written.action.name, written.keys, error, frames, achieved, said)

@@ -28,6 +28,11 @@ class Motion(Protocol):
         """Positions (V, 3) frame by frame."""
         ...
 
+    @property
+    def asked(self) -> Floats:
+        """(k, 68) FAPs that it asks for at one time or another; NaN where silent."""
+        ...
+
 
 @dataclass(frozen=True)
 class CueMotion:
@@ -57,6 +62,11 @@ class CueMotion:
             liveliness=self.liveliness,
         )
 
+    @property
+    def asked(self) -> Floats:
+        """Each expression at its peak."""
+        return np.stack([cue.peak * cue.profile.frame() for cue in self.cues])
+
 
 @dataclass(frozen=True, eq=False)
 class FapMotion:
@@ -76,6 +86,11 @@ class FapMotion:
     def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
         """The stream, each frame planned by itself; see `Face.simulation`."""
         return face.simulation(self.stream, fps, drive=drive, emotions=self.emotions)
+
+    @property
+    def asked(self) -> Floats:
+        """The stream."""
+        return self.stream
 
 
 def at_rate(stream: Floats, fps: float, wanted: float) -> Floats:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import bpy
 
 from ..blender_types import Key, Object
@@ -36,3 +38,10 @@ def remarks(obj: Object) -> tuple[str, ...]:
     if obj.show_only_shape_key:
         found.append(f"{obj.name}: Shape Key Lock shows one key only; turn it off to see the animation")
     return tuple(found)
+
+
+def unmet_remarks(missed: Mapping[int, str], clip: str = "") -> tuple[str, ...]:
+    """What is requested, by a clip, and does not show, from FAP number -> why."""
+    from ... import api
+
+    return tuple(f"{clip}: {line}" if clip else line for line in api.unmet_lines(missed))

@@ -21,7 +21,7 @@ from . import action as actions
 from . import shape_keys
 from .baking import BakeResult
 from .notes import BakeKind, Note, read_notes
-from .remarks import remarks
+from .remarks import remarks, unmet_remarks
 from .target import Target
 from .tracks import FACE_TAG, TRACK_NAME, add_strip, is_own
 from .writing import clear, write_baked
@@ -63,16 +63,18 @@ def bake_strips(
     source = target.source()
     yield Progress(0.05, "Placing the muscles")
     face = face_of(source)
-    moved = []
+    moved: list[Floats] = []
+    missed: list[str] = []
     for number, shape in enumerate(shapes):
         yield Progress(0.2 + 0.75 * number / len(shapes), f"Solving the skin for {shape.clip}")
         pose = face.pose(shape.faps, drive=drive, emotion=shape.emotion, contractions=shape.contractions)
         moved.append((np.asarray(pose.positions) - face.vertices)[None])
+        missed += unmet_remarks(pose.unmet, shape.clip)
     marks = crease_marks.prepare(source, creases)
     yield Progress(0.95, "Writing the shape keys")
     written: list[Action] = []
     keys: list[str] = []
-    said: set[str] = set(remarks(source.head))
+    said: set[str] = {*remarks(source.head), *missed}
     for shape, displacement in zip(shapes, moved, strict=True):
         note = Note(BakeKind.STRIP, shape.settings, ((shape.clip, float(shape.curve.frames[0])),))
         baked = write_baked(

@@ -155,12 +155,13 @@ def _bake_file(out: Path, load: Load, words: Sequence[str], dynamic: bool, creas
     said = cover(face, last)
     dress(face, Look())
     save(out)
+    remarks = tuple(dict.fromkeys(remark for result in results for remark in result.remarks))
     return Made(
         blend=out,
         face=face.obj.name,
         shape_keys=sum(len(result.keys) for result in results),
         error_mm=round(max(result.error for result in results) * 1000.0, 4),
-        remarks=face.remarks + results[-1].remarks + said,
+        remarks=face.remarks + remarks + said,
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -29,10 +29,17 @@ KEPT_APEXES = 24
 
 @dataclass(frozen=True, eq=False)
 class LivePose:
-    """What a face would show: displacement (V, 3) of all its vertices, metres; muscle name -> contraction, 0..1."""
+    """What a face would show.
+
+    Attributes
+    ----------
+    displacement : (V, 3) of all its vertices, metres. contractions : muscle name -> 0..1.
+    unmet : FAP number -> why, of what is asked and does not show; of a sketch nothing is known.
+    """
 
     displacement: Floats
     contractions: Mapping[str, float]
+    unmet: Mapping[int, str] = field(default_factory=dict)
 
 
 class LiveFace:
@@ -69,9 +76,11 @@ class LiveFace:
         exact: bool = False,
     ) -> LivePose:
         """The face for some FAPs (68,): a sketch (`Face.sketcher`), or in balance as a bake is."""
-        show = self._face.pose if exact else self._sketcher.sketch
-        shown = show(faps, drive=drive, emotion=emotion, contractions=contractions)
-        return LivePose(shown.positions - self._face.vertices, shown.contractions)
+        if exact:
+            pose = self._face.pose(faps, drive=drive, emotion=emotion, contractions=contractions)
+            return LivePose(pose.positions - self._face.vertices, pose.contractions, pose.unmet)
+        sketch = self._sketcher.sketch(faps, drive=drive, emotion=emotion, contractions=contractions)
+        return LivePose(sketch.positions - self._face.vertices, sketch.contractions)
 
     def apex(
         self,

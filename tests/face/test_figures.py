@@ -47,6 +47,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "mesh/sphere.py": (0.8,),  # share of points that a fit keeps
     "mesh/template.py": (1e-3, 3.0),  # a millimetre; smoothing of the warp
     "mesh/weld.py": (1e-3, 1e-4, 0.25),  # how near copies lie; what has no length; when covered polygons are doubles
+    "unmet.py": (0.02,),  # what counts as nothing
     "response/actuators.py": (1e-3,),  # a step of a difference
     "response/folds.py": (
         1.3,

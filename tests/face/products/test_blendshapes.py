@@ -147,3 +147,16 @@ def test_shapes_are_those_of_the_scanned_head(shared: Path, shared_face: Callabl
     assert len(explained) == 31
     assert min(explained.values()) >= LEAST, explained
     assert np.median(list(explained.values())) >= HALF, explained
+
+
+@pytest.mark.slow
+def test_shapes_that_a_face_cannot_show_are_named(tmp_path: Path) -> None:
+    table = tmp_path / "few.toml"
+    table.write_text("[keys.blink]\nshapes = { eyeBlinkLeft = 1 }\n[keys.tongue]\nshapes = { tongueOut = 1 }\n")
+    head = api.build_default_head()
+    assert api.arkit_shapes(api.default_face(), table).unmet == {}
+    parts = np.where(np.asarray(head.parts) == api.Part.TONGUE, int(api.Part.OTHER), head.parts)
+    bare = api.Face.from_arrays(head.vertices, head.polygons, head.points, parts)
+    missed = api.arkit_shapes(bare, table).unmet
+    assert list(missed) == ["tongue"]
+    assert "the face has no tongue" in missed["tongue"]
