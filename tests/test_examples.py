@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import doctest
 import inspect
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import risorius.api as api
+from places import ROOT
 
 #: Those that take more than about a second.
 SLOW = {"arkit_shapes", "Creases", "find_points"}
@@ -61,6 +63,18 @@ def test_every_public_function_and_each_method_of_a_face_has_an_example() -> Non
     wanted = {name for name in functions if "." not in name or name.startswith(("Face.", "Profile.", "FapStream."))}
     assert sorted(wanted - set(EXAMPLES)) == []
     assert {"fap", "Face.pose", "Face.from_arrays", "FapStream.expanded", "default_face"} <= functions
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", ["README.md", "docs/scripting.md"])
+def test_the_script_of_a_page_runs(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    api.write_fap("speech.fap", api.FapStream(np.zeros((2, 68)), fps=25.0))
+    blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(encoding="utf-8"), flags=re.M | re.S)
+    (script,) = (block for block in blocks if "import risorius.api as api" in block)
+    for wide, narrow in (("range(100)", "range(1)"), ("apex=1.0, offset=0.8", "apex=0.0, offset=0.1")):
+        script = script.replace(wide, narrow)
+    exec(compile(script, page, "exec"), {})
 
 
 def test_a_wrong_example_fails() -> None:
