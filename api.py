@@ -30,7 +30,7 @@ from .face.fit.topologies import (
 from .face.mechanism import ADDITIONS, MUSCLE_GROUPS, Mechanism
 from .face.mesh.fap_units import Fapu
 from .face.mesh.files import MeshFile, read_mesh
-from .face.mesh.parts import Part
+from .face.mesh.parts import Part, Told
 from .face.mesh.point_files import PointTable, read_point_file
 from .face.mesh.points import REQUIRED as REQUIRED_POINTS
 from .face.pose import Pose
@@ -152,6 +152,7 @@ __all__ = [
     "StreamFormat",
     "TableError",
     "Timing",
+    "Told",
     "Topology",
     "VisemeField",
     "archetype",

@@ -32,9 +32,10 @@ from .mesh.template import TEMPLATE_POINTS, TemplateWarp
 from .muscles.placement import PlacedMuscle, place_muscles
 from .muscles.table import muscles_of
 from .response.actuators import Actuators
-from .response.followers import InnerSkin, LooseParts
+from .response.followers import InnerSkin
 from .response.pulls import Pulls, pulls_of
 from .response.relaxation import Relaxation
+from .response.rooted import RootedParts
 from .response.sheet import ElasticSheet
 from .skin.fine import SOLVED, fine_skin
 from .skin.outer import OuterSkin
@@ -267,11 +268,11 @@ class Anatomy:
         return InnerSkin(laplacian(positions, polygons), areas, inner, positions, self.given_skin)
 
     @cached_property
-    def loose_parts(self) -> LooseParts:
-        """Brows, lashes and whatever has no part of its own: they go with outer skin and teeth."""
+    def rooted_parts(self) -> RootedParts:
+        """Brows, lashes and whatever has no part of its own: they grow out of outer skin and teeth."""
         teeth = (self._part(Part.TEETH_UPPER), self._part(Part.TEETH_LOWER))
         carriers = np.unique(np.concatenate([self.given_skin.index, self.still_skin, *teeth]))
-        return LooseParts(self.mesh.positions, self._part(Part.OTHER), carriers)
+        return RootedParts(self.mesh.positions, self.mesh.polygons, self._part(Part.OTHER), carriers)
 
     def _fap_unit(self, number: int) -> float:
         """One unit of a FAP that is a length, metres of head space."""

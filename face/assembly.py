@@ -45,7 +45,7 @@ class Assembly:
         if anatomy.tongue is not None:
             opening = jaw.angle * anatomy.actuators.chin_lever
             moved[anatomy.tongue.index] += anatomy.tongue.displacement(faps) + anatomy.tongue.sunk(opening, faps)
-        anatomy.loose_parts.follow(moved)
+        anatomy.rooted_parts.follow(moved)
         for ball in anatomy.eyeballs:
             moved[ball.index] = ball.displacement(faps)
         seams = anatomy.mesh.seams

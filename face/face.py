@@ -19,11 +19,18 @@ from .drive.over_time import cue_plans, stream_plans
 from .drive.request import Drive, EmotionShares, Request, silent_faps
 from .measure import features, measure
 from .mechanism import Mechanism, named
-from .mesh.checks import checked_axes, checked_parts, checked_polygons, checked_vertices, with_pupils
+from .mesh.checks import (
+    checked_axes,
+    checked_parts,
+    checked_polygons,
+    checked_vertices,
+    known_parts,
+    with_pupils,
+)
 from .mesh.face_mesh import COPY, FaceMesh
 from .mesh.fap_units import Fapu, fapu
 from .mesh.head_frame import head_frame_of
-from .mesh.parts import Part
+from .mesh.parts import Part, Told
 from .mesh.points import FeaturePoints, PointSource, bind_points, check_sides
 from .mesh.weld import weld
 from .muscles.placement import PlacedMuscle
@@ -88,7 +95,8 @@ class Face:
         polygons : (F, 3|4) ints, or a sequence of index sequences (three corners or more).
         points : feature point -> vertex index, or position (3,) on the surface (bound by barycentric weights). 3.5 and
             3.6 may be left out; they are then placed in the middle of each eye's opening.
-        parts : (V,) numbers of `Part`, derived from connected pieces when None.
+        parts : (V,) numbers of `Part`, derived from connected pieces when None; and of `Told` where only what a vertex
+            is among is known.
         axes : (3, 3) unit vectors to the subject's left, up and forward, along which FAPs are measured. None: the
             mesh's own axes where the face lies along them within 10 degrees, else as its feature points tell.
 
@@ -107,16 +115,16 @@ class Face:
         faces = checked_polygons(polygons, len(array))
         seams = weld(array, faces)
         sources, triangles = seams.of_leads(with_pupils(points, array)), mesh.fans(seams.polygons)[0]
-        skin = None if parts is None or np.shape(parts) != (len(array),) else np.asarray(parts) == Part.SKIN
-        bound = bind_points(sources, array, triangles, skin)
+        told = checked_parts(parts, len(array))
+        bound = bind_points(sources, array, triangles, np.isin(told, (Part.SKIN, Told.ANYTHING)))
         positions = bound.positions()
         head_frame = head_frame_of(positions, None if axes is None else checked_axes(axes))
         landmarks = {name: head_frame.to_head(position) for name, position in positions.items()}
         check_sides(landmarks)
         units = fapu(positions, head_frame.axes)
         head = head_frame.to_head(array)
-        given = checked_parts(parts, head, seams.polygons, landmarks, bound)
-        if parts is None:
+        given = known_parts(told, head, seams.polygons, landmarks, bound)
+        if (told < 0).any():
             bound = bind_points(sources, array, triangles, given == Part.SKIN)
         given[seams.copies] = COPY
         face_mesh = FaceMesh(head, seams.polygons, given, bound, landmarks, head_frame, units, seams)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..errors import SceneError
-from ..face.mesh.parts import Part
+from ..face.mesh.parts import Part, Told
 from ..scene import refusals
 from ..scene.bake.target import Target
 from ..scene.blender_types import Items
@@ -33,17 +33,30 @@ def all_objects() -> Items[Object]:
     return objects
 
 
+#: What an object holds that is named as both of two parts.
+_BOTH = {
+    frozenset((Part.EYEBALL_L, Part.EYEBALL_R)): Told.EYES,
+    frozenset((Part.TEETH_UPPER, Part.TEETH_LOWER)): Told.TEETH,
+}
+
+
 def companions_of(obj: Object) -> tuple[Companion, ...]:
-    """Objects that the user has named as eyes, teeth and tongue of `obj`."""
+    """Objects that the user has named as eyes, teeth and tongue of `obj`; one that is named twice holds both."""
     named = obj.risorius.face
-    found = {
-        Part.EYEBALL_L: named.eyeball_l,
-        Part.EYEBALL_R: named.eyeball_r,
-        Part.TEETH_UPPER: named.teeth_upper,
-        Part.TEETH_LOWER: named.teeth_lower,
-        Part.TONGUE: named.tongue,
-    }
-    return tuple(Companion(other, part) for part, other in found.items() if other is not None)
+    found: dict[Object, list[Part]] = {}
+    for part, other in (
+        (Part.EYEBALL_L, named.eyeball_l),
+        (Part.EYEBALL_R, named.eyeball_r),
+        (Part.TEETH_UPPER, named.teeth_upper),
+        (Part.TEETH_LOWER, named.teeth_lower),
+        (Part.TONGUE, named.tongue),
+    ):
+        if other is not None:
+            found.setdefault(other, []).append(part)
+    return tuple(
+        Companion(other, parts[0] if len(parts) == 1 else _BOTH.get(frozenset(parts), Told.ANYTHING))
+        for other, parts in found.items()
+    )
 
 
 def target_of(obj: Object) -> Target:

@@ -9,17 +9,23 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import SceneError
-from ..face.mesh.parts import Part
+from ..face.mesh.parts import Part, Told
 from .blender_types import Object, Scene
 from .mesh import metres_matrix, relative_matrix
 
 
 @dataclass(frozen=True)
 class Companion:
-    """An object of a face besides the head: `part` says what it is, an eye, a row of teeth or the tongue."""
+    """An object of a face besides the head.
+
+    Attributes
+    ----------
+    part : what it is: a part (OTHER goes with the skin that it grows out of, SKULL with the head alone), or what it
+        holds, where its pieces are to be told apart: both eyes, both rows of teeth, anything.
+    """
 
     obj: Object
-    part: Part
+    part: Part | Told
 
 
 def refuse_twice(obj: Object, companions: Sequence[Companion]) -> None:

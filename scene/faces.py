@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..face.mesh.parts import Part
+from ..face.mesh.parts import Part, Told
 from ..face.mesh.point_files import PointTable
 from ..polygons import PolygonTable
 from . import mesh as meshes
@@ -78,7 +78,7 @@ class FaceSource:
     vertices : (V, 3).
     polygons : between `vertices`.
     points : name -> vertex index, or position (3,) in metres.
-    parts : (V,) of `Part`, -1 where the face itself is to say; None where nothing is known.
+    parts : (V,) of `Part` and `Told`; None where nothing is known.
     """
 
     pieces: tuple[Piece, ...]
@@ -135,25 +135,22 @@ def read_face(
         first = pieces[-1].slice.stop
     stretch = pieces[0].to_metres[:3, :3]
     metric = {n: p if isinstance(p, int) else stretch @ np.asarray(p, float) for n, p in table.items()}
-    named = [None, *(companion.part for companion in companions)]
+    named = [Told.ANYTHING, *(companion.part for companion in companions)]
     parts = np.concatenate([_parts_of(member.data, part) for member, part in zip(members, named, strict=True)])
     return FaceSource(
         tuple(pieces),
         np.concatenate([piece.metric for piece in pieces]),
         PolygonTable.joined(polygons),
         metric,
-        None if (parts < 0).all() else parts,
+        None if (parts == Told.ANYTHING).all() else parts,
         fingerprint(obj, companions, points=points, scene=scene),
     )
 
 
-def _parts_of(mesh: Mesh, part: Part | None) -> Ints:
-    """(V,) parts of one object: the given part, or those stored with the mesh, or -1."""
-    count = len(mesh.vertices)
-    if part is not None:
-        return np.full(count, int(part), dtype=np.int64)
-    stored = meshes.read_parts(mesh)
-    return stored if stored is not None else np.full(count, -1, dtype=np.int64)
+def _parts_of(mesh: Mesh, part: Part | Told) -> Ints:
+    """(V,) parts of one object: what it is told to be, or where that is anything, what is stored with its mesh."""
+    stored = meshes.read_parts(mesh) if part is Told.ANYTHING else None
+    return stored if stored is not None else np.full(len(mesh.vertices), int(part), dtype=np.int64)
 
 
 def face_of(source: FaceSource) -> Face:
@@ -165,34 +162,15 @@ def face_of(source: FaceSource) -> Face:
     """
     kept = next((kept for kept in _faces if kept[0].matches(source.fingerprint)), None)
     if kept is None:
-        kept = source.fingerprint, _built(source)
+        from .. import api
+
+        face = api.Face.from_arrays(source.vertices, source.polygons, dict(source.points), parts=source.parts)
+        kept = source.fingerprint, face
     else:
         _faces.remove(kept)
     _faces.append(kept)
     del _faces[:-KEPT_FACES]
     return kept[1]
-
-
-def _built(source: FaceSource) -> Face:
-    """A new face."""
-    from .. import api
-
-    parts = source.parts
-    if parts is not None and (parts < 0).any():
-        parts = np.where(parts < 0, _derived_head_parts(source), parts)
-    return api.Face.from_arrays(source.vertices, source.polygons, dict(source.points), parts=parts)
-
-
-def _derived_head_parts(source: FaceSource) -> Ints:
-    """(V,) parts as the head's own mesh tells them; the vertices of other objects are OTHER."""
-    from .. import api
-
-    count = len(source.pieces[0].rest)
-    alone = source.polygons.kept(source.polygons.within(np.arange(len(source.vertices)) < count))
-    head = api.Face.from_arrays(source.vertices[:count], alone, dict(source.points))
-    parts = np.full(len(source.vertices), int(Part.OTHER), dtype=np.int64)
-    parts[:count] = head.parts
-    return parts
 
 
 def forget_faces() -> None:

@@ -15,6 +15,7 @@ from hashlib import blake2b
 import numpy as np
 
 from ..arrays import Floats
+from ..face.mesh.parts import Told
 from ..face.mesh.point_files import PointTable
 from .blender_types import Datablock, Object, Scene
 from .companions import Companion, placements
@@ -65,8 +66,8 @@ def fingerprint(
     SceneError : no feature points; an object that is scaled to nothing, or a mirrored head.
     """
     digest, matrices = blake2b(digest_size=16), np.array(placements(obj, companions, scene))
-    for member, part in [(obj, None), *((companion.obj, companion.part) for companion in companions)]:
-        parts = read_parts(member.data) if part is None else None
+    for member, part in [(obj, Told.ANYTHING), *((companion.obj, companion.part) for companion in companions)]:
+        parts = read_parts(member.data) if part is Told.ANYTHING else None
         digest.update(repr((part, mesh_counts(member.data), parts is None)).encode())
         digest.update(rest_vertices(member.data).astype(np.float32).tobytes())
         for numbers in (*polygon_arrays(member.data), parts):

@@ -10,6 +10,7 @@ fap_rows                  which point each FAP reads, along which direction, in 
 parts, segmentation,      which vertex is skin, eyeball, tooth or tongue, and how that is told
   eye_parts, mouth_parts,
   sphere
+told                      objects that hold both eyes or both rows of teeth, told apart
 openings                  where lips and lids end
 reach                     which skin a face can move
 template                  the template face of the tables, and the warp from it

@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 from ...arrays import Floats, Ints
 from ...errors import ModelError
 from ...polygons import PolygonTable
-from .parts import Part
+from .parts import Part, Told
 from .points import FeaturePoints, PointSource
-from .segmentation import derive_parts
 from .template import TEMPLATE_POINTS
+from .told import parts_of_told
 
 
 def checked_vertices(vertices: ArrayLike) -> Floats:
@@ -82,27 +82,33 @@ def _place(source: PointSource, vertices: Floats) -> Floats | None:
     return place if place.shape == (3,) else None
 
 
-def checked_parts(
-    parts: ArrayLike | None,
-    head: Floats,
-    polygons: PolygonTable,
-    landmarks: Mapping[str, Floats],
-    points: FeaturePoints,
+def checked_parts(parts: ArrayLike | None, vertex_count: int) -> Ints:
+    """(V,) numbers of `Part` and `Told`; without any, all are `Told.ANYTHING`."""
+    if parts is None:
+        return np.full(vertex_count, int(Told.ANYTHING), dtype=np.int64)
+    array = np.array(parts, dtype=np.int64)
+    if array.shape != (vertex_count,):
+        raise ModelError(f"parts must have one number per vertex ({vertex_count}), but have the shape {array.shape}")
+    if not np.isin(array, [int(p) for p in (*Part, *Told)]).all():
+        raise ModelError(f"parts must be numbers of Part (0 to {max(Part)}) or Told ({min(Told)} to {max(Told)})")
+    if not np.isin(array, (Part.SKIN, Told.ANYTHING)).any():
+        raise ModelError("the face has no skin: parts marks no vertex as skin (0)")
+    return array
+
+
+def known_parts(
+    told: Ints, head: Floats, polygons: PolygonTable, landmarks: Mapping[str, Floats], points: FeaturePoints
 ) -> Ints:
-    """Given parts, checked, or derived ones."""
+    """(V,) numbers of `Part`: those that are told, and those that the shape of the mesh tells."""
     nose = points["9.3"]
     if not nose.is_bound:
         raise ModelError("feature point 9.3 (nose tip) is not on the mesh: give a vertex or a point on the surface")
-    if parts is None:
-        return derive_parts(head, polygons, landmarks, int(nose.vertices[0]))
-    array = np.array(parts, dtype=np.int64)
-    if array.shape != (len(head),):
-        raise ModelError(f"parts must have one number per vertex ({len(head)}), but have the shape {array.shape}")
-    if not np.isin(array, [int(p) for p in Part]).all():
-        raise ModelError(f"parts must be numbers of Part (0 to {max(Part)})")
-    if not (array == Part.SKIN).any():
+    if (told >= 0).all():
+        return told
+    parts = parts_of_told(told, head, polygons, landmarks, int(nose.vertices[0]))
+    if not (parts == Part.SKIN).any():
         raise ModelError("the face has no skin: parts marks no vertex as skin (0)")
-    return array
+    return parts
 
 
 def checked_axes(axes: ArrayLike) -> Floats:

@@ -27,6 +27,7 @@ class EyeballFigures:
     centred: Share
     depth: Share
     within: float
+    shell: float
     strip: Share
 
 

@@ -160,7 +160,7 @@ def bind_points(
     if missing:
         raise ModelError(f"the face lacks the feature points {', '.join(missing)}: add them")
     anywhere = _Surface(vertices, triangles)
-    on_skin = anywhere if skin is None else _Surface(vertices, triangles[skin[triangles].all(axis=1)])
+    on_skin = anywhere if skin is None or skin.all() else _Surface(vertices, triangles[skin[triangles].all(axis=1)])
     bound: dict[str, BoundPoint] = {}
     for name, source in points.items():
         if isinstance(source, int | np.integer):

@@ -24,7 +24,9 @@ def pieces(polygons: Polygons, vertex_count: int) -> Ints:
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
 
 
-def derive_parts(positions: Floats, polygons: PolygonTable, points: Mapping[str, Floats], skin_vertex: int) -> Ints:
+def derive_parts(
+    positions: Floats, polygons: PolygonTable, points: Mapping[str, Floats], skin_vertex: int | None
+) -> Ints:
     """Part of every vertex of a mesh.
 
     Parameters
@@ -32,7 +34,7 @@ def derive_parts(positions: Floats, polygons: PolygonTable, points: Mapping[str,
     positions : (V, 3) neutral mesh in head space, metres.
     polygons : its polygons.
     points : feature point -> (3,) in head space.
-    skin_vertex : a vertex that is certainly skin (the nose tip).
+    skin_vertex : a vertex that is certainly skin (the nose tip); None in a mesh without the skin.
 
     Returns
     -------
@@ -40,7 +42,8 @@ def derive_parts(positions: Floats, polygons: PolygonTable, points: Mapping[str,
     """
     labels = pieces(polygons, len(positions))
     parts = np.full(len(positions), int(Part.OTHER), dtype=np.int64)
-    parts[labels == labels[skin_vertex]] = int(Part.SKIN)
+    if skin_vertex is not None:
+        parts[labels == labels[skin_vertex]] = int(Part.SKIN)
     add_eyes(parts, labels, positions, polygons, points)
     gums = add_mouth_parts(parts, labels, positions, (points["2.2"] + points["2.3"]) / 2.0)
     split_gums(parts, gums, positions, polygons)

@@ -6,5 +6,6 @@ pulls                     what of the muscles' pull shows
 actuators                 muscles, lids and jaw as one list
 spring_skin, relaxation   biphasic springs with mass and damping; their equilibrium under muscles
 folds                     lines where squeezed skin gives way
-followers                 mouth bag, sockets, lashes, brows and loose pieces
+followers                 mouth bag and sockets
+rooted                    lashes, brows and other pieces that grow out of the skin
 """

@@ -1,4 +1,4 @@
-"""What is not outer skin follows: mouth bag and eye sockets, lashes and brows, loose pieces."""
+"""Skin that does not show follows the skin that does: mouth bag and eye sockets."""
 
 from __future__ import annotations
 
@@ -13,12 +13,6 @@ from ...physics.elastic import Factor, diagonal_matrix
 from ...physics.mesh import Sparse
 from ..figures import Length, read_figures
 from ..skin.outer import OuterSkin
-
-#: Loose vertices follow this many nearest carriers.
-NEIGHBOURS = 12
-
-#: Neighbours lie on a sheet; across it a slope cannot be told and is held at 0 by this much.
-SHEET_TIE = 0.02
 
 #: Inner skin is tied to rest as weakly as this, relative to its neighbours, so that loose pieces stay put.
 REST_TIE = 1e-4
@@ -79,45 +73,3 @@ def _flesh(inner: Floats, areas: Floats, outer: OuterSkin, count: int) -> Sparse
     near = outer.areas[other] * (1.0 - (distance / FLESH.reach) ** 2) ** 3 * 4.0 / (np.pi * FLESH.reach**2)
     ties = areas[own] * near * behind / FLESH.length**2
     return sparse.csr_array((ties, (own, outer.index[other])), shape=(len(inner), count))
-
-
-class LooseParts:
-    """Lashes, brows and other pieces: each vertex goes with the nearest carriers."""
-
-    def __init__(self, positions: Floats, loose: Ints, carriers: Ints) -> None:
-        """Bind vertices `loose` to the nearest of `carriers` (indices into positions (V, 3))."""
-        self.index = loose
-        self._weights: Sparse = sparse.csr_array((len(loose), len(positions)), dtype=np.float64)
-        if len(loose) == 0 or len(carriers) == 0:
-            return
-        count = min(NEIGHBOURS, len(carriers))
-        found = cKDTree(positions[carriers]).query(positions[loose], k=count)
-        distance, nearest = (np.reshape(part, (len(loose), count)) for part in found)
-        weight = _linear_shares(positions[carriers][nearest] - positions[loose][:, None], distance)
-        rows = np.repeat(np.arange(len(loose)), count)
-        self._weights = sparse.csr_array(
-            (weight.ravel(), (rows, carriers[nearest.ravel()])), shape=(len(loose), len(positions))
-        )
-
-    def follow(self, displacement: Floats) -> None:
-        """Fill in the loose rows of a displacement field (V, 3), in place."""
-        if len(self.index):
-            displacement[self.index] = np.asarray(self._weights @ displacement)
-
-
-def _linear_shares(away: Floats, distance: Floats) -> Floats:
-    """Weights (l, k) of neighbours that reproduce constant and, along the sheet they lie on, linear displacements.
-
-    Moving least squares; neighbours given by offset (l, k, 3) and distance (l, k), nearest first. Averages alone would
-    let a brow sink where the skin turns.
-    """
-    reach = np.maximum(distance[:, -1:], 1e-9)
-    near = np.exp(-2.0 * (distance / reach) ** 2)
-    basis = np.concatenate([np.ones((*distance.shape, 1)), away / reach[:, :, None]], axis=2)
-    moment = np.einsum("lk,lki,lkj->lij", near, basis, basis)
-    moment[:, range(1, 4), range(1, 4)] += SHEET_TIE * near.sum(axis=1)[:, None]
-    value = np.zeros((len(moment), 4, 1))
-    value[:, 0] = 1.0
-    shape = np.linalg.solve(moment, value)[:, :, 0]
-    shares: Floats = near * np.einsum("lki,li->lk", basis, shape)
-    return np.asarray(shares / shares.sum(axis=1, keepdims=True))

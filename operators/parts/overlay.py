@@ -27,6 +27,7 @@ COLOURS = {
     Part.TEETH_LOWER: (0.75, 0.85, 0.20),
     Part.TONGUE: (0.95, 0.25, 0.50),
     Part.OTHER: (0.60, 0.35, 0.85),
+    Part.SKULL: (0.35, 0.22, 0.12),
 }
 UNTOLD = (0.5, 0.5, 0.5)
 STRENGTH = 0.6

@@ -17,7 +17,8 @@ PARTS = {
     Part.TEETH_UPPER: ("TEETH_UPPER", "Upper Teeth", "Upper teeth and gums"),
     Part.TEETH_LOWER: ("TEETH_LOWER", "Lower Teeth", "Lower teeth and gums, which move with the jaw"),
     Part.TONGUE: ("TONGUE", "Tongue", "The tongue, which moves with the jaw"),
-    Part.OTHER: ("OTHER", "Other", "Brows, lashes, hair, clothes: follows the skin below it"),
+    Part.OTHER: ("OTHER", "On the Skin", "Lashes, brows, a beard: follows the skin that it grows out of"),
+    Part.SKULL: ("SKULL", "On the Skull", "Hair, glasses, a hat: follows the head, not the face"),
 }
 
 

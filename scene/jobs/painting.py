@@ -37,6 +37,7 @@ _COLOUR_OF_PART = {
     Part.TEETH_LOWER: 2,
     Part.TONGUE: 3,
     Part.OTHER: 4,
+    Part.SKULL: 4,
 }
 _MOUTH = list(PLAIN_COLOURS).index("Mouth")
 

@@ -1,0 +1,175 @@
+"""What grows out of the skin: lashes, brows, a beard, and whatever else is neither skin nor eye, tooth or tongue.
+
+A piece goes with the skin where it touches it: there each vertex follows the skin about its nearest place, as far as
+that goes along the surface, so that a lash of the upper lid never hangs on the lower one. What stands off turns with
+its roots as a whole, so that a lash keeps its length as the lid comes down.
+
+Limitations: a piece is as stiff as that everywhere; long hair does not hang, and touches nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.spatial import cKDTree
+
+from ...arrays import Bools, Floats, Ints
+from ...physics import mesh
+from ...physics.elastic import Factor, diagonal_matrix
+from ...physics.mesh import Sparse
+from ...polygons import PolygonTable
+from ..figures import Length, read_figures
+
+#: Roots follow this many carriers, chosen among so many in space; the farthest counts for nothing, or hardly anything.
+NEIGHBOURS, SEARCHED, FAINT = 12, 24, 1e-9
+
+#: Neighbours lie on a sheet; across it a slope cannot be told and is held at 0 by this much. So is their turn.
+SHEET_TIE = 0.02
+
+#: The surface about so many nearest carriers tells how far off it a vertex is.
+CLOSE = 4
+
+#: Paths along the carriers are searched from this many places at once.
+AT_ONCE = 256
+
+
+@dataclass(frozen=True)
+class RootFigures:
+    """Where a piece touches the skin (presets/anatomy/skin.toml)."""
+
+    touch: Length
+    nearest: float
+    detour: float
+
+
+ROOTS = read_figures("skin.roots", RootFigures)
+
+
+class RootedParts:
+    """Pieces that go with skin or teeth: roots with what they touch, the rest with its roots."""
+
+    def __init__(self, positions: Floats, polygons: PolygonTable, rooted: Ints, carriers: Ints) -> None:
+        """Bind vertices `rooted` to `carriers`, both indices into positions (V, 3); head space, metres."""
+        self._bound = len(rooted) > 0 and len(carriers) > 0
+        if not self._bound:
+            return
+        edges = _edges(positions, polygons, rooted)
+        touching = _touching(_distance(positions, polygons, rooted, carriers), edges)
+        self._roots, self._rest = rooted[touching], rooted[~touching]
+        self._at, self._off = positions[self._roots], positions[self._rest]
+        graph = _edges(positions, polygons, carriers)
+        around, length = _around(graph, positions[carriers], self._at)
+        self._carriers = carriers[around]
+        self._away = positions[self._carriers] - self._at[:, None]
+        reach = np.where(np.isfinite(length), length, 0.0).max(axis=1, keepdims=True)
+        self._near = np.maximum((1.0 - np.minimum(length / np.maximum(reach, mesh.SHORTEST), 1.0) ** 2) ** 2, FAINT)
+        self._near[~np.isfinite(length)] = 0.0
+        self._shares = _linear_shares(self._away, self._near, reach)
+        if len(self._rest):
+            own = edges[~touching]
+            self._factor = Factor(diagonal_matrix(np.asarray(own.sum(axis=1)).ravel()) - own[:, ~touching])
+            self._to_roots: Sparse = own[:, touching]
+
+    def follow(self, displacement: Floats) -> None:
+        """Fill in the rows of rooted vertices of a displacement field (V, 3), in place."""
+        if not self._bound:
+            return
+        carried = displacement[self._carriers]
+        shift = np.einsum("rk,rkc->rc", self._shares, carried)
+        displacement[self._roots] = shift
+        if len(self._rest) == 0:
+            return
+        change = self._turns(carried - shift[:, None]) - np.eye(3)
+        about = shift - np.einsum("rij,rj->ri", change, self._at)
+        motion = self._factor.solve(self._to_roots @ np.concatenate([change.reshape(-1, 9), about], axis=1))
+        turned = np.einsum("vij,vj->vi", motion[:, :9].reshape(-1, 3, 3), self._off)
+        displacement[self._rest] = turned + motion[:, 9:]
+
+    def _turns(self, against: Floats) -> Floats:
+        """(r, 3, 3) rotation of the carriers about each root, by their motion (r, k, 3) against it."""
+        moment = np.einsum("rk,rki,rkj->rij", self._near, self._away + against, self._away)
+        size = np.einsum("rk,rki,rki->r", self._near, self._away, self._away)
+        moment += np.maximum(SHEET_TIE * size, mesh.SHORTEST**2)[:, None, None] * np.eye(3)
+        left, _, right = np.linalg.svd(moment)
+        mirrored = np.linalg.det(left @ right) < 0.0
+        left[mirrored, :, 2] *= -1.0
+        turns: Floats = left @ right
+        turns[(against == 0.0).all(axis=(1, 2))] = np.eye(3)
+        return turns
+
+
+def _distance(positions: Floats, polygons: PolygonTable, rooted: Ints, carriers: Ints) -> Floats:
+    """(l,) how far rooted vertices are from the surface of the carriers, metres."""
+    distance, nearest = cKDTree(positions[carriers]).query(positions[rooted], k=min(CLOSE, len(carriers)))
+    distance, nearest = (np.reshape(part, (len(rooted), -1)) for part in (distance, nearest))
+    member, close = np.zeros((2, len(positions)), dtype=bool)
+    member[carriers], close[carriers[nearest]] = True, True
+    triangles = mesh.fans(polygons.kept(polygons.within(member)))[0]
+    triangles = triangles[close[triangles].any(axis=1)]
+    if len(triangles) == 0:
+        return np.asarray(distance[:, 0])
+    samples = cKDTree(mesh.surface_samples(positions[triangles], ROOTS.touch))
+    return np.minimum(distance[:, 0], samples.query(positions[rooted])[0])
+
+
+def _edges(positions: Floats, polygons: PolygonTable, index: Ints) -> Sparse:
+    """(n, n) 1 / length of the edges and diagonals of the polygons within some vertices (n,)."""
+    member = np.zeros(len(positions), dtype=bool)
+    member[index] = True
+    local = np.full(len(positions), -1, dtype=np.int64)
+    local[index] = np.arange(len(index))
+    own = polygons.kept(polygons.within(member)).numbered(local)
+    if not len(own):
+        return sparse.csr_array((len(index), len(index)), dtype=np.float64)
+    graph = mesh.adjacency(positions[index], own)
+    return sparse.csr_array((1.0 / graph.data, graph.indices, graph.indptr), shape=graph.shape)
+
+
+def _touching(distance: Floats, edges: Sparse) -> Bools:
+    """(l,) which vertices, at some distance from the skin, their piece grows out of the skin at."""
+    count, labels = connected_components(edges, directed=False)
+    least = np.full(count, np.inf)
+    np.minimum.at(least, labels, distance)
+    return np.asarray(distance <= np.maximum(ROOTS.touch, ROOTS.nearest * least[labels]))
+
+
+def _around(graph: Sparse, positions: Floats, roots: Floats) -> tuple[Ints, Floats]:
+    """(r, k) carriers about each root (r, 3), the nearest first, and their distances, infinite for what is another lip.
+
+    That is what cannot be reached from the nearest carrier by a way along the surface that is not much longer than
+    through the air.
+    """
+    lengths = sparse.csr_array((1.0 / graph.data, graph.indices, graph.indptr), shape=graph.shape)
+    count = min(SEARCHED, len(positions))
+    distance, found = (np.reshape(part, (len(roots), count)) for part in cKDTree(positions).query(roots, k=count))
+    straight = np.linalg.norm(positions[found] - positions[found[:, :1]], axis=2)
+    limit = ROOTS.detour * float(straight.max(initial=0.0)) + ROOTS.touch
+    places, of = np.unique(found[:, 0], return_inverse=True)
+    way = np.empty(found.shape)
+    for first in range(0, len(places), AT_ONCE):
+        searched = dijkstra(lengths, directed=False, indices=places[first : first + AT_ONCE], limit=limit)
+        mine = np.flatnonzero((of >= first) & (of < first + AT_ONCE))
+        way[mine] = np.take_along_axis(searched[of[mine] - first], found[mine], axis=1)
+    distance = np.where(way <= ROOTS.detour * straight + ROOTS.touch, distance, np.inf)
+    order = np.argsort(distance, axis=1, kind="stable")[:, : min(NEIGHBOURS, count)]
+    return np.take_along_axis(found, order, axis=1), np.take_along_axis(distance, order, axis=1)
+
+
+def _linear_shares(away: Floats, near: Floats, reach: Floats) -> Floats:
+    """Weights (r, k) of neighbours that reproduce constant and, along the sheet they lie on, linear displacements.
+
+    Moving least squares; neighbours given by offset (r, k, 3), how much each counts (r, k) and the farthest (r, 1).
+    Averages alone would let a brow sink where the skin turns.
+    """
+    scaled = away / np.maximum(reach, mesh.SHORTEST)[:, :, None]
+    basis = np.concatenate([np.ones((*near.shape, 1)), scaled], axis=2)
+    moment = np.einsum("lk,lki,lkj->lij", near, basis, basis)
+    moment[:, range(1, 4), range(1, 4)] += SHEET_TIE * near.sum(axis=1)[:, None]
+    value = np.zeros((len(moment), 4, 1))
+    value[:, 0] = 1.0
+    shape = np.linalg.solve(moment, value)[:, :, 0]
+    shares: Floats = near * np.einsum("lki,li->lk", basis, shape)
+    return np.asarray(shares / shares.sum(axis=1, keepdims=True))
