@@ -28,8 +28,8 @@ class Companion:
     part: Part | Told
 
 
-def refuse_twice(obj: Object, companions: Sequence[Companion]) -> None:
-    """Refuse an object that stands for two parts of a face.
+def refuse_confused(obj: Object, companions: Sequence[Companion]) -> None:
+    """Refuse an object that stands for two parts of a face, or for its skin.
 
     Raises
     ------
@@ -37,6 +37,8 @@ def refuse_twice(obj: Object, companions: Sequence[Companion]) -> None:
     """
     seen = {obj}
     for companion in companions:
+        if companion.part is Part.SKIN:
+            raise SceneError(companion.obj.name, "is told to be the skin, which is the face itself: join it to the face")
         if companion.obj in seen:
             raise SceneError(companion.obj.name, "is used for two parts of the face: choose it for one of them")
         seen.add(companion.obj)

@@ -17,7 +17,7 @@ from ..face.mesh.point_files import PointTable
 from ..polygons import PolygonTable
 from . import mesh as meshes
 from .blender_types import Mesh, Object, Scene
-from .companions import Companion, placements, refuse_twice
+from .companions import Companion, placements, refuse_confused
 from .fingerprint import Fingerprint, fingerprint
 from .points.stored import store_points as store_points
 from .points.stored import stored_points
@@ -120,7 +120,7 @@ def read_face(
     SceneError : see `refusals`; an object named twice; missing feature points.
     """
     refuse_unreadable(obj)
-    refuse_twice(obj, companions)
+    refuse_confused(obj, companions)
     table = points if points is not None else stored_points(obj)
     members = [obj, *(companion.obj for companion in companions)]
     pieces: list[Piece] = []

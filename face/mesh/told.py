@@ -41,12 +41,19 @@ def parts_of_told(
         parts[index] = int(Part.OTHER)
     else:
         nose = int(local[skin_vertex]) if open_[skin_vertex] else None
-        parts[index] = derive_parts(positions[index], own, points, nose)
+        parts[index] = derive_parts(positions[index], own, _without_tongue(points, told), nose)
     labels = np.full(len(told), -1, dtype=np.int64)
     labels[index] = pieces(own, len(index)) if len(own) else np.arange(len(index))
     _settle_eyes(parts, told == Told.EYES, labels, positions, points)
     _settle_teeth(parts, told == Told.TEETH, labels, positions, points)
     return parts
+
+
+def _without_tongue(points: Mapping[str, Floats], told: Ints) -> Mapping[str, Floats]:
+    """The points, without those that would find a tongue in the gums where the tongue is told."""
+    if not (told == Part.TONGUE).any():
+        return points
+    return {name: place for name, place in points.items() if not name.startswith("6.")}
 
 
 def _settle_eyes(parts: Ints, eyes: Bools, labels: Ints, positions: Floats, points: Mapping[str, Floats]) -> None:
@@ -89,7 +96,7 @@ def _settle_teeth(parts: Ints, teeth: Bools, labels: Ints, positions: Floats, po
     known = np.flatnonzero(teeth & np.isin(parts, (Part.TEETH_UPPER, Part.TEETH_LOWER)))
     for member in open_:
         if len(known):
-            distance, nearest = cKDTree(positions[known]).query(positions[member])
+            distance, nearest = (np.asarray(each) for each in cKDTree(positions[known]).query(positions[member]))
             parts[member] = parts[known[nearest[distance.argmin()]]]
         else:
             high = positions[member, 1].min() + positions[member, 1].max() > 2.0 * lips[1]

@@ -26,8 +26,8 @@ from ..figures import Length, read_figures
 #: Roots follow this many carriers, chosen among so many in space; the farthest counts for nothing, or hardly anything.
 NEIGHBOURS, SEARCHED, FAINT = 12, 24, 1e-9
 
-#: Neighbours lie on a sheet; across it a slope cannot be told and is held at 0 by this much. So is their turn.
-SHEET_TIE = 0.02
+#: Neighbours lie on a sheet; across it a slope cannot be told and is held at 0 by this much. On a line a turn cannot.
+SHEET_TIE, LINE_TIE = 0.02, 1e-3
 
 #: The surface about so many nearest carriers tells how far off it a vertex is.
 CLOSE = 4
@@ -68,6 +68,8 @@ class RootedParts:
         self._near = np.maximum((1.0 - np.minimum(length / np.maximum(reach, mesh.SHORTEST), 1.0) ** 2) ** 2, FAINT)
         self._near[~np.isfinite(length)] = 0.0
         self._shares = _linear_shares(self._away, self._near, reach)
+        self._above = -np.einsum("rk,rkc->rc", self._shares, self._away)
+        self._away = self._away - _means(self._near, self._away)[:, None]
         if len(self._rest):
             own = edges[~touching]
             self._factor = Factor(diagonal_matrix(np.asarray(own.sum(axis=1)).ravel()) - own[:, ~touching])
@@ -78,21 +80,21 @@ class RootedParts:
         if not self._bound:
             return
         carried = displacement[self._carriers]
-        shift = np.einsum("rk,rkc->rc", self._shares, carried)
+        change = self._turns(carried - _means(self._near, carried)[:, None]) - np.eye(3)
+        shift = np.einsum("rk,rkc->rc", self._shares, carried) + np.einsum("rij,rj->ri", change, self._above)
         displacement[self._roots] = shift
         if len(self._rest) == 0:
             return
-        change = self._turns(carried - shift[:, None]) - np.eye(3)
         about = shift - np.einsum("rij,rj->ri", change, self._at)
         motion = self._factor.solve(self._to_roots @ np.concatenate([change.reshape(-1, 9), about], axis=1))
         turned = np.einsum("vij,vj->vi", motion[:, :9].reshape(-1, 3, 3), self._off)
         displacement[self._rest] = turned + motion[:, 9:]
 
     def _turns(self, against: Floats) -> Floats:
-        """(r, 3, 3) rotation of the carriers about each root, by their motion (r, k, 3) against it."""
+        """(r, 3, 3) rotation of the carriers about each root, by their motion (r, k, 3) against their mean."""
         moment = np.einsum("rk,rki,rkj->rij", self._near, self._away + against, self._away)
         size = np.einsum("rk,rki,rki->r", self._near, self._away, self._away)
-        moment += np.maximum(SHEET_TIE * size, mesh.SHORTEST**2)[:, None, None] * np.eye(3)
+        moment += np.maximum(LINE_TIE * size, mesh.SHORTEST**2)[:, None, None] * np.eye(3)
         left, _, right = np.linalg.svd(moment)
         mirrored = np.linalg.det(left @ right) < 0.0
         left[mirrored, :, 2] *= -1.0
@@ -156,6 +158,11 @@ def _around(graph: Sparse, positions: Floats, roots: Floats) -> tuple[Ints, Floa
     distance = np.where(way <= ROOTS.detour * straight + ROOTS.touch, distance, np.inf)
     order = np.argsort(distance, axis=1, kind="stable")[:, : min(NEIGHBOURS, count)]
     return np.take_along_axis(found, order, axis=1), np.take_along_axis(distance, order, axis=1)
+
+
+def _means(near: Floats, values: Floats) -> Floats:
+    """(r, 3) weighted means of what neighbours (r, k, 3) have, by how much each counts (r, k)."""
+    return np.asarray(np.einsum("rk,rkc->rc", near, values) / near.sum(axis=1, keepdims=True))
 
 
 def _linear_shares(away: Floats, near: Floats, reach: Floats) -> Floats:

@@ -62,7 +62,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     ),  # how coarse a mesh may be; averages over vertices
     "response/followers.py": (1e-4, 4.0),  # a tie that keeps a matrix regular; a kernel's norm
     "response/relaxation.py": (5e-5,),  # how near a sketch comes
-    "response/rooted.py": (0.02,),  # a tie that keeps matrices regular
+    "response/rooted.py": (0.02, 1e-3),  # ties that keep matrices regular
     "skin/fine.py": (6.0, 3.5),  # how finely skin is split
     "skin/outer.py": (3.0,),  # the smooth step
 }
