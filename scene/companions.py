@@ -38,7 +38,7 @@ def refuse_confused(obj: Object, companions: Sequence[Companion]) -> None:
     seen = {obj}
     for companion in companions:
         if companion.part is Part.SKIN:
-            raise SceneError(companion.obj.name, "is told to be the skin, which is the face itself: join it to the face")
+            raise SceneError(companion.obj.name, "is told to be the skin, which is the face: join it to the face")
         if companion.obj in seen:
             raise SceneError(companion.obj.name, "is used for two parts of the face: choose it for one of them")
         seen.add(companion.obj)

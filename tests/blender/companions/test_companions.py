@@ -42,5 +42,5 @@ def test_every_object_moves_as_in_one_mesh(built_head: Any, character: Callable,
 
 def test_the_skin_itself_cannot_be_apart(character: Callable) -> None:
     made = character()
-    with pytest.raises(SceneError, match="Brows.*skin"):
+    with pytest.raises(SceneError, match="is told to be the skin"):
         read_face(made["Face"], companions=[Companion(made["Brows"], Part.SKIN)])

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from risorius.api import Face, Part
 from risorius.face.response.rooted import RootedParts
+from risorius.polygons import PolygonTable
 from scipy.spatial.transform import Rotation
 
 MM = 1e-3
@@ -28,7 +29,7 @@ def quads(rows: int, columns: int, first: int) -> list[np.ndarray]:
 
 
 @pytest.fixture(scope="module")
-def lids() -> tuple[np.ndarray, list[np.ndarray], np.ndarray, np.ndarray, np.ndarray]:
+def lids() -> tuple[np.ndarray, PolygonTable, np.ndarray, np.ndarray, np.ndarray]:
     """Two lids that nearly touch and a strip of lashes that stands out of the upper one, nearer to the lower.
 
     Positions, polygons, and the vertices of the upper lid, of the lower one and of the lashes.
@@ -36,7 +37,7 @@ def lids() -> tuple[np.ndarray, list[np.ndarray], np.ndarray, np.ndarray, np.nda
     upper = sheet(10, 20, (0.0, 0.2, 0.0), (0.0, 1.0, 0.0))
     lower = sheet(10, 20, (0.0, 0.0, 0.0), (0.0, -1.0, 0.0))
     lashes = sheet(5, 16, (2.0, 0.15, 0.1), (0.0, -0.3, 2.0))
-    polygons = [*quads(10, 20, 0), *quads(10, 20, 200), *quads(5, 16, 400)]
+    polygons = PolygonTable.of([*quads(10, 20, 0), *quads(10, 20, 200), *quads(5, 16, 400)])
     return np.concatenate([upper, lower, lashes]), polygons, np.arange(200), np.arange(200, 400), np.arange(400, 480)
 
 
