@@ -28,6 +28,7 @@ from .mesh.openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, find_opening, ou
 from .mesh.parts import Part
 from .mesh.points import FeaturePoints, lies_on_skin, rebound
 from .mesh.reach import within_reach
+from .mesh.sewn import sewn_openings, web_of
 from .mesh.template import TEMPLATE_POINTS, TemplateWarp
 from .muscles.placement import PlacedMuscle, place_muscles
 from .muscles.table import muscles_of
@@ -113,10 +114,16 @@ class Anatomy:
         polygons = self._skin_polygons
         graph = mesh.adjacency(face_mesh.positions, polygons, diagonals=False)
         nearest = _vertex_of(face_mesh.points)
-        openings = [find_opening(graph, nearest, LIP_UPPER, LIP_LOWER)]
-        openings += [find_opening(graph, nearest, *LIDS[side]) for side in "lr"]
-        outside = outer_faces(polygons, openings, nearest["9.3"])
-        kept = polygons.kept(outside)
+        openings = {"mouth": find_opening(graph, nearest, LIP_UPPER, LIP_LOWER)}
+        openings |= {side: find_opening(graph, nearest, *LIDS[side]) for side in "lr"}
+        outside = outer_faces(polygons, list(openings.values()), nearest["9.3"])
+        ways = mesh.adjacency(face_mesh.positions, polygons)
+        sewn = sewn_openings(ways, nearest, face_mesh.landmarks)
+        web = np.zeros(len(polygons), dtype=bool)
+        for name in sorted(sewn):
+            own, openings[name] = web_of(face_mesh.positions, polygons, outside, openings[name])
+            web |= own
+        kept = PolygonTable.joined([polygons.kept(outside & ~web), polygons.kept(web)])
         index = np.unique(kept.loops)
         local = np.full(len(face_mesh.positions), -1, dtype=np.int64)
         local[index] = np.arange(len(index))
@@ -129,8 +136,10 @@ class Anatomy:
             positions=face_mesh.positions[index],
             polygons=kept.numbered(local),
             points=dict(face_mesh.landmarks),
-            mouth=inside(openings[0]),
-            eyes={"l": inside(openings[1]), "r": inside(openings[2])},
+            mouth=inside(openings["mouth"]),
+            eyes={side: inside(openings[side]) for side in "lr"},
+            sewn=sewn,
+            web=int(web.sum()),
             mechanisms=self.mechanisms,
         )
 

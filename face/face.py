@@ -198,6 +198,14 @@ class Face:
         return tuple(found)
 
     @property
+    def sewn(self) -> frozenset[str]:
+        """What has no opening: "mouth" where the lips are one surface, "l" and "r" where an eye's lids are, and shut.
+
+        Sewn lips are kept whole: they do not part and the jaw drops a little. Shut lids stay shut.
+        """
+        return self.anatomy.given_skin.sewn
+
+    @property
     def is_mask(self) -> bool:
         """Whether the mesh has no skull, so that a turn of the head cannot be told from expression."""
         return not self.anatomy.head_turn.is_readable

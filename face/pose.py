@@ -37,7 +37,8 @@ class Pose:
     contractions : muscle name -> contraction in [0, 1].
     asked : (68,) the FAPs as given. goal : (68,) what the drive decided to do. achieved : (68,) measured on the
         positions. All in FAP units, NaN where silent or not measurable.
-    reasons : FAP number -> why the goal differs from what was asked, natural drive only.
+    reasons : FAP number -> why the goal differs from what was asked, natural drive only; and in every drive what sewn
+        lips and shut lids do not let the face do.
     unmet : FAP number -> why, of FAPs that were asked and of which nothing shows.
     """
 
@@ -75,7 +76,7 @@ class Poser:
         plan = self.plan(request)
         posture = self.balance.posture(plan)
         positions = self._positions(posture, request)
-        achieved, reasons = measure(self.anatomy, positions), plan.reasons()
+        achieved, reasons = measure(self.anatomy, positions), {**plan.reasons(), **self.balance.held(plan)}
         return Pose(
             positions=positions,
             contractions=self.anatomy.actuators.contractions(posture.amounts),

@@ -18,6 +18,7 @@ from .bodies.contact import lip_share
 from .bodies.surroundings import Surroundings
 from .drive.by_hand import set_by_hand
 from .drive.drives import DRIVES, Correction
+from .drive.held_together import held_reasons, held_together
 from .drive.plan import Plan
 from .drive.targets import Targets
 from .figures import Length, read_figures
@@ -81,12 +82,18 @@ class Balance:
         SolverError : contractions beyond what the skin can bear.
         """
         anatomy, rules = self.anatomy, DRIVES[plan.request.drive]
-        targets = rules.targets(anatomy.inverse.rows, plan)
+        targets = held_together(anatomy.inverse.rows, rules.targets(anatomy.inverse.rows, plan), anatomy.skin.sewn)
         found = anatomy.inverse.solve(targets) if rules.muscles else anatomy.actuators.none()
         amounts = set_by_hand(anatomy.actuators, found, plan.request.by_hand)
         if plan.request.by_hand and rules.correction is Correction.CONTACT:
             targets = self._moved_by_hand(targets, found, amounts)
         return self._corrected(self._pulled(plan, amounts, memory), targets, rules.correction)
+
+    def held(self, plan: Plan) -> dict[int, str]:
+        """FAP number -> why it is not met, of what sewn lips and shut lids keep a plan from."""
+        rows = self.anatomy.inverse.rows
+        targets = DRIVES[plan.request.drive].targets(rows, plan)
+        return held_reasons(rows, targets, held_together(rows, targets, self.anatomy.skin.sewn))
 
     def _moved_by_hand(self, targets: Targets, found: Amounts, amounts: Amounts) -> Targets:
         """Targets that want what was set by hand, too: the difference that it makes is not corrected away."""

@@ -85,11 +85,15 @@ class Contact:
     """The contacts of one face's outer skin."""
 
     def __init__(self, skin: OuterSkin, sides: Sequence[str], bodies: Sequence[Body] = ()) -> None:
-        """Lips and the lids of the eyes `sides` ("l", "r") as meetings, and the bodies that skin stays out of."""
+        """Lips and the lids of the eyes `sides` ("l", "r") as meetings, and the bodies that skin stays out of.
+
+        What is sewn has no margins that could meet.
+        """
         self.skin = skin
         self.bodies = tuple(bodies)
-        self.lips = build_meeting(skin, skin.mouth, skin.lip_distances, lids=False)
-        self.lids = {side: build_meeting(skin, skin.eyes[side], skin.lid_distances(side), lids=True) for side in sides}
+        self.lips = None if "mouth" in skin.sewn else build_meeting(skin, skin.mouth, skin.lip_distances, lids=False)
+        free = [side for side in sides if side not in skin.sewn]
+        self.lids = {side: build_meeting(skin, skin.eyes[side], skin.lid_distances(side), lids=True) for side in free}
 
     def settle(self, displacement: Floats, lip_share: float = CONTACT.upper_lip, at: Surroundings = AT_REST) -> Floats:
         """The displacement (n, 3) of the outer skin in head space, metres, with every contact resolved.
@@ -150,7 +154,8 @@ class Contact:
 
     def _meetings(self, lip_share: float) -> list[tuple[Meeting, float]]:
         """Every pair of margins with the upper one's share of the way."""
-        return [(self.lips, lip_share), *((lids, CONTACT.upper_lid) for lids in self.lids.values())]
+        lips = [] if self.lips is None else [(self.lips, lip_share)]
+        return [*lips, *((lids, CONTACT.upper_lid) for lids in self.lids.values())]
 
 
 def _lifted(

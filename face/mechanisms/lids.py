@@ -189,10 +189,12 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
         LidMove.LOWER_UP: _taper(along, EXTENT.lower_outer) * below,
         LidMove.LOWER_DOWN: _taper(along, EXTENT.lower_outer) * below,
     }
+    if side in skin.sewn:
+        weights = {move: np.zeros(skin.vertex_count) for move in LidMove}
     middle = np.exp(-(((along - SLIDE.middle[0]) / SLIDE.middle[1]) ** 2))
     drawn = below * _taper(along, SLIDE.drawn_outer, SLIDE.drawn_inner)
     slides: dict[LidMove, Floats] = {move: np.zeros(skin.vertex_count) for move in LidMove}
-    if skin.has(Mechanism.LID_SLIDE):
+    if skin.has(Mechanism.LID_SLIDE) and side not in skin.sewn:
         slides[LidMove.UPPER_CLOSE] = (
             radius * middle * (SLIDE.upper * weights[LidMove.UPPER_CLOSE] + SLIDE.lower * drawn)
         )

@@ -11,7 +11,7 @@ parts, segmentation,      which vertex is skin, eyeball, tooth or tongue, and ho
   eye_parts, mouth_parts,
   sphere
 told                      objects that hold both eyes or both rows of teeth, told apart
-openings                  where lips and lids end
+openings, sewn            where lips and lids end; where they are one surface
 reach                     which skin a face can move
 template                  the template face of the tables, and the warp from it
 files, point_files        meshes in files; feature points in files

@@ -30,6 +30,7 @@ class JawFigures:
     """How far the mandible goes at most, and how far it usually opens (presets/anatomy/jaw.toml)."""
 
     opening: Length
+    sewn_opening: Length
     left: Length
     forward: Length
     usual_opening: Length
@@ -75,7 +76,8 @@ class Actuators:
         """Largest amount of each actuator, metres; the jaw's slides may also be negative."""
         muscles = [muscle.amplitude for muscle in self.muscles]
         lids = [LID_MOVERS[move].amplitude for _, move in self.lid_moves]
-        return np.array([*muscles, *lids, JAW.opening, JAW.left, JAW.forward])
+        opening = JAW.sewn_opening if "mouth" in self.skin.sewn else JAW.opening
+        return np.array([*muscles, *lids, opening, JAW.left, JAW.forward])
 
     @property
     def chin_lever(self) -> float:

@@ -34,6 +34,14 @@ def _halved(opening: Opening, once: Split) -> Opening:
     return Opening(once.halved(opening.upper), once.halved(opening.lower))
 
 
+def _web_last(skin: OuterSkin, once: Split) -> tuple[PolygonTable, int]:
+    """The quads of a split skin, those of webs last, and how many: each has a corner in the middle of its polygon."""
+    if skin.web == 0:
+        return PolygonTable.of(once.quads), 0
+    of_web = once.quads[:, 2] >= once.matrix.shape[0] - skin.web
+    return PolygonTable.of(np.concatenate([once.quads[~of_web], once.quads[of_web]])), int(of_web.sum())
+
+
 def _curved(skin: OuterSkin, once: Split) -> Floats:
     """(N, 3) positions of a split skin: new vertices bulge out of flat polygons as far as the skin there is round.
 
@@ -59,10 +67,12 @@ def fine_skin(skin: OuterSkin, spacing: float) -> tuple[OuterSkin, Sparse]:
             break
         once = split(fine.polygons, fine.vertex_count)
         matrix = once.matrix @ matrix
+        quads, web = _web_last(fine, once)
         fine = replace(
             fine,
             positions=_curved(fine, once),
-            polygons=PolygonTable.of(once.quads),
+            polygons=quads,
+            web=web,
             mouth=_halved(fine.mouth, once),
             eyes={side: _halved(opening, once) for side, opening in fine.eyes.items()},
             _cache={},

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 
@@ -58,9 +59,10 @@ class OuterSkin:
     index : (g,) vertex numbers of the face's mesh. Of a skin that is split (`fine_skin`) these are the first g of its
         vertices, of any other all of them.
     positions : (n, 3) rest positions in head space, metres.
-    polygons : in local vertex numbers.
+    polygons : in local vertex numbers; last the webs of openings that are sewn.
     points : feature point -> (3,) position in head space.
     mouth, eyes : the openings, in local vertex numbers; eyes by "l" and "r".
+    sewn : which of the openings "mouth", "l" and "r" are sewn (`mesh.sewn`). web : how many polygons are webs.
     mechanisms : those that this skin has; what is built on it leaves the others out.
     """
 
@@ -70,6 +72,8 @@ class OuterSkin:
     points: Mapping[str, Floats]
     mouth: Opening
     eyes: Mapping[str, Opening]
+    sewn: frozenset[str] = frozenset()
+    web: int = 0
     mechanisms: frozenset[Mechanism] = EVERY
     _cache: dict[str, Floats] = field(default_factory=dict, repr=False)
 
@@ -99,8 +103,17 @@ class OuterSkin:
 
     @cached_property
     def graph(self) -> Sparse:
-        """(n, n) lengths of edges and face diagonals: distances along it are distances along the skin."""
-        return mesh.adjacency(self.positions, self.polygons)
+        """(n, n) lengths of edges and face diagonals: distances along it are distances along the skin.
+
+        Of a web only the ways into it count, so that none leads across.
+        """
+        if self.web == 0:
+            return mesh.adjacency(self.positions, self.polygons)
+        cut = mesh.adjacency(self.positions, self.polygons[: -self.web])
+        into = sparse.coo_array(mesh.adjacency(self.positions, self.polygons[-self.web :]))
+        inner = np.diff(cut.indptr)[into.col] == 0
+        entries = (into.data[inner], (into.row[inner], into.col[inner]))
+        return sparse.csr_array(cut + sparse.csr_array(entries, shape=cut.shape))
 
     def distance_from(self, sources: Ints) -> Floats:
         """(n,) distance along the skin from the nearest of some vertices, metres; far pieces count as 1 m away.
@@ -110,7 +123,7 @@ class OuterSkin:
         if not self.has(Mechanism.SEPARATION):
             through_the_air, _ = cKDTree(self.positions[sources]).query(self.positions)
             return np.minimum(np.asarray(through_the_air, dtype=np.float64), 1.0)
-        distance = dijkstra(self.graph, directed=False, indices=np.unique(sources), min_only=True)
+        distance = dijkstra(self.graph, directed=self.web > 0, indices=np.unique(sources), min_only=True)
         return np.minimum(distance, 1.0)
 
     def smoothing(self, radius: float) -> Factor:

@@ -159,5 +159,5 @@ def _result(
 ) -> BakeResult:
     """What to tell of a bake; `missed` : FAP number -> why, of what was asked and does not show."""
     frames = actions.frames_of(written.action)
-    said = remarks(source.head) + written.remarks + unmet_remarks(missed, clip)
+    said = remarks(source.head, face_of(source)) + written.remarks + unmet_remarks(missed, clip)
     return BakeResult(clip, written.action.name, written.keys, error, frames, achieved, said)

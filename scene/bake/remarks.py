@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import bpy
 
@@ -10,6 +11,9 @@ from ..blender_types import Key, Object
 from ..points.bound import followed
 from ..points.kept import has_points, read_kept
 from .shape_keys import own_names_of
+
+if TYPE_CHECKING:
+    from ...api import Face
 
 
 def _active_user_keys(keys: Key | None) -> list[str]:
@@ -20,7 +24,17 @@ def _active_user_keys(keys: Key | None) -> list[str]:
     return [k.name for k in keys.key_blocks[1:] if k.value != 0.0 and not k.mute and k.name not in own]
 
 
-def remarks(obj: Object) -> tuple[str, ...]:
+def sewn_remarks(name: str, sewn: frozenset[str]) -> list[str]:
+    """What lips and lids without an opening mean for the face of an object."""
+    found = []
+    if "mouth" in sewn:
+        found.append(f"{name}: its lips are sewn together and stay closed")
+    if sewn - {"mouth"}:
+        found.append(f"{name}: its lids are shut, in one surface with each other, and stay shut")
+    return found
+
+
+def remarks(obj: Object, face: Face | None = None) -> tuple[str, ...]:
     """What an animator should know about a bake on this object that is nevertheless fine."""
     found = []
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
@@ -31,6 +45,8 @@ def remarks(obj: Object) -> tuple[str, ...]:
         lost = f"; {', '.join(now.lost)} were lost" if now.lost else ""
         if now.moved_on:
             found.append(f"{obj.name}: was edited; its feature points moved to the nearest surface{lost}: check them")
+    if face is not None:
+        found += sewn_remarks(obj.name, face.sewn)
     keys = obj.data.shape_keys
     active = _active_user_keys(keys)
     if active:

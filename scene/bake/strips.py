@@ -74,7 +74,7 @@ def bake_strips(
     yield Progress(0.95, "Writing the shape keys")
     written: list[Action] = []
     keys: list[str] = []
-    said: set[str] = {*remarks(source.head), *missed}
+    said: set[str] = {*remarks(source.head, face), *missed}
     for shape, displacement in zip(shapes, moved, strict=True):
         note = Note(BakeKind.STRIP, shape.settings, ((shape.clip, float(shape.curve.frames[0])),))
         baked = write_baked(

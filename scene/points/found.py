@@ -73,6 +73,7 @@ def seek_points(
     ModelError : no face in it; states the score, the limit and the remedy.
     """
     from ... import api
+    from ...face.mesh.sewn import sewn_among
 
     yield Progress(0.0, "Reading the mesh")
     refuse_unreadable(obj)
@@ -97,7 +98,9 @@ def seek_points(
     origin = Origin.FOUND if found.topology is None else Origin.TOPOLOGY
     origins = {name: Origin.CLICKED if name in known else origin for name in table}
     kept = bind(obj.data, table, origins=origins, confidence=found.confidence)
-    kept = replace(kept, score=0.0 if known else found.score)
+    yield Progress(1.0, "Checking lips and lids")
+    sewn = sewn_among(vertices, polygons, found.positions)
+    kept = replace(kept, score=0.0 if known else found.score, sewn=sewn)
     return Finding(kept, found.score, found.topology, unreadable)
 
 

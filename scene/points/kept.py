@@ -79,12 +79,14 @@ class KeptPoints:
     digest : of that mesh's polygons.
     points : name ("8.4") -> point.
     score : how little the mesh looked like a face when they were found in it; 0 once a person has said where it is.
+    sewn : what had no opening then: "mouth", and "l" and "r" for eyes (`Face.sewn`).
     """
 
     counts: tuple[int, int, int]
     digest: str
     points: Mapping[str, KeptPoint] = field(default_factory=dict)
     score: float = 0.0
+    sewn: frozenset[str] = frozenset()
 
     @property
     def is_questioned(self) -> bool:
@@ -183,7 +185,8 @@ def _encoded(kept: KeptPoints) -> str:
         }
         for name, point in kept.points.items()
     }
-    return json.dumps({"counts": list(kept.counts), "digest": kept.digest, "score": kept.score, "points": points})
+    told = {"counts": list(kept.counts), "digest": kept.digest, "score": kept.score, "sewn": sorted(kept.sewn)}
+    return json.dumps({**told, "points": points})
 
 
 @lru_cache(maxsize=8)
@@ -204,4 +207,5 @@ def _decoded(text: str) -> KeptPoints:
         )
     vertices, corners, polygons = stored["counts"]
     counts = int(vertices), int(corners), int(polygons)
-    return KeptPoints(counts, str(stored["digest"]), points, float(stored.get("score", 0.0)))
+    sewn = frozenset(str(name) for name in stored.get("sewn", ()))
+    return KeptPoints(counts, str(stored["digest"]), points, float(stored.get("score", 0.0)), sewn)

@@ -1,0 +1,139 @@
+"""Openings that open nowhere: lips and lids that are one surface, as scans and toys have them.
+
+There the way along the skin from one lip to the other leads straight across instead of round the corner of the mouth,
+or in and out of a mouth bag. What lies between the margins, the web, is part of the skin that muscles pull on, so that
+it moves as a whole and nothing is stretched; but as a way along the skin it does not count, or the upper lip would be
+taken for a part of the lower one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.spatial import cKDTree
+
+from ...arrays import Bools, Floats, Ints
+from ...physics import mesh
+from ...physics.mesh import Polygons, Sparse
+from ...polygons import PolygonTable
+from ..figures import Share, read_figures
+from .openings import Opening
+from .weld import weld
+
+
+@dataclass(frozen=True)
+class SewnFigures:
+    """When an opening counts as sewn, and lids as shut (presets/anatomy/parts.toml)."""
+
+    straight: Share
+    shut: Share
+
+
+SEWN = read_figures("parts.sewn", SewnFigures)
+
+#: Opening -> points beyond its upper and its lower margin, and its corners.
+ACROSS = {
+    "mouth": ("8.1", "8.2", "8.3", "8.4"),
+    "l": ("3.1", "3.3", "3.11", "3.7"),
+    "r": ("3.2", "3.4", "3.8", "3.12"),
+}
+
+
+def sewn_openings(graph: Sparse, nearest: Mapping[str, int], points: Mapping[str, Floats]) -> frozenset[str]:
+    """Which of "mouth", "l" and "r" (the eyes) are sewn: the lips as they are, lids only where they are shut.
+
+    An eye that is open and one surface with its lids is not sewn: its lids close over it.
+
+    Parameters
+    ----------
+    graph : (V, V) lengths along the skin, with diagonals.
+    nearest : feature point -> vertex. points : feature point -> (3,) in head space.
+    """
+    found = set()
+    for name, points_across in ACROSS.items():
+        if any(point not in nearest for point in points_across):
+            continue
+        upper, lower, *corners = (nearest[point] for point in points_across)
+        far = dijkstra(graph, directed=False, indices=np.array([upper, lower]))
+        straight, around = far[0, lower], min(far[0, corner] + far[1, corner] for corner in corners)
+        if straight > SEWN.straight * around:
+            continue
+        above, below, *ends = (points[point] for point in points_across)
+        if name == "mouth" or np.linalg.norm(above - below) < SEWN.shut * np.linalg.norm(ends[0] - ends[1]):
+            found.add(name)
+    return frozenset(found)
+
+
+def sewn_among(vertices: Floats, polygons: Polygons, places: Mapping[str, Floats]) -> frozenset[str]:
+    """Which openings of a mesh (V, 3) are sewn, by its feature points' places (3,): `Face.sewn` without a face."""
+    seams = weld(vertices, polygons)
+    graph = mesh.adjacency(vertices, seams.polygons)
+    names = sorted({name for across in ACROSS.values() for name in across} & set(places))
+    used = np.unique(seams.leads)
+    nearest = used[cKDTree(vertices[used]).query(np.array([places[name] for name in names]))[1]] if names else used[:0]
+    return sewn_openings(graph, dict(zip(names, nearest.tolist(), strict=True)), places)
+
+
+def web_of(positions: Floats, polygons: PolygonTable, outside: Bools, opening: Opening) -> tuple[Bools, Opening]:
+    """The web of a sewn opening, and the opening with margins along the web's two sides, which share no vertex.
+
+    Parameters
+    ----------
+    positions : (V, 3) head space, metres. polygons : of the skin, F.
+    outside : (F,) which of them lie outside all openings.
+    opening : as its feature points tell; where its margins run along the same edges, the web is what touches these.
+
+    Returns
+    -------
+    (F,) mask of the web, and the opening.
+    """
+    ends = np.array([opening.upper[0], opening.upper[-1]])
+    shared = np.setdiff1d(np.intersect1d(opening.upper, opening.lower), ends)
+    web = _inside(positions, polygons, outside, opening.loop)
+    web[polygons.owners[np.isin(polygons.loops, shared)]] = True
+    rest = polygons.kept(outside & ~web)
+    margin = np.setdiff1d(np.intersect1d(polygons.kept(web).loops, rest.loops), ends)
+    height = positions[margin, 1] - _seam(positions, opening, positions[margin, 0])
+    graph = mesh.adjacency(positions, rest, diagonals=False)
+    upper = _along(graph, positions, np.concatenate([ends, margin[height > 0.0]]))
+    lower = _along(graph, positions, np.concatenate([ends[::-1], margin[height <= 0.0]]))
+    return web, Opening(upper, lower)
+
+
+def _inside(positions: Floats, polygons: PolygonTable, outside: Bools, loop: Ints) -> Bools:
+    """(F,) polygons inside the margins (k,) of one opening: those not outside that hang together with its loop."""
+    inner = polygons.kept(~outside)
+    _, labels = connected_components(mesh.adjacency(positions, inner, diagonals=False), directed=False)
+    own = np.isin(labels, labels[np.intersect1d(loop, inner.loops)])
+    return np.asarray(~outside & own[polygons.loops[polygons.starts]])
+
+
+def _seam(positions: Floats, opening: Opening, across: Floats) -> Floats:
+    """Heights (k,) of the seam, midway between both margins, at places (k,) across the face."""
+    heights = []
+    for arc in (opening.upper, opening.lower):
+        order = np.argsort(positions[arc, 0], kind="stable")
+        heights.append(np.interp(across, positions[arc[order], 0], positions[arc[order], 1]))
+    return np.asarray((heights[0] + heights[1]) / 2.0)
+
+
+def _along(graph: Sparse, positions: Floats, side: Ints) -> Ints:
+    """A path from the first to the second of vertices (k,) along edges between them; where there is none, in order."""
+    among = np.full(graph.shape[0], -1, dtype=np.int64)
+    among[side] = np.arange(len(side))
+    edges = sparse.coo_array(graph)
+    kept = (among[edges.row] >= 0) & (among[edges.col] >= 0)
+    entries = (edges.data[kept], (among[edges.row[kept]], among[edges.col[kept]]))
+    own = sparse.csr_array(entries, shape=(len(side), len(side)))
+    _, previous = dijkstra(own, indices=np.array(0), return_predecessors=True)
+    path = [1]
+    while path[-1] != 0 and previous[path[-1]] >= 0:
+        path.append(int(previous[path[-1]]))
+    if path[-1] == 0:
+        return side[path[::-1]]
+    way = positions[side[1], 0] - positions[side[0], 0]
+    return side[np.argsort((positions[side, 0] - positions[side[0], 0]) / way, kind="stable")]
