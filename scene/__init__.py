@@ -10,6 +10,7 @@ fcurves               the F-curves of an action, whatever Blender keeps them in
 mesh, head            meshes to arrays and back; the default head
 faces, companions     from objects to a face: the head, and what belongs to it
 fingerprint           which object it is, and which face
+following             which objects belong to a face, and how they follow it
 parts_found           parts of a face's mesh, told and corrected
 progress              the progress of long work, where scripts look for it
 refusals              what Risorius refuses to touch, and the remedy

@@ -47,6 +47,7 @@ class Object(Datablock, Protocol):
     matrix_world: Matrix
     add_rest_position_attribute: bool
     hide_render: bool
+    hide_viewport: bool
     visible_camera: bool
     show_only_shape_key: bool
 
@@ -62,6 +63,8 @@ class Object(Datablock, Protocol):
     def is_editable(self) -> bool: ...
     @property
     def modifiers(self) -> Modifiers: ...
+    @property
+    def users_collection(self) -> Sequence[Collection]: ...
     @property
     def vertex_groups(self) -> Items[VertexGroup]: ...
     def select_set(self, state: bool) -> None: ...
