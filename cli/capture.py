@@ -43,6 +43,8 @@ def add_capture_verbs(verbs: Verbs) -> None:
     add_scene(exporting)
     names = "shapes: arkit, ict_facekit, oculus_visemes, or a .toml file (default: arkit)"
     exporting.add_argument("--names", default="arkit", help=names)
+    about = "shapes to .glb: targets move the normals, too (default: they do; the file is larger)"
+    exporting.add_argument("--morph-normals", action=argparse.BooleanOptionalAction, default=True, help=about)
     exporting.add_argument("--replace", action="store_true", help="shapes: replace keys with the same names")
 
 
@@ -140,7 +142,9 @@ def _shapes_to_npz(arguments: argparse.Namespace) -> dict[str, tuple[str, ...]]:
 
 def _shapes_in_blender(arguments: argparse.Namespace) -> dict[str, tuple[str, ...]]:
     """Write them by Blender; returns what there is to say."""
-    options = scene_options(arguments) | {"names": arguments.names, "replace": arguments.replace}
+    options = scene_options(arguments) | {
+        name: getattr(arguments, name) for name in ("names", "replace", "morph_normals")
+    }
     try:
         from ..scene.jobs.shapes import blendshape_file
     except ModuleNotFoundError as missing:

@@ -7,7 +7,9 @@ it, so that the face stands in the file as it stands in the scene; the user's sh
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+import shutil
+import tempfile
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,9 +21,13 @@ from ..errors import SceneError
 from .bake import action as actions
 from .bake import shape_keys
 from .bake.tracks import CLIP_TAG, add_strip
-from .blender_types import Action, Key, Object, Scene
+from .blender_types import Action, Datablock, Key, Object, Scene
 from .fcurves import key_curves, shift_keyframes
+from .mesh import keys_of
 from .pictures.film import refuse_unwritable_output
+
+#: What objects are called that lend their names.
+ASIDE = "Risorius Exporting"
 
 
 @dataclass(frozen=True)
@@ -32,54 +38,84 @@ class Exported:
     clips: tuple[str, ...]
 
 
-def export_gltf(objects: Sequence[Object], path: str | Path) -> Exported:
+def export_gltf(objects: Sequence[Object], path: str | Path, *, morph_normals: bool = False) -> Exported:
     """Write the objects of a face, the head first, with every clip that is baked on it.
 
     Parameters
     ----------
     path : the .glb (one file) or .gltf (with .bin and pictures beside it) to write.
+    morph_normals : whether morph targets move the normals, too: folds are shaded right, and the file is larger.
 
     Raises
     ------
     SceneError : nothing is baked, the file cannot be written, this Blender has no glTF exporter, or its exporter left
-        out the face or a clip.
+        out the face or a clip. A file that was there is kept then.
     """
     path = Path(path)
     head = objects[0]
     if not shape_keys.has_own(head):
         raise SceneError(head.name, "has no baked expressions to export: bake one first")
-    if not hasattr(bpy.ops.export_scene, "gltf"):
-        raise SceneError("glTF", "this Blender's glTF exporter is off: enable the add-on glTF 2.0 format")
-    refuse_unwritable_output(path)
-    clips = clips_of(head)
-    with _copies(objects, clips) as scene, _shown(scene) as view:
-        try:
-            with bpy.context.temp_override(**view):
-                bpy.ops.export_scene.gltf(
-                    filepath=str(path),
-                    export_format="GLB" if path.suffix.lower() == ".glb" else "GLTF_SEPARATE",
-                    use_active_scene=True,
-                    export_animation_mode="NLA_TRACKS",
-                    export_anim_slide_to_zero=True,
-                    export_morph_normal=False,
-                )
-        except RuntimeError as problem:
-            raise SceneError(str(path), f"could not be exported ({str(problem).strip()[-200:]})") from problem
-    _refuse_incomplete(path, clips)
+    keys, clips = keys_of(head), clips_of(head)
+    with _copies(objects, clips) as scene, _shown(scene) as view, bpy.context.temp_override(**view):
+        write_gltf(
+            path,
+            {name for name in shape_keys.own_names_of(keys) if not keys.key_blocks[name].mute},
+            clips,
+            use_active_scene=True,
+            export_animation_mode="NLA_TRACKS",
+            export_anim_slide_to_zero=True,
+            export_morph_normal=morph_normals,
+        )
     return Exported(path, tuple(clips))
 
 
-def _refuse_incomplete(path: Path, clips: dict[str, Action]) -> None:
-    """Refuse a file that holds no mesh, or not every clip."""
-    data = path.read_bytes()
+def write_gltf(path: Path, targets: Collection[str], clips: Collection[str] = (), **options: object) -> None:
+    """Let Blender export the scene, and put what it wrote in place of what was there once all is in it.
+
+    Parameters
+    ----------
+    path : the .glb or .gltf to write.
+    targets, clips : names of the morph targets and of the animations that must be in it.
+    options : of Blender's exporter.
+
+    Raises
+    ------
+    SceneError : it cannot be written, this Blender has no glTF exporter, or its exporter left something out.
+    """
+    if not hasattr(bpy.ops.export_scene, "gltf"):
+        raise SceneError("glTF", "this Blender's glTF exporter is off: enable the add-on glTF 2.0 format")
+    refuse_unwritable_output(path)
+    kind = "GLB" if path.suffix.lower() == ".glb" else "GLTF_SEPARATE"
+    with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
+        made = Path(folder) / path.name
+        try:
+            bpy.ops.export_scene.gltf(filepath=str(made), export_format=kind, **options)
+        except RuntimeError as problem:
+            raise SceneError(str(path), f"could not be exported ({str(problem).strip()[-200:]})") from problem
+        _refuse_incomplete(made, path, targets, clips)
+        for file in sorted(made.parent.rglob("*")):
+            if file.is_file():
+                place = path.parent / file.relative_to(made.parent)
+                place.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(file, place)
+
+
+def _refuse_incomplete(made: Path, path: Path, targets: Collection[str], clips: Collection[str]) -> None:
+    """Refuse a file `made` for `path` that holds no mesh, or not every morph target and clip."""
+    data = made.read_bytes()
     if data[:4] == b"glTF":
         data = data[20 : 20 + int.from_bytes(data[12:16], "little")]
     document = json.loads(data)
-    missing = sorted(set(clips) - {animation.get("name") for animation in document.get("animations", [])})
-    if not document.get("meshes"):
+    meshes = document.get("meshes", [])
+    if not meshes:
         raise SceneError(str(path), "holds no mesh: Blender's exporter left the face out; export it with File > Export")
-    if missing:
-        raise SceneError(str(path), f"lacks the clips {', '.join(missing)}: Blender's exporter left them out")
+    there = {name for mesh in meshes for name in mesh.get("extras", {}).get("targetNames", [])}
+    animated = {animation.get("name") for animation in document.get("animations", [])}
+    for kind, wanted, found in (("shape keys", targets, there), ("clips", clips, animated)):
+        missing = ", ".join(sorted(set(wanted) - found))
+        if missing:
+            problem = f"lacks the {kind} {missing}: Blender's exporter left them out; export it with File > Export"
+            raise SceneError(str(path), problem)
 
 
 def clips_of(head: Object) -> dict[str, Action]:
@@ -109,9 +145,8 @@ def _copies(objects: Sequence[Object], clips: dict[str, Action]) -> Iterator[Sce
             copies[obj].data = obj.data.copy()
             _strip_modifiers(copies[obj])
             _lay_out(copies[obj].data.shape_keys, moved)
-        names = {copy: obj.name for obj, copy in copies.items()}
         scene.frame_start, scene.frame_end = 0, int(max(action.frame_end for action in moved.values()))
-        with _named(names):
+        with _named(copies):
             yield scene
     finally:
         bpy.data.scenes.remove(scene)
@@ -150,18 +185,31 @@ def _carriers(objects: Sequence[Object]) -> list[Object]:
 
 
 @contextmanager
-def _named(names: dict[Object, str]) -> Iterator[None]:
-    """Lend copies the names of what they are copies of, which step aside meanwhile."""
-    originals = {copy: bpy.data.objects[name] for copy, name in names.items()}
+def _named(copies: dict[Object, Object]) -> Iterator[None]:
+    """Lend copies and their meshes the names of what they are copies of, which step aside meanwhile.
+
+    What is of another file keeps its name: a copy in this file may bear the same.
+    """
+    pairs: list[tuple[Datablock, Datablock]] = list(copies.items())
+    pairs += [(obj.data, copy.data) for obj, copy in copies.items() if copy.data != obj.data]
+    names = [original.name for original, _ in pairs]
     try:
-        for copy, name in names.items():
-            originals[copy].name = f"{name} (exporting)"
+        for original, _ in pairs:
+            _rename(original, ASIDE)
+        for (_, copy), name in zip(pairs, names, strict=True):
             copy.name = name
         yield
     finally:
-        for copy, name in names.items():
-            copy.name = f"{name} (copy)"
-            originals[copy].name = name
+        for _, copy in pairs:
+            copy.name = ASIDE
+        for (original, _), name in zip(pairs, names, strict=True):
+            _rename(original, name)
+
+
+def _rename(datablock: Datablock, name: str) -> None:
+    """Give a datablock of this file another name."""
+    if datablock.library is None:
+        datablock.name = name
 
 
 def _strip_modifiers(copy: Object) -> None:

@@ -87,8 +87,10 @@ class RISORIUS_OT_export_gltf(RisoriusOperator, Operator):
 
     def run(self, context: Context) -> str:
         """Export."""
-        path = absolute(context.scene.risorius.film.model, ".glb", keep=(".glb", ".gltf"))
-        exported = gltf.export_gltf(target_of(active_object(context)).objects(), path)
+        chosen = context.scene.risorius.film
+        path = absolute(chosen.model, ".glb", keep=(".glb", ".gltf"))
+        objects = target_of(active_object(context)).objects()
+        exported = gltf.export_gltf(objects, path, morph_normals=chosen.morph_normals)
         return f"Exported {', '.join(exported.clips)} to {exported.path}"
 
 

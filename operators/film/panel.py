@@ -31,6 +31,7 @@ class RISORIUS_PT_film(MeshSidebar, Panel):
         row.operator(RISORIUS_OT_render_film.bl_idname, icon="RENDER_ANIMATION")
         column = layout.column(align=True)
         column.prop(chosen, "model")
+        column.prop(chosen, "morph_normals")
         column.operator(RISORIUS_OT_export_gltf.bl_idname, icon="EXPORT")
         shapes = context.scene.risorius.shapes
         column = layout.column(align=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..annotated import Annotated
 from ..blender_classes import PropertyGroup
@@ -98,5 +98,12 @@ class RISORIUS_PG_film(PropertyGroup):
             default="//risorius.glb",
             subtype="FILE_PATH",
             options=_RELATIVE,
+        ),
+    ]
+    morph_normals: Annotated[
+        bool,
+        BoolProperty(
+            name="Morph Normals",
+            description="Let morph targets move the normals, too. Folds are shaded correctly, but the file is larger",
         ),
     ]

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import bpy
-
-from ...errors import ParameterError, SceneError
+from ...errors import ParameterError
 from ...progress import Report, run
 from ..blendshape_keys import WrittenKeys, write_blendshapes
+from ..gltf import write_gltf
 from ..pictures.film import refuse_unwritable_output
 from .files import save
 from .inputs import Input
@@ -26,6 +25,7 @@ def blendshape_file(
     object_name: str | None = None,
     names: str | Path = "arkit",
     replace: bool = False,
+    morph_normals: bool = True,
     progress: Report | None = None,
 ) -> WrittenKeys:
     """Make the shape keys of a face and save it as .blend, or as .glb for engines.
@@ -34,6 +34,7 @@ def blendshape_file(
     ----------
     mesh, points, object_name : see `inputs.Input`; by default the default head.
     names, replace : as for `write_blendshapes`.
+    morph_normals : as for `gltf.export_gltf`.
     progress : called with each step.
 
     Raises
@@ -49,15 +50,5 @@ def blendshape_file(
     if path.suffix.lower() == ".blend":
         save(path)
     else:
-        _export_glb(path)
+        write_gltf(path, written.keys, export_animations=False, export_morph_normal=morph_normals)
     return written
-
-
-def _export_glb(path: Path) -> None:
-    """Save all objects with their shape keys as morph targets."""
-    if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
-        raise SceneError(str(path), "this Blender has no glTF exporter: write a .blend instead")
-    try:
-        bpy.ops.export_scene.gltf(filepath=str(path.resolve()), export_format="GLB", export_morph=True)
-    except RuntimeError as problem:
-        raise SceneError(str(path), f"could not be written ({problem}): choose another folder") from problem
