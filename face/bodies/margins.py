@@ -18,7 +18,7 @@ from ...arrays import Floats, Ints
 from ...physics.mesh import Sparse
 from ..figures import Length, Pair, read_figures
 from ..mesh.openings import Opening
-from ..skin.outer import OuterSkin, smoothstep
+from ..skin.outer import OuterSkin, nearer_side, smoothstep
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ class Meeting:
 def build_meeting(skin: OuterSkin, opening: Opening, distances: tuple[Floats, Floats], *, lids: bool) -> Meeting:
     """The margins of one opening; distances (n,) along the skin from the upper and the lower one."""
     reach = MARGINS.lid_reach if lids else MARGINS.lip_reach
-    on_upper = smoothstep(((distances[1] - distances[0]) / MARGINS.blend + 1.0) / 2.0)
+    on_upper = nearer_side(distances[1] - distances[0], MARGINS.blend)
     rest = skin.positions
     spread = tuple(
         _spread(rest, arc, side * (1.0 - smoothstep(distance / reach)))

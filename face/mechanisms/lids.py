@@ -16,7 +16,7 @@ from ..figures import Length, Pair, Place, Share, read_figures
 from ..mechanism import Mechanism
 from ..mesh.eye_parts import is_flat
 from ..mesh.sphere import fit_sphere
-from ..skin.outer import OuterSkin, smoothstep
+from ..skin.outer import OuterSkin, nearer_side, smoothstep
 from .lid_movers import LidMove
 
 
@@ -179,7 +179,7 @@ def build_eye(skin: OuterSkin, side: str, eyeball: Floats | None) -> Eye:
         centre, radius = _ball_behind(side, (inner + outer) / 2.0, top, bottom)
     upper, lower = skin.lid_distances(side)
     along = _fissure_position(skin, side)
-    on_upper = smoothstep(((lower - upper) / EXTENT.between + 1.0) / 2.0)
+    on_upper = nearer_side(lower - upper, EXTENT.between)
     within, over = EXTENT.opening
     closing, opening = 1.0 - smoothstep(upper / EXTENT.closing), 1.0 - smoothstep((upper - within) / over)
     below = (1.0 - on_upper) * (1.0 - smoothstep(lower / EXTENT.lower))

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ..figures import Length, read_figures
-from ..skin.outer import OuterSkin, smoothstep
+from ..skin.outer import OuterSkin, nearer_side
 
 
 @dataclass(frozen=True)
@@ -33,18 +33,10 @@ SEPARATION = read_figures("skin.separation", SeparationFigures)
 def upper_lip_side(skin: OuterSkin, width: float = SEPARATION.lips) -> Floats:
     """(n,) 1 on the upper lip's side of the skin, 0 on the lower lip's; beside the corners it changes over `width`."""
     upper, lower = skin.lip_distances
-    return _side(lower - upper, width)
+    return nearer_side(lower - upper, width)
 
 
 def lower_lid_side(skin: OuterSkin) -> Floats:
     """(n,) 1 on the lower lids' side of both eyes, 0 on an upper lid's."""
-    nearer = np.min([upper - lower for upper, lower in (skin.lid_distances(side) for side in "lr")], axis=0)
-    return _side(nearer, SEPARATION.lids)
-
-
-def _side(nearer: Floats, width: float) -> Floats:
-    """(n,) 1 where one side is nearer along the skin by `width` and more, 0 where the other is; both in metres.
-
-    One step across takes a step off the way to one side and adds it to the other: what is between is `width` wide.
-    """
-    return smoothstep((nearer / width + 1.0) / 2.0)
+    by = np.min([upper - lower for upper, lower in (skin.lid_distances(side) for side in "lr")], axis=0)
+    return nearer_side(by, SEPARATION.lids)

@@ -43,6 +43,14 @@ def smoothstep(t: Floats) -> Floats:
     return eased
 
 
+def nearer_side(by: Floats, width: float) -> Floats:
+    """(n,) 1 where one of two places is nearer along the skin, `by` (n,) at least `width` metres, 0 where the other is.
+
+    One step across takes a step off one way and adds it to the other: what is between is `width` wide.
+    """
+    return smoothstep((by / width + 1.0) / 2.0)
+
+
 def gaussian(positions: Floats, centre: Floats, radii: Floats | float) -> Floats:
     """(n,) exp(-|d/r|^2) round a centre (3,) with radius or radii (3,) in metres."""
     away: Floats = (((positions - centre) / radii) ** 2).sum(axis=1)

@@ -57,13 +57,10 @@ class RISORIUS_OT_pick_emotion(Dragging, Operator):
             return {"CANCELLED"}
         now, scale = Choice.of(active_object(context).risorius.emotion), scale_of(context)
         pointer = (float(event.mouse_region_x), float(event.mouse_region_y))
-        free, radius = (
-            free_of(area, region, space, Corner.BOTTOM_LEFT, scale),
-            context.window_manager.risorius.wheel.size / 2.0,
-        )
+        free, size = free_of(area, region, space, Corner.BOTTOM_LEFT, scale), context.window_manager.risorius.wheel.size
         away = 0.0 if now.is_centre() else now.activation
         margin = (MARGIN + FOOT) * scale
-        wheel = under(free, pointer, now.degrees(), away, radius=radius * scale, margin=margin)
+        wheel = under(free, pointer, now.degrees(), away, radius=size / 2.0 * scale, margin=margin)
         self._take_hold(context, wheel, Hand(now.pixel(wheel), pointer), scale)
         _show(wheel, region.as_pointer(), self._obj)
         context.window_manager.modal_handler_add(self)

@@ -10,13 +10,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import bpy
-import numpy as np
 
 from ...arrays import Floats
 from ...progress import Progress, Work
 from ..blender_types import Action, Key, NlaTrack
 from ..creases import marks as crease_marks
-from ..faces import face_of
+from ..faces import FaceSource, face_of
 from . import action as actions
 from . import shape_keys
 from .baking import BakeResult
@@ -24,10 +23,11 @@ from .notes import BakeKind, Note, read_notes
 from .remarks import remarks, unmet_remarks
 from .target import Target
 from .tracks import FACE_TAG, TRACK_NAME, add_strip, is_own
-from .writing import clear, write_baked
+from .writing import Written, clear, write_baked
 
 if TYPE_CHECKING:
-    from ...api import EmotionShares
+    from ...api import EmotionShares, Pose
+    from ...face.products.creases import Creases
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,46 +63,46 @@ def bake_strips(
     source = target.source()
     yield Progress(0.05, "Placing the muscles")
     face = face_of(source)
-    moved: list[Floats] = []
-    missed: list[str] = []
+    poses: list[Pose] = []
     for number, shape in enumerate(shapes):
         yield Progress(0.2 + 0.75 * number / len(shapes), f"Solving the skin for {shape.clip}")
-        pose = face.pose(shape.faps, drive=drive, emotion=shape.emotion, contractions=shape.contractions)
-        moved.append((np.asarray(pose.positions) - face.vertices)[None])
-        missed += unmet_remarks(pose.unmet, shape.clip)
+        poses.append(face.pose(shape.faps, drive=drive, emotion=shape.emotion, contractions=shape.contractions))
     marks = crease_marks.prepare(source, creases)
     yield Progress(0.95, "Writing the shape keys")
-    written: list[Action] = []
-    keys: list[str] = []
-    said: set[str] = {*remarks(source.head, face), *missed}
-    for shape, displacement in zip(shapes, moved, strict=True):
-        note = Note(BakeKind.STRIP, shape.settings, ((shape.clip, float(shape.curve.frames[0])),))
-        baked = write_baked(
-            target,
-            source,
-            shape.clip,
-            [shape.clip],
-            displacement,
-            [shape.curve],
-            slider_min=0.0,
-            creases=marks,
-            note=note,
-        )
-        written.append(baked.action)
-        keys += baked.keys
-        said |= set(baked.remarks)
+    said = set(remarks(source.head, face))
+    written = [
+        _write(target, source, shape, pose.positions - face.vertices, marks)
+        for shape, pose in zip(shapes, poses, strict=True)
+    ]
     _remove_gone(target, [shape.clip for shape in shapes])
     for datablock in _datablocks(target):
-        line_up(datablock, written)
-    ends = [actions.frames_of(action) for action in written]
+        line_up(datablock, [baked.action for baked in written])
+    for shape, pose, baked in zip(shapes, poses, written, strict=True):
+        said.update(baked.remarks, unmet_remarks(pose.unmet, shape.clip))
+    starts, ends = zip(*(actions.frames_of(baked.action) for baked in written), strict=True)
     return BakeResult(
         ", ".join(shape.clip for shape in shapes),
-        ", ".join(action.name for action in written),
-        tuple(keys),
+        ", ".join(baked.action.name for baked in written),
+        tuple(key for baked in written for key in baked.keys),
         0.0,
-        (min(start for start, _ in ends), max(end for _, end in ends)),
+        (min(starts), max(ends)),
         None,
         tuple(sorted(said)),
+    )
+
+
+def _write(target: Target, source: FaceSource, shape: ClipShape, moved: Floats, marks: Creases | None) -> Written:
+    """Write the shape key and the action of one clip; `moved` (V, 3) in metres."""
+    return write_baked(
+        target,
+        source,
+        shape.clip,
+        [shape.clip],
+        moved[None],
+        [shape.curve],
+        slider_min=0.0,
+        creases=marks,
+        note=Note(BakeKind.STRIP, shape.settings, ((shape.clip, float(shape.curve.frames[0])),)),
     )
 
 

@@ -29,17 +29,18 @@ PLAIN_COLOURS = {
     "Pupil": (0.01, 0.01, 0.01),
     "Mouth": (0.13, 0.035, 0.035),
 }
+#: Where each lies among an object's materials.
+_SLOTS = {name: number for number, name in enumerate(PLAIN_COLOURS)}
 _COLOUR_OF_PART = {
-    Part.SKIN: 0,
-    Part.EYEBALL_L: 1,
-    Part.EYEBALL_R: 1,
-    Part.TEETH_UPPER: 2,
-    Part.TEETH_LOWER: 2,
-    Part.TONGUE: 3,
-    Part.OTHER: 4,
-    Part.SKULL: 4,
+    Part.SKIN: "Skin",
+    Part.EYEBALL_L: "Sclera",
+    Part.EYEBALL_R: "Sclera",
+    Part.TEETH_UPPER: "Teeth",
+    Part.TEETH_LOWER: "Teeth",
+    Part.TONGUE: "Tongue",
+    Part.OTHER: "Other",
+    Part.SKULL: "Other",
 }
-_MOUTH = list(PLAIN_COLOURS).index("Mouth")
 
 #: From this many pieces on, teeth are modelled one by one.
 MANY_TEETH = 8
@@ -51,14 +52,13 @@ def paint_parts(obj: Object, *, creases: bool = False) -> None:
     parts = np.asarray(face.parts)
     corners, sizes = meshes.polygon_arrays(obj.data)
     first = corners[np.cumsum(sizes) - sizes]
-    lookup = np.zeros(max(_COLOUR_OF_PART) + 1, dtype=np.int64)
-    for part, index in _COLOUR_OF_PART.items():
-        lookup[part] = index
-    colours = lookup[parts[first]]
+    slots = np.zeros(len(first), dtype=np.int64)
+    for part, name in _COLOUR_OF_PART.items():
+        slots[parts[first] == part] = _SLOTS[name]
     for polygons, name in zip(iris_polygons(face, corners, sizes), ("Iris", "Pupil"), strict=True):
-        colours[polygons] = list(PLAIN_COLOURS).index(name)
-    colours[_gums(face, parts, first)] = _COLOUR_OF_PART[Part.TONGUE]
-    colours[_lining(face, corners, sizes)] = _MOUTH
+        slots[polygons] = _SLOTS[name]
+    slots[_gums(face, parts, first)] = _SLOTS["Tongue"]
+    slots[_lining(face, corners, sizes)] = _SLOTS["Mouth"]
     painted = {}
     for name, colour in PLAIN_COLOURS.items():
         material = new_material(f"Risorius plain {name.lower()}", colour)
@@ -68,7 +68,7 @@ def paint_parts(obj: Object, *, creases: bool = False) -> None:
         painted[name] = material
     eye = {name: np.array(PLAIN_COLOURS[name]) for name in ("Sclera", "Iris", "Pupil")}
     lay_irises(obj, face, [painted[name] for name in eye], sclera=eye["Sclera"], iris=eye["Iris"], pupil=eye["Pupil"])
-    meshes.set_materials(obj.data, colours)
+    meshes.set_materials(obj.data, slots)
     obj.data.update()
 
 
