@@ -19,6 +19,8 @@ FEWEST = 4
 ASKED = ("3.7", "3.12", "8.3", "8.4", "9.3", "2.1")
 #: Clicks are refused when they miss the template by more on average than this, metres of the template.
 FARTHEST = 25e-3
+#: How far a click may be outside of the box round a mesh, as a share of its diagonal.
+SLIP = 0.05
 #: Spread of the points across their main direction, as a share of that along it, below which they lie on one line.
 THIN = 0.1
 
@@ -37,14 +39,39 @@ def checked_clicks(clicks: Mapping[str, object] | None, template: FitTemplate) -
             raise ParameterError(
                 "clicks", f"must name points of the skin such as {', '.join(ASKED)}; {name} {known}", name
             )
-        try:
-            position = np.array(place, dtype=np.float64)
-        except (TypeError, ValueError):
-            position = np.zeros(0)
-        if position.shape != (3,) or not np.isfinite(position).all():
-            raise ParameterError(f"clicks {name}", "must be three finite coordinates", place)
-        checked[name] = position
+        checked[name] = click_place(name, place)
     return checked
+
+
+def click_place(name: str, place: object) -> Floats:
+    """(3,) where a point was clicked.
+
+    Raises
+    ------
+    ParameterError : it is not three finite numbers.
+    """
+    try:
+        position = np.array(place, dtype=np.float64)
+    except (TypeError, ValueError):
+        position = np.zeros(0)
+    if position.shape != (3,) or not np.isfinite(position).all():
+        given = place.tolist() if isinstance(place, np.ndarray) else place
+        raise ParameterError(f"clicks {name}", "must be three finite coordinates", given)
+    return position
+
+
+def refuse_clicks_off(vertices: Floats, clicks: Mapping[str, Floats]) -> None:
+    """Refuse clicks that are not on the mesh of vertices (V, 3): outside of the box round it, by more than a slip.
+
+    Raises
+    ------
+    ModelError : names the click.
+    """
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    slip = SLIP * float(np.linalg.norm(high - low))
+    for name, place in clicks.items():
+        if not float(np.abs(place - np.clip(place, low, high)).max()) <= slip:
+            raise ModelError(f"the clicked point {name} is off the mesh: click on its surface")
 
 
 def pose_from_clicks(clicks: Mapping[str, Floats], template: FitTemplate) -> HeadPose:

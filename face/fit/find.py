@@ -16,7 +16,14 @@ from ..mesh.checks import checked_polygons, checked_vertices
 from .bending.carry import RIM_POINTS, carry
 from .bending.fitted import fit
 from .bending.target import head_target
-from .clicks import FEWEST, checked_clicks, click_misses, click_wishes, pose_from_clicks
+from .clicks import (
+    FEWEST,
+    checked_clicks,
+    click_misses,
+    click_wishes,
+    pose_from_clicks,
+    refuse_clicks_off,
+)
 from .doubt import DOUBTFUL, DOUBTFUL_SCORE
 from .locating.align import align
 from .locating.crooked import Start, better_start, starting_bend
@@ -81,7 +88,7 @@ def find_points(
 
     Raises
     ------
-    ModelError : where there is no face; states the score, the limit and the remedy. Broken meshes.
+    ModelError : where there is no face; states the score, the limit and the remedy. Broken meshes; clicks off the mesh.
     ParameterError : clicks that name no point of the skin, or no place.
 
     Examples
@@ -117,6 +124,7 @@ def find_points_steps(
     faces = _checked_faces(polygons, len(places))
     template = fit_template()
     clicked = checked_clicks(clicks, template)
+    refuse_clicks_off(places, clicked)
     known = recognise_topology(len(places), faces, load_topologies() if topologies is None else topologies)
     if known is not None:
         return _known_points(known, places, clicked)

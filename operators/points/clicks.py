@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 
-import numpy as np
-
 from ...arrays import Floats
 from ...errors import SceneError
 from ...mpeg4 import FEATURE_POINTS
@@ -77,10 +75,17 @@ def clicks_of(text: str) -> dict[str, Floats]:
     Raises
     ------
     SceneError : none, or no such table.
+    ParameterError : a place that is not three finite numbers.
     """
+    from ...face.fit.clicks import click_place
+
     remedy = 'give them as JSON, {"3.7": [x, y, z], ...}, or use a window to click them'
+    if not text.strip():
+        raise SceneError("Clicks", f"are missing: {remedy}")
     try:
         table = json.loads(text)
-        return {str(name): np.array(place, dtype=np.float64) for name, place in table.items()}
-    except (ValueError, TypeError, AttributeError) as problem:
-        raise SceneError("Clicks", f"are missing: {remedy}") from problem
+    except ValueError as problem:
+        raise SceneError("Clicks", f"are not JSON ({problem}): {remedy}") from problem
+    if not isinstance(table, dict) or not table:
+        raise SceneError("Clicks", f"contain no points: {remedy}")
+    return {name: click_place(name, place) for name, place in table.items()}

@@ -73,6 +73,7 @@ def seek_points(
     ModelError : no face in it; states the score, the limit and the remedy.
     """
     from ... import api
+    from ...face.fit.clicks import click_place
     from ...face.mesh.sewn import sewn_among
 
     yield Progress(0.0, "Reading the mesh")
@@ -81,7 +82,7 @@ def seek_points(
     stretch = meshes.metres_matrix(obj, scene)
     vertices = meshes.rest_vertices(obj.data) @ stretch.T
     arrays = meshes.polygon_arrays(obj.data)
-    known = {name: stretch @ np.asarray(place, dtype=np.float64) for name, place in (clicks or {}).items()}
+    known = {name: stretch @ click_place(name, place) for name, place in (clicks or {}).items()}
     topologies, unreadable = known_topologies()
     search = search_digest(vertices, arrays, known, topologies)
     said = refusal_of(search)

@@ -51,9 +51,7 @@ def test_what_is_set_by_hand_is_baked(head: Any) -> None:
     keys["joy"].data.foreach_get("co", baked)
     keys[0].data.foreach_get("co", rest)
     wanted = wanted_of(head)
-    posed = api.default_face().pose(
-        wanted.faps, emotion=wanted.profile.weights, contractions=dict(wanted.contractions)
-    )
+    posed = api.default_face().pose(wanted.faps, emotion=wanted.profile.weights, contractions=dict(wanted.contractions))
     moved = (baked - rest).reshape(-1, 3)
     np.testing.assert_allclose(moved, posed.positions - api.default_face().vertices, atol=2e-6)
 

@@ -92,6 +92,27 @@ def test_what_is_no_face_is_refused_with_score_and_remedy_and_nothing_is_kept(cu
         bpy.ops.risorius.click_points()
 
 
+@pytest.mark.parametrize(
+    ("clicks", "said"),
+    [
+        ("", "Clicks: are missing: give them as JSON"),
+        ("3.7", "Clicks: contain no points"),
+        ("[1, 2, 3]", "Clicks: contain no points"),
+        ("{}", "Clicks: contain no points"),
+        ('{"3.7": [0, 0, 0]', "Clicks: are not JSON .*delimiter"),
+        ('{"3.7": [0, 1]}', r"clicks 3\.7 must be three finite coordinates, but it is \[0, 1\]"),
+        ('{"3.7": null}', r"clicks 3\.7 must be three finite coordinates, but it is None"),
+        ('{"3.7": [0, 0, NaN]}', r"clicks 3\.7 must be three finite coordinates"),
+        ('{"99.9": [0, 0, 0]}', r"99\.9 is not a feature point"),
+    ],
+)
+def test_clicks_of_a_script_that_cannot_be_read_are_refused(cube: Any, clicks: str, said: str) -> None:
+    with pytest.raises(RuntimeError, match=said) as refused:
+        bpy.ops.risorius.click_points(clicks=clicks)
+    assert "Traceback" not in str(refused.value)
+    assert not points_kept.has_points(cube)
+
+
 @pytest.mark.slow
 def test_half_a_face_with_a_mirror_modifier_says_so() -> None:
     bpy.ops.mesh.primitive_plane_add()

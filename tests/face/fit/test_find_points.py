@@ -136,6 +136,11 @@ def test_clicks_that_make_no_sense(head: HeadMesh) -> None:
         api.find_points(head.vertices, head.polygons, {"9.99": (0.0, 0.0, 0.0)})
     with pytest.raises(ParameterError, match="is not on the skin"):
         api.find_points(head.vertices, head.polygons, {"6.1": (0.0, 0.0, 0.0)})
+    with pytest.raises(ParameterError, match=r"three finite coordinates, but it is \[0\.0, 1\.0\]"):
+        api.find_points(head.vertices, head.polygons, {"3.7": np.array([0.0, 1.0])})
+    for off in (0.5, 1e200):
+        with pytest.raises(ModelError, match=r"clicked point 3\.7 is off the mesh"):
+            api.find_points(head.vertices, head.polygons, {"3.7": (off, 0.0, 0.0)})
     with pytest.raises(ParameterError, match="three finite"):
         api.find_points(head.vertices, head.polygons, {"3.7": (0.0, np.nan, 0.0)})
 

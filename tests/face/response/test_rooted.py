@@ -17,9 +17,7 @@ MM = 1e-3
 def sheet(rows: int, columns: int, origin: tuple[float, float, float], up: tuple[float, float, float]) -> np.ndarray:
     """(rows * columns, 3) grid of 1 mm from an origin along +X and `up`, in metres."""
     across, along = np.meshgrid(np.arange(columns), np.arange(rows))
-    return (
-        np.array(origin) + across.reshape(-1, 1) * [1.0, 0.0, 0.0] + along.reshape(-1, 1) * np.asarray(up)
-    ) * MM
+    return (np.array(origin) + across.reshape(-1, 1) * [1.0, 0.0, 0.0] + along.reshape(-1, 1) * np.asarray(up)) * MM
 
 
 def quads(rows: int, columns: int, first: int) -> list[np.ndarray]:
