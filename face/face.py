@@ -254,6 +254,13 @@ class Face:
         ----------
         asked : (T, 68) FAP units; NaN = silent.
         positions : (V, 3) of each step, of as many steps as there are.
+
+        Examples
+        --------
+        >>> face, asked = api.default_face(), np.full((1, 68), np.nan)
+        >>> asked[:, 31 - 1] = 100.0  # raise_l_i_eyebrow
+        >>> face.unmet(asked, [face.vertices])  # nothing has moved
+        {31: 'check feature point 4.1'}
         """
         return unmet(self.anatomy, checked_stream(asked), np.stack([self.measure(step) for step in positions]))
 

@@ -69,7 +69,13 @@ def _lacking(anatomy: Anatomy, number: int, *, is_read: bool) -> str:
 
 
 def unmet_lines(missed: Mapping[int, str]) -> tuple[str, ...]:
-    """What is asked and does not show, in words for people, a line for each reason."""
+    """What is asked and does not show, in words for people, a line for each reason.
+
+    Examples
+    --------
+    >>> api.unmet_lines({31: "check feature point 4.1"})
+    ('F31 raise_l_i_eyebrow requested, but nothing shows: check feature point 4.1',)
+    """
     named: dict[str, list[str]] = {}
     for number, why in missed.items():
         named.setdefault(why, []).append(f"F{number} {FAPS[number].name}")
