@@ -12,6 +12,7 @@ animation_tables    tables
 capture        import, export
 track          track
 options        what several verbs share
+faps           FAPs for people and as JSON
 result         what a verb has to say, for people and as JSON
 progress       how far it is, on standard error
 """

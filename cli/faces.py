@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,6 +14,7 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ModelError
 from ..files import write_whole
+from .faps import fap_lines, named_faps
 from .options import Verbs, add_face, face_of, verb, vertices_of
 from .result import Result, UsageError
 
@@ -54,8 +54,8 @@ def _measure(arguments: argparse.Namespace) -> Result:
         api.write_fap(arguments.out, stream)
     lines = []
     for path, faps in measured.items():
-        lines += [path, *_fap_lines(faps), *_feature_lines(features[path])]
-    return Result({path: {**_named(faps), **features[path]} for path, faps in measured.items()}, lines)
+        lines += [path, *fap_lines(faps), *_feature_lines(features[path])]
+    return Result({path: {**named_faps(faps), **features[path]} for path, faps in measured.items()}, lines)
 
 
 def _features(face: Face, vertices: Floats) -> dict[str, float]:
@@ -108,18 +108,3 @@ def _found_points(arguments: argparse.Namespace) -> Result:
     return Result(
         {"points": positions, "confidence": found.confidence, "score": found.score, "topology": found.topology}, lines
     )
-
-
-def _fap_lines(faps: Floats) -> list[str]:
-    """The FAPs that have a value, a line each."""
-    from .. import api
-
-    named = ((api.fap(index + 1), value) for index, value in enumerate(faps) if not math.isnan(value))
-    return [f"F{fap.number:<3} {fap.name:<24} {value:8.1f}  {fap.unit}" for fap, value in named]
-
-
-def _named(faps: Floats) -> dict[str, float]:
-    """FAP name -> value, without the FAPs that have none."""
-    from .. import api
-
-    return {api.fap(index + 1).name: float(value) for index, value in enumerate(faps) if not math.isnan(value)}

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import RisoriusError
+from .faps import range_lines, ranges_of
 from .films import NEEDS_BLENDER, lines_of, silent_blender
 from .options import (
     Verbs,
@@ -179,21 +179,17 @@ def _write(path: Path, stream: FapStream, arguments: argparse.Namespace) -> None
 
 def _described(stream: FapStream, recording: Recording | None = None, *, out: Path | None = None) -> Result:
     """What a stream holds, for people and as JSON."""
-    from .. import api
-
-    columns = {number: stream.frames[:, number - 1] for number in api.FAPS}
-    stated = {number: [value for value in column if not math.isnan(value)] for number, column in columns.items()}
-    used = [number for number, values in stated.items() if values]
+    ranges = ranges_of(stream)
     seconds = len(stream.frames) / stream.fps
     data: dict[str, object] = {
         "name": stream.name,
         "fps": stream.fps,
         "frames": len(stream.frames),
         "seconds": seconds,
-        "faps": used,
+        "faps": list(ranges),
         "visemes": len(stream.visemes),
         "expressions": len(stream.expressions),
-        "ranges": {number: [min(stated[number]), max(stated[number])] for number in used},
+        "ranges": ranges,
         "format": None if recording is None else str(recording.format),
         "assumed": [] if recording is None else list(recording.assumed),
         "damage": [] if recording is None else [str(problem) for problem in recording.damage],
@@ -205,14 +201,10 @@ def _described(stream: FapStream, recording: Recording | None = None, *, out: Pa
         rate = size * 8 / 1000.0 / seconds
         data |= {"bytes": size, "kilobits_per_second": rate}
         wrote = [f"wrote {out}: {rate:.1f} kilobits per second"]
-    title = f"{stream.name}: {len(stream.frames)} frames at {stream.fps:g} per second, {len(used)} FAPs"
+    title = f"{stream.name}: {len(stream.frames)} frames at {stream.fps:g} per second, {len(ranges)} FAPs"
     extra = [
         f"{len(fields)} frames with {what}"
         for what, fields in (("visemes", stream.visemes), ("expressions", stream.expressions))
         if fields
     ]
-    peaks = [
-        f"F{number:<3} {api.fap(number).name:<24} {min(stated[number]):8.0f} .. {max(stated[number]):8.0f}"
-        for number in used
-    ]
-    return Result(data, [title, *extra, *peaks, *wrote])
+    return Result(data, [title, *extra, *range_lines(ranges), *wrote])

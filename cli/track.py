@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 import re
 import sys
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import RisoriusError
 from ..tables import write_csv
+from .faps import range_lines, ranges_of
 from .options import Verbs, verb
 from .progress import ShowProgress
 from .result import Result, UsageError
@@ -93,13 +93,9 @@ def _write_confidence(path: Path, found: Track) -> None:
 
 def _described(found: Track, out: Path) -> Result:
     """What was read, for people and as JSON."""
-    from .. import api
-
     stream = found.stream
-    columns = {number: stream.frames[:, number - 1] for number in api.FAPS}
-    stated = {number: [value for value in column if not math.isnan(value)] for number, column in columns.items()}
-    used = {number: values for number, values in stated.items() if values}
-    sure = {number: float(found.confidence[:, number - 1].mean()) for number in used}
+    ranges = ranges_of(stream)
+    sure = {number: float(found.confidence[:, number - 1].mean()) for number in ranges}
     data = {
         "name": stream.name,
         "fps": stream.fps,
@@ -108,11 +104,11 @@ def _described(found: Track, out: Path) -> Result:
         "neutral": "generic" if found.generic else found.neutral,
         "doubts": found.doubts,
         "delay": found.delay,
-        "ranges": {number: [min(values), max(values)] for number, values in used.items()},
+        "ranges": ranges,
         "confidence": sure,
         "out": out,
     }
-    lines = [f"{stream.name}: {len(stream.frames)} frames at {stream.fps:g} per second, {len(used)} FAPs"]
+    lines = [f"{stream.name}: {len(stream.frames)} frames at {stream.fps:g} per second, {len(ranges)} FAPs"]
     if len(found.lost):
         lines.append(f"{len(found.lost)} frames without a face are masked")
     if found.generic:
@@ -131,8 +127,6 @@ def _described(found: Track, out: Path) -> Result:
     if found.delay:
         lines.append(f"slow motions lag by {1000.0 * found.delay:.0f} ms")
     lines += [
-        f"F{number:<3} {api.fap(number).name:<24} {min(values):8.0f} .. {max(values):8.0f}"
-        f"   confidence {sure[number]:.2f}"
-        for number, values in used.items()
+        f"{line}   confidence {sure[number]:.2f}" for number, line in zip(ranges, range_lines(ranges), strict=True)
     ]
     return Result(data, [*lines, f"wrote {out}"])
