@@ -13,10 +13,11 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
+from .face.bodies.eyeball import EyeballPlace
 from .face.contractible import Contractible, contractibles
 from .face.default_head import HeadMesh, build_default_head
 from .face.drive.request import Drive, EmotionShares
-from .face.face import Clip, EyeballPlace, Face
+from .face.face import Face
 from .face.fit.find import FoundPoints, find_points, find_points_steps
 from .face.fit.topologies import (
     Topology,
@@ -39,6 +40,7 @@ from .face.products.animation_table_files import read_animation_tables, write_an
 from .face.products.animation_tables import AnimationTable, AnimationTables, TableError
 from .face.products.blendshapes import arkit_shapes
 from .face.products.creases import Creases
+from .face.simulate import Clip
 from .face.tracked.formats import READABLE as READABLE_STREAMS
 from .face.tracked.formats import WRITABLE as WRITABLE_STREAMS
 from .face.tracked.formats import StreamFormat

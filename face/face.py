@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +14,7 @@ from ..physics import mesh
 from ..physics.tissue import Tissue
 from ..progress import Progress, Work
 from .anatomy import Anatomy
+from .bodies.eyeball import EyeballPlace
 from .drive.over_time import cue_plans, stream_plans
 from .drive.request import Drive, EmotionShares, Request, silent_faps
 from .measure import features, measure
@@ -37,33 +37,8 @@ from .muscles.placement import PlacedMuscle
 from .pose import Pose, Poser, Sketcher
 from .requests import checked_drive, checked_emotions, checked_request, checked_stream
 from .response.relaxation import Memory
-from .simulate import Simulation
+from .simulate import Clip, Simulation
 from .unmet import unmet
-
-
-@dataclass(frozen=True, eq=False)
-class Clip:
-    """A simulated clip: positions (T, V, 3) in the face's coordinates, frames per second."""
-
-    positions: Floats
-    fps: float
-
-
-@dataclass(frozen=True, eq=False)
-class EyeballPlace:
-    """An eyeball at rest, in the face's coordinates.
-
-    Attributes
-    ----------
-    vertices : (k,) its vertices of the mesh. centre : (3,) about which it turns. gaze : (3,) where it looks, length 1.
-    iris, pupil : angles from the gaze to their edges, rad.
-    """
-
-    vertices: Ints
-    centre: Floats
-    gaze: Floats
-    iris: float
-    pupil: float
 
 
 class Face:

@@ -6,6 +6,7 @@ Folds belong to the shape that the skin has, not to the one that is asked for.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,6 +16,14 @@ from ..physics.tissue import Tissue
 from .drive.plan import Plan
 from .motion import FaceMotion, MovingFace, Setpoint
 from .pose import Poser
+
+
+@dataclass(frozen=True, eq=False)
+class Clip:
+    """A simulated clip: positions (T, V, 3) in the face's coordinates, frames per second."""
+
+    positions: Floats
+    fps: float
 
 
 class Simulation:

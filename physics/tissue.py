@@ -35,7 +35,7 @@ class Tissue:
     density : kg/m^3, of that tissue.
     stiffening : k_h / k_l, >= 1.
     threshold : strain at which springs stiffen, > 0.
-    bending_length : m, >= 0; 0 leaves a bare membrane, the paper's skin.
+    bending_length : m, >= 0; 0 leaves a bare membrane, the paper's skin. A face in motion needs 0.003 or more.
     anchor_length : m, > 0.
     damping_ratio : relative to critical damping on the bed, >= 0.
     loose_depth : m, of the soft tissue that moves where it hangs loose: cheek and jowl.

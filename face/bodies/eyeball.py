@@ -16,6 +16,23 @@ from .direct_faps import value_of
 from .surroundings import Look
 
 
+@dataclass(frozen=True, eq=False)
+class EyeballPlace:
+    """An eyeball at rest, in the face's coordinates.
+
+    Attributes
+    ----------
+    vertices : (k,) its vertices of the mesh. centre : (3,) about which it turns. gaze : (3,) where it looks, length 1.
+    iris, pupil : angles from the gaze to their edges, rad.
+    """
+
+    vertices: Ints
+    centre: Floats
+    gaze: Floats
+    iris: float
+    pupil: float
+
+
 @dataclass(frozen=True)
 class EyeballFigures:
     """Of any eyeball (presets/anatomy/bodies.toml)."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...arrays import Floats
+from ...errors import ParameterError
 from ...physics.skin import Skin
 from ...physics.tissue import Tissue, as_tissue
 from ..figures import Length, Place, read_figures
@@ -24,6 +25,9 @@ class LooseFigures:
 
 
 LOOSE = read_figures("skin.loose", LooseFigures)
+
+#: A sheet that bends more easily than this buckles where muscles squeeze it, and stays so, metres.
+LEAST_BENDING = 3e-3
 
 
 def looseness(skin: OuterSkin) -> Floats:
@@ -47,9 +51,13 @@ def spring_skin(skin: OuterSkin, tissue: str | Tissue = "default") -> Skin:
 
     Raises
     ------
-    ParameterError : an unknown tissue.
+    ParameterError : an unknown tissue, or one that would buckle.
     """
-    figures, loose, anchor = as_tissue(tissue), looseness(skin), regions.anchor(skin)
+    figures, loose = as_tissue(tissue), looseness(skin)
+    if skin.has(Mechanism.BENDING) and figures.bending_length < LEAST_BENDING:
+        rule = f"must be {LEAST_BENDING:g} m or more, or the skin buckles; face.without('bending') leaves bending out"
+        raise ParameterError("bending_length", rule, figures.bending_length)
+    anchor = regions.anchor(skin, figures)
     depth = figures.depth + (figures.loose_depth - figures.depth) * loose
     ratio = figures.damping_ratio + (figures.loose_damping_ratio - figures.damping_ratio) * loose
     return Skin.from_mesh(
@@ -57,7 +65,7 @@ def spring_skin(skin: OuterSkin, tissue: str | Tissue = "default") -> Skin:
         skin.polygons,
         figures if skin.has(Mechanism.BIPHASIC) else replace(figures, stiffening=1.0),
         anchor=anchor,
-        bending=regions.bending(skin),
+        bending=regions.bending(skin, figures),
         depth=depth,
         damping=2.0 * ratio * np.sqrt(figures.membrane * anchor / (figures.density * depth)),
     )

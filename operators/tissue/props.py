@@ -126,8 +126,8 @@ class RISORIUS_PG_tissue(PropertyGroup):
         _figure(
             "bending_length",
             "Bending Length (m)",
-            "Length below which the skin smooths a pull, in metres",
-            least=0.0,
+            "Length below which the moving skin smooths a pull, in metres. Thinner skin would buckle",
+            least=0.003,
             most=0.05,
             precision=4,
         ),
@@ -137,7 +137,7 @@ class RISORIUS_PG_tissue(PropertyGroup):
         _figure(
             "anchor_length",
             "Anchor Length (m)",
-            "Length over which a pull fades along the skin, in metres",
+            "Length over which a pull fades along the moving skin, in metres. Longer is more loosely held",
             least=1e-3,
             most=0.05,
             precision=4,

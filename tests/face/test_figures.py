@@ -63,6 +63,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "response/followers.py": (1e-4, 4.0),  # a tie that keeps a matrix regular; a kernel's norm
     "response/relaxation.py": (5e-5,),  # how near a sketch comes
     "response/rooted.py": (0.02, 1e-3),  # ties that keep matrices regular
+    "response/spring_skin.py": (3e-3,),  # when a sheet buckles
     "skin/fine.py": (6.0, 3.5),  # how finely skin is split
     "skin/outer.py": (3.0,),  # the smooth step
 }

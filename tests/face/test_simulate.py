@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import fields, replace
+from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
 import risorius.api as api
 from risorius.api import Face
+from risorius.errors import ParameterError
 from risorius.face.drive.over_time import stream_plans
 from risorius.face.drive.request import Drive
 from risorius.face.pose import Poser
 from risorius.face.simulate import Simulation
+from risorius.physics.tissue import Tissue, tissue
 
 JOY = api.archetype("joy", 1)
 
@@ -164,6 +168,43 @@ def test_softer_tissue_lags_more_than_stiff_tissue(small: Face) -> None:
     goal = small.pose(JOY.frame()).positions
     away = {t: np.abs(small.simulate(frames, tissue=t).positions[1] - goal).max() for t in ("stiff", "default")}
     assert away["stiff"] < away["default"]
+
+
+@pytest.fixture(scope="module")
+def surprised(face: Face) -> Callable[[Tissue], np.ndarray]:
+    """(11, V, 3) a sudden surprise of a tissue, at 25 frames a second."""
+    frames = np.nan_to_num(api.archetype("surprise").frame()) * np.array([0.0, *[1.0] * 10])[:, None]
+    return cache(lambda tissue: face.simulate(frames, fps=25.0, substeps=1, tissue=tissue).positions)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("figure", [field.name for field in fields(Tissue) if field.name != "description"])
+def test_every_figure_of_a_tissue_shapes_the_motion_and_none_what_is_held(
+    figure: str, surprised: Callable[[Tissue], np.ndarray]
+) -> None:
+    """Half as much again of it moves the skin otherwise on the way, by 0.02 mm or more, and not once it is there."""
+    usual = surprised(tissue())
+    other = surprised(replace(tissue(), **{figure: 1.5 * getattr(tissue(), figure)}))
+    apart = np.linalg.norm(other - usual, axis=2).max(axis=1)
+    assert apart[:6].max() > 0.02e-3
+    assert apart[-1] < 0.01 * np.linalg.norm(usual[-1] - usual[0], axis=1).max()
+
+
+@pytest.mark.slow
+def test_the_thinnest_and_loosest_skin_that_is_allowed_still_comes_to_its_pose(
+    surprised: Callable[[Tissue], np.ndarray],
+) -> None:
+    usual = surprised(tissue())[-1]
+    limp = surprised(replace(tissue(), bending_length=3e-3, anchor_length=50e-3))[-1]
+    way = np.linalg.norm(usual - surprised(tissue())[0], axis=1).max()
+    assert np.linalg.norm(limp - usual, axis=1).max() < 0.01 * way
+
+
+def test_skin_that_would_buckle_is_refused(small: Face) -> None:
+    thin = replace(tissue(), bending_length=2.9e-3)
+    with pytest.raises(ParameterError, match=r"bending_length.*0\.003 m or more.*without\('bending'\)"):
+        small.simulate(clip_of([0.0, 1.0]), tissue=thin)
+    assert small.without("bending").simulate(clip_of([0.0, 0.1]), tissue=thin).fps == 25.0
 
 
 @pytest.mark.slow
