@@ -9,7 +9,6 @@ import bpy
 
 from ...errors import SceneError
 from ...progress import Work
-from ...scene.blender_types import Image
 from ...scene.live import belief_curves
 from ...scene.live.reading import read_animation
 from ...scene.pictures import belief_plot
@@ -26,9 +25,13 @@ if TYPE_CHECKING:
     from ...api import BeliefTrack
 
 
-def plot_name(obj: Object) -> str:
-    """What the image of a face's plot is called."""
-    return f"{obj.name} Beliefs"
+def unwritable_reason(obj: Object) -> str | None:
+    """Why the custom properties of an object cannot be animated, or None."""
+    try:
+        belief_curves.refuse_unwritable_curves(obj)
+    except SceneError as refusal:
+        return str(refusal)
+    return None
 
 
 class RISORIUS_OT_read_animation(WorkOperator["BeliefTrack"], Operator):
@@ -43,13 +46,7 @@ are written as F-curves of custom properties, and as a plot"""
     @classmethod
     def refusal(cls, context: Context) -> str | None:
         """Only on a face with points, whose properties can be animated."""
-        reason = reading_reason(context.object)
-        if reason is None:
-            try:
-                belief_curves.refuse_unwritable_curves(active_object(context))
-            except SceneError as refusal:
-                return str(refusal)
-        return reason
+        return reading_reason(context.object) or unwritable_reason(active_object(context))
 
     def work(self, context: Context) -> Work[BeliefTrack]:
         """Refuse files that cannot be written, then read."""
@@ -71,9 +68,9 @@ are written as F-curves of custom properties, and as a plot"""
         if "plot" in files:
             write_picture(picture, files["plot"])
         belief_curves.write_curves(obj, result)
-        belief_plot.keep_plot(plot_name(obj), picture)
+        image = belief_plot.keep_plot(obj, picture)
         wrote = "".join(f", {path.name}" for path in files.values())
-        return f"Read {len(result.frames)} frames of {obj.name}: F-curves, the image {plot_name(obj)}{wrote}"
+        return f"Read {len(result.frames)} frames of {obj.name}: F-curves, the image {image.name}{wrote}"
 
 
 def files_of(scene: Scene) -> dict[str, Path]:
@@ -106,13 +103,14 @@ class RISORIUS_OT_show_beliefs(RisoriusOperator, Operator):
     @classmethod
     def refusal(cls, context: Context) -> str | None:
         """Only where there is one."""
-        if context.object is None or plot_name(context.object) not in bpy.data.images:
+        if context.object is None or belief_plot.plot_of(context.object) is None:
             return "The animation has not been read yet"
         return "Needs a window" if context.window is None else None
 
     def run(self, context: Context) -> str:
         """A new window with an image editor."""
-        image: Image = bpy.data.images[plot_name(active_object(context))]
+        image = belief_plot.plot_of(active_object(context))
+        assert image is not None
         bpy.ops.wm.window_new()
         area = context.window_manager.windows[-1].screen.areas[0]
         area.ui_type = "IMAGE_EDITOR"
@@ -133,13 +131,11 @@ class RISORIUS_OT_clear_reading(RisoriusOperator, Operator):
         """Only where there is something to clear."""
         if context.object is None or not belief_curves.has_curves(context.object):
             return "The animation has not been read yet"
-        return None
+        return unwritable_reason(context.object)
 
     def run(self, context: Context) -> str:
         """Remove it."""
         obj = active_object(context)
         belief_curves.remove_curves(obj)
-        image: Image | None = bpy.data.images.get(plot_name(obj))
-        if image is not None:
-            bpy.data.images.remove(image)
+        belief_plot.remove_plot(obj)
         return f"Cleared the beliefs of {obj.name}"

@@ -12,13 +12,15 @@ import numpy as np
 
 from ...arrays import Floats
 from ..attributes import write_pixels
-from ..blender_types import Image
+from ..blender_types import Image, Items, Object
 from ..live.reading import RESTING
 from .lettering import Text, write_text
 
 if TYPE_CHECKING:
     from ...api import BeliefTrack
 
+#: The object's custom property that holds its plot.
+PLOT = "risorius_plot"
 #: Pixels: the picture, the field of the curves within it (left, top, right, bottom), the band below.
 WIDTH, HEIGHT = 1280, 640
 LEFT, TOP, RIGHT, BOTTOM = 80, 84, 1090, 520
@@ -124,10 +126,13 @@ def _texts(track: BeliefTrack, title: str, top: float) -> list[Text]:
     return texts
 
 
-def keep_plot(name: str, pixels: Floats) -> Image:
-    """Keep a plot (h, w, 3) in the file as an image of this name, in place of the one that was there."""
+def keep_plot(obj: Object, pixels: Floats) -> Image:
+    """Keep a plot (h, w, 3) in the file as the image of `obj`, in place of the one that it had."""
     height, width, _ = pixels.shape
-    image: Image = bpy.data.images.get(name) or bpy.data.images.new(name, width, height, alpha=False)
+    image: Image | None = plot_of(obj)
+    if image is None or _is_shared(image):
+        image = bpy.data.images.new(f"{obj.name} Beliefs", width, height, alpha=False)
+        obj[PLOT] = image
     if tuple(image.size) != (width, height):
         image.scale(width, height)
     write_pixels(image, pixels)
@@ -135,3 +140,27 @@ def keep_plot(name: str, pixels: Floats) -> Image:
     image.pack()
     image.use_fake_user = True
     return image
+
+
+def plot_of(obj: Object) -> Image | None:
+    """The image that `keep_plot` has kept for `obj`, whatever it is called now. Copies of an object share it."""
+    image = obj.get(PLOT)
+    if not isinstance(image, bpy.types.Image):
+        return None
+    plot: Image = image
+    return plot
+
+
+def remove_plot(obj: Object) -> None:
+    """Remove the image of `obj`, unless another object has it, too."""
+    image = plot_of(obj)
+    if image is not None and not _is_shared(image):
+        bpy.data.images.remove(image)
+    if PLOT in obj:
+        del obj[PLOT]
+
+
+def _is_shared(image: Image) -> bool:
+    """Whether more than one object has it."""
+    objects: Items[Object] = bpy.data.objects
+    return sum(obj.get(PLOT) == image for obj in objects) > 1

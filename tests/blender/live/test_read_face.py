@@ -18,6 +18,7 @@ from risorius.scene.faces import face_of, read_face
 from risorius.scene.live import belief_curves
 from risorius.scene.live.reading import FaceReader, read_animation
 from risorius.scene.mesh import rest_vertices
+from risorius.scene.pictures import belief_plot
 
 HEAD_FAPS = slice(47, 50)
 
@@ -283,6 +284,26 @@ def test_the_animation_becomes_curves_a_plot_and_files(smiling: Any, tmp_path: P
     assert smiling.animation_data.action == mine
     assert smiling.location.x == 0.5
     assert not bpy.ops.risorius.clear_reading.poll()
+
+
+def test_a_plot_is_its_object_s_own_whatever_either_is_called(smiling: Any) -> None:
+    own = bpy.data.images.new(f"{smiling.name} Beliefs", 8, 8)
+    smiling.name = "A head whose name is about as long as Blender lets a name be..."
+    black = np.zeros((12, 16, 3))
+    image = belief_plot.keep_plot(smiling, black)
+    assert image not in (None, own)
+    assert belief_plot.keep_plot(smiling, black) == image
+    image.name = smiling.name = "Renamed"
+    assert belief_plot.plot_of(smiling) == image
+    copy = smiling.copy()
+    bpy.context.collection.objects.link(copy)
+    assert belief_plot.plot_of(copy) == image
+    other = belief_plot.keep_plot(copy, black)
+    assert other != image
+    assert belief_plot.plot_of(smiling) == image
+    belief_plot.remove_plot(smiling)
+    assert belief_plot.plot_of(smiling) is None
+    assert set(bpy.data.images) == {own, other}
 
 
 @pytest.mark.parametrize("bare", [True, False])
