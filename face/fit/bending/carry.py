@@ -18,7 +18,7 @@ from ..doubt import DOUBTFUL_SCORE
 from ..surface.margins import Margin
 from ..template.template import FitTemplate
 from .fitted import Fit, ring_shares
-from .proportions import read_proportions
+from .proportions import read_brow_places, read_proportions
 from .target import RIM, Target, feature
 
 #: How much a disagreement of the normals counts when a point is dropped on the surface, metres per turn.
@@ -97,17 +97,26 @@ class _Drop:
 def _by_proportions(template: FitTemplate, fit: Fit, places: Mapping[str, Floats], drop: _Drop) -> dict[str, Floats]:
     """Points on smooth skin, drawn to where the face's proportions tell, as seen in the picture."""
     known, moved = dict(places), {}
-    for proportion in read_proportions():
+    brows = read_brow_places()
+    for proportion in (*read_proportions(), *brows):
         picture = list(proportion.view.value)
         for left in (True, False):
             name, origin = (k if left else template.twins.get(k, k) for k in (proportion.point, proportion.origin))
-            if origin in RIM_POINTS and RIM_POINTS[origin][0] not in fit.margins:
+            if name in RIM_POINTS:
+                if _has_rim(name, fit):  # which tells more
+                    continue
+            elif origin in RIM_POINTS and not _has_rim(origin, fit) and proportion not in brows:
                 continue
             aim = proportion.place(known, template.twins, left=left)
             place = drop.nearest(name, aim)
             place[picture] = aim[picture]
             known[name] = moved[name] = drop.nearest(name, place)
     return moved
+
+
+def _has_rim(name: str, fit: Fit) -> bool:
+    """Whether the rim of the opening that a point lies on was found."""
+    return RIM_POINTS[name][0] in fit.margins
 
 
 def _on_rims(template: FitTemplate, fit: Fit) -> dict[str, Floats]:

@@ -13,7 +13,9 @@ from ....arrays import Floats
 from ....resources import PRESETS
 from ....tables import read_csv
 
-FILE = PRESETS / "anatomy" / "point_proportions.csv"
+FILE, BROWS_FILE = (PRESETS / "anatomy" / f"{name}.csv" for name in ("point_proportions", "brow_places"))
+#: What brows are told from: the eye's inner corner, and the width of both eyes.
+BROW_ORIGIN, BROW_UNIT = "3.11", ("3.12", "3.7")
 
 
 class View(Enum):
@@ -86,4 +88,20 @@ def read_proportions() -> tuple[Proportion, ...]:
             share=row.number("share", least=0.0, most=1.0),
         )
         for row in read_csv(FILE)
+    )
+
+
+@lru_cache(maxsize=1)
+def read_brow_places() -> tuple[Proportion, ...]:
+    """Where most people have their brows; the default head's are drawn higher.
+
+    Raises
+    ------
+    FormatError : a row that is none.
+    """
+    return tuple(
+        Proportion(
+            row.text("point"), View.FRONT, BROW_ORIGIN, *BROW_UNIT, row.number("aside"), row.number("up"), share=1.0
+        )
+        for row in read_csv(BROWS_FILE)
     )

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from risorius.errors import FormatError
 from risorius.face.fit.bending import proportions
-from risorius.face.fit.bending.proportions import Proportion, View, read_proportions
+from risorius.face.fit.bending.proportions import Proportion, View, read_brow_places, read_proportions
 from risorius.face.fit.template.template import FitTemplate, fit_template
 
 TWINS = {"3.7": "3.12", "3.12": "3.7", "5.3": "5.4", "5.4": "5.3"}
@@ -64,6 +64,18 @@ def test_every_row_of_the_table_tells_about_the_place_of_the_default_heads_point
             name = row.point if left else template.twins[row.point]
             told = Proportion(**vars(row) | {"share": 1.0}).place(places, template.twins, left=left)
             assert np.linalg.norm((told - places[name])[picture]) < 4e-3, name
+
+
+def test_brows_lie_where_scans_have_them(template: FitTemplate) -> None:
+    places = dict(zip(template.names, template.read(template.skin.vertices), strict=True))
+    width = np.linalg.norm(places["3.7"] - places["3.12"])
+    told = {row.point: row.place(places, template.twins, left=True) for row in read_brow_places()}
+    assert list(told) == ["4.1", "4.3", "4.5"]
+    heights = {name: 88.0 * (place[2] - places["3.11"][2]) / width for name, place in told.items()}
+    assert 15.0 < heights["4.1"] < 19.0
+    assert heights["4.1"] < heights["4.3"] < 24.0
+    assert told["4.1"][0] < places["3.11"][0] < told["4.3"][0] < places["3.7"][0] < told["4.5"][0]
+    assert heights["4.1"] < 88.0 * (places["4.1"][2] - places["3.11"][2]) / width - 5.0  # the default head's own
 
 
 @pytest.mark.parametrize(
