@@ -15,7 +15,8 @@ blender_classes            Blender's classes that ours derive from, as mypy is t
 
 Features, in the order of the sidebar:
 
-face, parts, points        which face, what belongs to it, where its feature points are
+face, followers, parts,    which face, what belongs to it, where its feature points are
+  points
 emotion, wheel, preview    which emotion, pointed at, shown at once
 muscles, tissue, show      muscles by hand, what skin is made of, what happens under it
 timeline, library          expressions in time; kept as files

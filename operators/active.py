@@ -5,13 +5,12 @@ from __future__ import annotations
 import bpy
 
 from ..errors import SceneError
-from ..face.mesh.parts import Part, Told
 from ..scene import refusals
 from ..scene.bake.target import Target
 from ..scene.blender_types import Items
-from ..scene.companions import Companion
 from ..scene.points.kept import has_points
-from .blender_types import Context, Object
+from .blender_types import Context, Object, Scene
+from .followers.rows import companions_of, left_behind, unlisted
 
 
 def active_object(context: Context) -> Object:
@@ -33,35 +32,14 @@ def all_objects() -> Items[Object]:
     return objects
 
 
-#: What an object holds that is named as both of two parts.
-_BOTH = {
-    frozenset((Part.EYEBALL_L, Part.EYEBALL_R)): Told.EYES,
-    frozenset((Part.TEETH_UPPER, Part.TEETH_LOWER)): Told.TEETH,
-}
-
-
-def companions_of(obj: Object) -> tuple[Companion, ...]:
-    """Objects that the user has named as eyes, teeth and tongue of `obj`; one that is named twice holds both."""
-    named = obj.risorius.face
-    found: dict[Object, list[Part]] = {}
-    for part, other in (
-        (Part.EYEBALL_L, named.eyeball_l),
-        (Part.EYEBALL_R, named.eyeball_r),
-        (Part.TEETH_UPPER, named.teeth_upper),
-        (Part.TEETH_LOWER, named.teeth_lower),
-        (Part.TONGUE, named.tongue),
-    ):
-        if other is not None:
-            found.setdefault(other, []).append(part)
-    return tuple(
-        Companion(other, parts[0] if len(parts) == 1 else _BOTH.get(frozenset(parts), Told.ANYTHING))
-        for other, parts in found.items()
-    )
-
-
-def target_of(obj: Object) -> Target:
-    """Where the operators bake."""
-    return Target(obj, companions_of(obj), make_single_user=obj.risorius.face.make_single_user)
+def target_of(obj: Object, scene: Scene | None = None) -> Target:
+    """Where the operators bake. With a scene, what stays behind in it is named, too."""
+    behind = left_behind(obj)
+    if scene is not None:
+        behind += tuple(
+            f"{name} (is not in the list Follows the Face: press Refresh there)" for name in unlisted(obj, scene)
+        )
+    return Target(obj, companions_of(obj), make_single_user=obj.risorius.face.make_single_user, left_behind=behind)
 
 
 def face_reason(obj: Object | None) -> str | None:

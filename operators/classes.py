@@ -15,12 +15,15 @@ from .emotion.ops import RISORIUS_OT_reset_activation
 from .emotion.panel import RISORIUS_PT_emotion
 from .emotion.props import RISORIUS_PG_emotion
 from .face.ops import RISORIUS_OT_add_head, RISORIUS_OT_forget_points, RISORIUS_OT_import_points
-from .face.panel import RISORIUS_PT_face, RISORIUS_PT_main
+from .face.panel import RISORIUS_PT_main
 from .face.props import RISORIUS_PG_face
 from .face.six import RISORIUS_OT_bake_six
 from .film.ops import RISORIUS_OT_export_gltf, RISORIUS_OT_render_film
 from .film.panel import RISORIUS_PT_film
 from .film.props import RISORIUS_PG_film
+from .followers.ops import RISORIUS_OT_add_followers, RISORIUS_OT_find_followers, RISORIUS_OT_remove_follower
+from .followers.panel import RISORIUS_PT_followers, RISORIUS_UL_followers
+from .followers.props import RISORIUS_PG_follower
 from .library.ops import RISORIUS_OT_import_fap, RISORIUS_OT_load_preset, RISORIUS_OT_save_preset
 from .library.panel import RISORIUS_FH_fap, RISORIUS_FH_preset, RISORIUS_MT_library
 from .muscles.ops import RISORIUS_OT_reset_muscles
@@ -78,6 +81,7 @@ from .wheel.props import RISORIUS_PG_wheel
 
 #: Groups of properties.
 PROPERTIES = (
+    RISORIUS_PG_follower,
     RISORIUS_PG_face,
     RISORIUS_PG_emotion,
     RISORIUS_PG_by_hand,
@@ -123,6 +127,9 @@ OPERATORS = (
     RISORIUS_OT_take_over_points,
     RISORIUS_OT_save_topology,
     RISORIUS_OT_remove_topology,
+    RISORIUS_OT_find_followers,
+    RISORIUS_OT_add_followers,
+    RISORIUS_OT_remove_follower,
     RISORIUS_OT_find_parts,
     RISORIUS_OT_set_part,
     RISORIUS_OT_forget_parts,
@@ -161,7 +168,8 @@ OPERATORS = (
 #: What is seen, in the order of work, which is that of the sidebar.
 PANELS = (
     RISORIUS_PT_main,
-    RISORIUS_PT_face,
+    RISORIUS_UL_followers,
+    RISORIUS_PT_followers,
     RISORIUS_PT_parts,
     RISORIUS_UL_points,
     RISORIUS_PT_points,

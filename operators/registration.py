@@ -15,6 +15,7 @@ import bpy
 from ..scene.faces import forget_faces
 from . import props, translations
 from .classes import CLASSES
+from .followers import loaded as followers_loaded
 from .parts import overlay as parts_overlay
 from .points import drag as points_drag
 from .points import hover as points_hover
@@ -33,6 +34,7 @@ from .wheel import pick as wheel_pick
 ATTACHED = (
     props.attach,
     translations.attach,
+    followers_loaded.attach,
     points_overlay.attach,
     points_drag.attach,
     points_hover.attach,

@@ -74,7 +74,7 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
         }
         _write(piece.obj, moving)
     missed = (f"{name}: {why}" for name, why in posed.unmet.items())
-    return WrittenKeys(tuple(shapes), there, tuple(missed))
+    return WrittenKeys(tuple(shapes), there, (*missed, *target.remarks()))
 
 
 def _taken(source: FaceSource, wanted: Mapping[str, object]) -> tuple[str, ...]:

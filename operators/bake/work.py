@@ -34,7 +34,7 @@ def expression_work(obj: Object, scene: Scene) -> Work[bake.BakeResult]:
     """Pose the face as the Emotion panel says and write its shape."""
     wanted = wanted_of(obj)
     return bake.bake_expression(
-        target_of(obj),
+        target_of(obj, scene),
         wanted.faps,
         clip=clip_name(obj),
         timing=timing_of(obj, scene),
@@ -51,7 +51,7 @@ def motion_work(obj: Object, scene: Scene) -> Work[bake.BakeResult]:
     performance = performance_of(obj, scene)
     markers = [(title, performance.span(number)[0]) for number, title in enumerate(performance.titles)]
     return bake.bake_motion(
-        target_of(obj),
+        target_of(obj, scene),
         motion_of(obj, performance),
         clip=clip_name(obj, motion=True),
         start=performance.first_frame,
@@ -76,4 +76,4 @@ def strips_work(obj: Object, scene: Scene) -> Work[bake.BakeResult]:
         )
         for number, (title, wanted) in enumerate(zip(performance.titles, performance.wanted, strict=True))
     ]
-    return bake_strips(target_of(obj), shapes, drive=obj.risorius.emotion.drive, creases=creases_wanted(obj))
+    return bake_strips(target_of(obj, scene), shapes, drive=obj.risorius.emotion.drive, creases=creases_wanted(obj))

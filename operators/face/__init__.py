@@ -1,7 +1,7 @@
-"""The face: the default head, feature points, parts that are objects of their own.
+"""The face: the default head, feature points, six emotions by one button.
 
 ops      add the default head, import and forget feature points
-panel    the panel's top: which face, and its parts
+panel    the panel's top: which face
 props    what is stored of the face with its object, beside the feature points
 six      one button: six emotions one after another on the timeline
 """

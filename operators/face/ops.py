@@ -17,7 +17,9 @@ from ..annotated import Annotated
 from ..base import RisoriusOperator
 from ..blender_classes import ImportHelper, Operator
 from ..blender_types import Context, Object
+from ..followers.rows import following, list_again
 from ..preview import live
+from ..requirements import has_scipy
 
 
 class RISORIUS_OT_add_head(RisoriusOperator, Operator):
@@ -70,7 +72,9 @@ index"""
         points = read_point_file(self.filepath)
         obj = active_object(context)
         store_points(obj, points)
-        return f"{obj.name} has {len(points)} feature points"
+        if has_scipy():
+            list_again(obj, context.scene)
+        return f"{obj.name} has {len(points)} feature points{following(obj)}"
 
 
 class RISORIUS_OT_forget_points(RisoriusOperator, Operator):

@@ -1,11 +1,9 @@
-"""The panel's top: which face, and its parts."""
+"""The panel's top: which face."""
 
 from __future__ import annotations
 
-from ...scene import refusals
 from ...scene.points.joined import may_be_joined
 from ...scene.points.kept import has_points
-from ..active import active_object
 from ..blender_classes import Panel
 from ..blender_types import Context, Object, UILayout
 from ..points.click import RISORIUS_OT_click_points
@@ -14,7 +12,7 @@ from ..points.ops import RISORIUS_OT_find_points
 from ..points.panel import kept_of
 from ..points.question import draw_question
 from ..requirements import MISSING, REMEDY, has_scipy
-from ..sidebar import MeshSidebar, Sidebar
+from ..sidebar import Sidebar
 from .ops import RISORIUS_OT_add_head, RISORIUS_OT_import_points
 from .six import RISORIUS_OT_bake_six
 
@@ -77,23 +75,3 @@ def _large(layout: UILayout) -> UILayout:
     column = layout.column(align=True)
     column.scale_y = 1.3
     return column
-
-
-class RISORIUS_PT_face(MeshSidebar, Panel):
-    """Parts of the active face that are objects of their own."""
-
-    bl_label = "Face"
-    bl_parent_id = "RISORIUS_PT_main"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: Context) -> None:
-        """Which objects they are."""
-        layout = self.layout
-        layout.use_property_split, layout.use_property_decorate = True, False
-        obj, face = active_object(context), active_object(context).risorius.face
-        column = layout.column(align=True)
-        column.label(text="Parts in separate objects")
-        for name in ("eyeball_l", "eyeball_r", "teeth_upper", "teeth_lower", "tongue"):
-            column.prop(face, name)
-        if obj.data.users > 1 or refusals.reason(obj) is not None:
-            layout.prop(face, "make_single_user")

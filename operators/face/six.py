@@ -39,7 +39,7 @@ timeline. If the mesh has no feature points yet, find the face first"""
 
     def baking(self, context: Context) -> Work[list[bake.BakeResult]]:
         """One after another; closed early, those that are done and were not there before are taken away again."""
-        obj, target = active_object(context), target_of(active_object(context))
+        obj, target = active_object(context), target_of(active_object(context), context.scene)
         cues, before = performance.cues_of(performance.ARCHETYPES), set(shape_keys.read_own(obj.data).clips)
         fps, creases = bake.scene_fps(context.scene), creases_wanted(obj)
         try:

@@ -18,6 +18,7 @@ from ..bake.work import motion_work
 from ..base import RisoriusOperator, WorkOperator
 from ..blender_classes import Operator
 from ..blender_types import Context, Object
+from ..followers.rows import staying
 from ..points.first import with_points
 from ..points.show import show_finding
 from .props import RISORIUS_PG_film
@@ -89,17 +90,19 @@ class RISORIUS_OT_export_gltf(RisoriusOperator, Operator):
         """Export."""
         chosen = context.scene.risorius.film
         path = absolute(chosen.model, ".glb", keep=(".glb", ".gltf"))
-        objects = target_of(active_object(context)).objects()
-        exported = gltf.export_gltf(objects, path, morph_normals=chosen.morph_normals)
+        target = target_of(active_object(context), context.scene)
+        exported = gltf.export_gltf(target.objects(), path, morph_normals=chosen.morph_normals)
+        for remark in target.remarks():
+            self.report({"WARNING"}, remark)
         return f"Exported {', '.join(exported.clips)} to {exported.path}"
 
 
 def rendering(context: Context) -> Work[film.FilmResult]:
     """Render and encode as it is chosen."""
-    chosen = context.scene.risorius.film
+    obj, chosen = active_object(context), context.scene.risorius.film
     path, (start, end) = film_path(chosen), frame_range(context)
     return film.render_film(
-        target_of(active_object(context)).objects(),
+        [*target_of(obj).objects(), *staying(obj)],
         path if chosen.output != "PNG" else None,
         start=start,
         end=end,

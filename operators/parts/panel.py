@@ -14,7 +14,7 @@ class RISORIUS_PT_parts(MeshSidebar, Panel):
     """Which vertices are skin, eyes, teeth, tongue."""
 
     bl_label = "Mesh Parts"
-    bl_parent_id = "RISORIUS_PT_face"
+    bl_parent_id = "RISORIUS_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:

@@ -11,6 +11,7 @@ from ...progress import Work, part_of
 from ...scene.points.found import Finding, find_points
 from ...scene.points.kept import forget_points, has_points
 from ..blender_types import Object, Scene
+from ..followers.rows import list_once
 
 T = TypeVar("T")
 
@@ -25,10 +26,12 @@ def with_points(obj: Object, then: Callable[[], Work[T]], *, scene: Scene) -> Wo
     Closing it before its end leaves no points behind.
     """
     if has_points(obj):
+        list_once(obj, scene)
         return (yield from then())
     finding = yield from part_of(find_points(obj, scene=scene), 0.0, SHARE)
     if finding.kept.is_questioned and not bpy.app.background:
         return finding
+    list_once(obj, scene)
     try:
         return (yield from part_of(then(), SHARE, 1.0))
     except GeneratorExit:

@@ -9,6 +9,7 @@ from ...scene.points.seen import Visible
 from ..active import active_object
 from ..base import RisoriusOperator
 from ..blender_types import Context
+from ..followers.rows import following, list_again
 from .look import turn_to_face
 from .props import list_names
 from .question import ask_whether_right
@@ -35,4 +36,6 @@ def show_finding(operator: RisoriusOperator, context: Context, finding: Finding)
             f" {DOUBTFUL_SCORE:g}): check its points, or click six points",
         )
     ask_whether_right(context, finding.kept)
-    return finding.summary(active_object(context).name)
+    obj = active_object(context)
+    list_again(obj, context.scene)
+    return finding.summary(obj.name) + following(obj)

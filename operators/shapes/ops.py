@@ -38,7 +38,7 @@ change them"""
         obj, chosen = active_object(context), context.scene.risorius.shapes
 
         def making() -> Work[WrittenKeys]:
-            return write_blendshapes(target_of(obj), chosen.names, replace=chosen.replace)
+            return write_blendshapes(target_of(obj, context.scene), chosen.names, replace=chosen.replace)
 
         return with_points(obj, making, scene=context.scene)
 

@@ -93,7 +93,7 @@ def bake_expression(
     written = write_baked(
         target, source, clip, [clip], shapes, [timing.curve(peak)], slider_min=0.0, creases=marks, note=note
     )
-    return _result(clip, written, source, pose.unmet, achieved=np.asarray(pose.achieved))
+    return _result(clip, written, target, source, pose.unmet, achieved=np.asarray(pose.achieved))
 
 
 def bake_motion(
@@ -145,12 +145,13 @@ def bake_motion(
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
     marks = crease_marks.prepare(source, creases)
     written = write_baked(target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks, note=note)
-    return _result(clip, written, source, missed, error=packed.error)
+    return _result(clip, written, target, source, missed, error=packed.error)
 
 
 def _result(
     clip: str,
     written: Written,
+    target: Target,
     source: FaceSource,
     missed: Mapping[int, str],
     *,
@@ -159,5 +160,5 @@ def _result(
 ) -> BakeResult:
     """What to tell of a bake; `missed` : FAP number -> why, of what was asked and does not show."""
     frames = actions.frames_of(written.action)
-    said = remarks(source.head, face_of(source)) + written.remarks + unmet_remarks(missed, clip)
+    said = remarks(source.head, face_of(source)) + written.remarks + unmet_remarks(missed, clip) + target.remarks()
     return BakeResult(clip, written.action.name, written.keys, error, frames, achieved, said)

@@ -69,7 +69,7 @@ def bake_strips(
         poses.append(face.pose(shape.faps, drive=drive, emotion=shape.emotion, contractions=shape.contractions))
     marks = crease_marks.prepare(source, creases)
     yield Progress(0.95, "Writing the shape keys")
-    said = set(remarks(source.head, face))
+    said = {*remarks(source.head, face), *target.remarks()}
     written = [
         _write(target, source, shape, pose.positions - face.vertices, marks)
         for shape, pose in zip(shapes, poses, strict=True)

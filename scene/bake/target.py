@@ -19,11 +19,13 @@ class Target:
     obj : the head.
     companions : its other objects.
     make_single_user : whether a mesh that other objects share may be made its own.
+    left_behind : names of objects that belong to the face, but do not follow it.
     """
 
     obj: Object
     companions: tuple[Companion, ...] = ()
     make_single_user: bool = False
+    left_behind: tuple[str, ...] = ()
 
     def objects(self) -> list[Object]:
         """The head and its other objects."""
@@ -34,3 +36,7 @@ class Target:
         for member in self.objects():
             refuse_unwritable(member, make_single_user=self.make_single_user)
         return read_face(self.obj, companions=self.companions)
+
+    def remarks(self) -> tuple[str, ...]:
+        """What stays behind, in words."""
+        return (f"{self.obj.name}: these stay behind: {', '.join(self.left_behind)}",) if self.left_behind else ()

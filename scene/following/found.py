@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 
 import bpy
@@ -30,8 +30,8 @@ class Follower:
     why_not: str = ""
 
 
-def find_followers(head: Object, scene: Scene | None = None) -> list[Follower]:
-    """The objects of `scene` that belong to the face of a head with feature points, by name.
+def find_followers(head: Object, scene: Scene | None = None, *, beside: Collection[Object] = ()) -> list[Follower]:
+    """The objects of `scene` that belong to the face of a head with feature points, but for some, sorted by name.
 
     Raises
     ------
@@ -39,8 +39,19 @@ def find_followers(head: Object, scene: Scene | None = None) -> list[Follower]:
     """
     scene = scene if scene is not None else bpy.context.scene
     around = Surroundings.of(head, scene)
-    found = [follower for other in _others(head, scene) if (follower := _follower(around, other)) is not None]
+    others = (other for other in _others(head, scene) if other not in beside)
+    found = [follower for other in others if (follower := _follower(around, other)) is not None]
     return sorted(found, key=lambda follower: follower.obj.name)
+
+
+def way_of(head: Object, other: Object, scene: Scene | None = None) -> Follows:
+    """How one object follows that somebody says to belong to a head: as it seems to, else as its name says."""
+    named = _named(other)
+    if has_points(head):
+        follower = _follower(Surroundings.of(head, scene), other)
+        if follower is not None and follower.follows is not Follows.NONE:
+            return follower.follows
+    return Follows.SKULL if named in (None, Follows.NONE) else named
 
 
 def _others(head: Object, scene: Scene) -> Iterator[Object]:
