@@ -1,13 +1,15 @@
-"""The pages for readers: every link from one to another, to a heading or to a picture leads somewhere."""
+"""The pages for readers: links lead somewhere, files that are named are there, command lines are understood."""
 
 from __future__ import annotations
 
 import re
+import shlex
 from functools import cache
 from pathlib import Path
 
 import pytest
 from places import ROOT
+from risorius import cli
 
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
 
@@ -56,6 +58,52 @@ def test_every_page_of_the_manual_is_linked_from_the_readme() -> None:
         files = ((page.parent / target.partition("#")[0]).resolve() for target in targets(prose(page)))
         waiting += [file for file in files if file.suffix == ".md" and file.exists() and file not in seen]
     assert [page.name for page in PAGES if page not in seen | {ROOT / "CHANGELOG.md"}] == []
+
+
+def command_lines(text: str) -> list[list[str]]:
+    """What follows `risorius` in the lines of a page's shell blocks."""
+    blocks = re.findall(r"^```sh\n(.*?)^```", text, flags=re.M | re.S)
+    lines = (line.strip().partition("||")[0] for block in blocks for line in block.splitlines())
+    begun = (re.match(r"(?:python -m |blender --command )?risorius (.+)", line) for line in lines)
+    return [shlex.split(found[1], comments=True) for found in begun if found]
+
+
+def understood(arguments: list[str]) -> bool:
+    """Whether the command line takes these arguments; nothing is run."""
+    try:
+        cli._parser().parse_args(cli.with_action(arguments))
+    except SystemExit:
+        return False
+    return True
+
+
+def test_every_command_line_of_a_page_is_understood() -> None:
+    lines = [line for page in PAGES for line in command_lines(page.read_text(encoding="utf-8"))]
+    assert len(lines) > 20
+    assert [" ".join(line) for line in lines if not understood(line)] == []
+    assert not understood(["profile", "joy", "--loud"])
+    block = "```sh\n  risorius bake joy --out 'a b' || exit  # so\n```\n"
+    assert command_lines(block) == [["bake", "joy", "--out", "a b"]]
+
+
+def missing(text: str) -> list[str]:
+    """What a page names in code letters as a file, a folder or a command of make, and is not there."""
+    targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), flags=re.M))
+    rooms = {path.name for path in ROOT.iterdir() if path.is_dir() and not path.name.startswith(".")}
+    made_new = re.findall(r"^New file `(.+)`:$", text, flags=re.M)
+    named = [name for name in re.findall(r"`([^`\s]+)`", text) if name not in made_new]
+    paths = [name for name in named if "/" in name and name.partition("/")[0] in rooms - {"out", "dist"}]
+    there = {name for name in paths if any(ROOT.glob(name)) or (ROOT / f"{name}.py").exists()}
+    made = [f"make {target}" for target in re.findall(r"`make ([a-z-]+)", text) if target not in targets]
+    return [*(name for name in paths if name not in there), *made]
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if page.name != "CHANGELOG.md"], ids=lambda page: page.name)
+def test_what_a_page_names_is_there(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert missing(text) == []
+    wrong = f"{text} `tools/nothing.py` `face/motion` `presets/emotions/*.toml` `presets/*.doc` `make haste`"
+    assert missing(wrong) == ["tools/nothing.py", "presets/*.doc", "make haste"]
 
 
 def test_a_broken_link_is_found(tmp_path: Path) -> None:
