@@ -156,9 +156,9 @@ def absolute(name: str, suffix: str, *, keep: tuple[str, ...]) -> Path:
 
 
 def frame_range(context: Context) -> tuple[int, int]:
-    """First and last frame: of the clip that the face plays, or of the scene."""
-    scene, keys = context.scene, active_object(context).data.shape_keys
-    playing = keys.animation_data.action if keys is not None and keys.animation_data is not None else None
-    if scene.risorius.film.frames == "CLIP" and playing is not None and tracks.FACE_TAG in playing:
-        return int(playing.frame_start), int(playing.frame_end)
+    """First and last frame: of the clips that the face plays, or of the scene."""
+    scene = context.scene
+    played = tracks.played_frames(active_object(context).data.shape_keys)
+    if scene.risorius.film.frames == "CLIP" and played is not None:
+        return played
     return int(scene.frame_start), int(scene.frame_end)

@@ -92,6 +92,20 @@ def take_off(animation: AnimData, actions: Iterable[Action]) -> None:
             animation.nla_tracks.remove(track)
 
 
+def played_frames(keys: Key | None) -> tuple[int, int] | None:
+    """First and last frame of all clips that a shape key datablock plays; None where it plays none."""
+    animation = keys.animation_data if keys is not None else None
+    if animation is None:
+        return None
+    heard = [track for track in _own_tracks(animation) if animation.use_nla and not track.mute]
+    played: list[Action | NlaStrip] = [strip for track in heard for strip in track.strips]
+    if animation.action is not None and FACE_TAG in animation.action:
+        played.append(animation.action)
+    if not played:
+        return None
+    return int(min(each.frame_start for each in played)), int(max(each.frame_end for each in played))
+
+
 def add_strip(track: NlaTrack, action: Action) -> NlaStrip:
     """Put a clip on an NLA track, at its own frames. Outside them it holds its ends, which are at rest.
 

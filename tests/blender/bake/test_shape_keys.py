@@ -199,6 +199,18 @@ def test_clips_at_other_times_play_on(cube: Any) -> None:
     assert shown(keys, 15) == shown(keys, 60) == shown(keys, -5) == {}
 
 
+def test_the_frames_that_play_are_those_of_all_clips(cube: Any) -> None:
+    assert tracks.played_frames(cube.data.shape_keys) is None
+    for clip, start, frames in (("joy", 5.0, (5, 15)), ("fear", 30.0, (5, 40)), ("anger", -20.0, (-20, 40))):
+        clip_at(cube, clip, start)
+        assert tracks.played_frames(cube.data.shape_keys) == frames
+    animation = cube.data.shape_keys.animation_data
+    animation.nla_tracks[0].strips[-1].frame_start_ui = 50.0
+    assert tracks.played_frames(cube.data.shape_keys) == (-20, 60)
+    animation.use_nla = False
+    assert tracks.played_frames(cube.data.shape_keys) is None
+
+
 def test_a_clip_before_the_others_plays_too(cube: Any) -> None:
     for clip, start in (("fear", 20.0), ("anger", 40.0), ("joy", 1.0)):
         clip_at(cube, clip, start)
