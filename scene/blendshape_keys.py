@@ -9,6 +9,7 @@ from pathlib import Path
 from ..arrays import Floats
 from ..errors import SceneError
 from ..progress import Progress, Work, part_of
+from .bake.remarks import shown_remarks
 from .bake.shape_keys import write_shape
 from .bake.target import Target
 from .bake.writing import STILL
@@ -52,7 +53,7 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
     from ..mpeg4.streams.capture import load_key_names
 
     wanted = load_key_names(names)
-    source = target.source()
+    source = target.source(replacing=wanted if replace else ())
     there = _taken(source, wanted)
     if there and not replace:
         some = ", ".join(there[:3])
@@ -68,13 +69,13 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
             own_mesh(obj)
     for piece in source.pieces:
         moving = {
-            name: piece.local_positions(moved)
+            name: piece.key_positions(moved)
             for name, moved in shapes.items()
             if piece is source.pieces[0] or piece.moves(moved, STILL * face.scale)
         }
         _write(piece.obj, moving)
     missed = (f"{name}: {why}" for name, why in posed.unmet.items())
-    return WrittenKeys(tuple(shapes), there, (*missed, *target.remarks()))
+    return WrittenKeys(tuple(shapes), there, (*shown_remarks(source.head), *missed, *target.remarks()))
 
 
 def _taken(source: FaceSource, wanted: Mapping[str, object]) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ from .fingerprint import Fingerprint, fingerprint
 from .points.stored import store_points as store_points
 from .points.stored import stored_points
 from .refusals import refuse_broken_vertices, refuse_unreadable
+from .shape_mix import Resting, resting_values, settle_drivers
 
 if TYPE_CHECKING:
     from ..api import Face
@@ -37,7 +38,7 @@ class Piece:
 
     Attributes
     ----------
-    rest : (V, 3) resting vertices in the mesh's own coordinates.
+    rest : (V, 3) resting vertices in the mesh's own coordinates, as the user's shape keys make them.
     to_metres : (4, 4) from those to the joined arrays' metres.
     """
 
@@ -63,9 +64,18 @@ class Piece:
 
     def local_positions(self, displacements: Floats) -> Floats:
         """(V, 3) positions in the mesh's own coordinates from joined displacements (all vertices, 3) in metres."""
-        inverse = np.linalg.inv(self.to_metres[:3, :3])
-        positions: Floats = self.rest + displacements[self.slice] @ inverse.T
+        positions: Floats = self.rest + self._change(displacements)
         return positions
+
+    def key_positions(self, displacements: Floats) -> Floats:
+        """(V, 3) the same as a shape key relative to the Basis, to which the user's keys add what they add."""
+        positions: Floats = meshes.basis_vertices(self.obj.data) + self._change(displacements)
+        return positions
+
+    def _change(self, displacements: Floats) -> Floats:
+        """(V, 3) joined displacements (all vertices, 3) in metres as those of this mesh."""
+        inverse = np.linalg.inv(self.to_metres[:3, :3])
+        return np.asarray(displacements[self.slice] @ inverse.T)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +115,7 @@ def read_face(
     companions: Sequence[Companion] = (),
     points: PointTable | None = None,
     scene: Scene | None = None,
+    resting: Resting = resting_values,
 ) -> FaceSource:
     """Read a face from its object, and from the objects of its eyes, teeth and tongue where they are apart.
 
@@ -114,6 +125,7 @@ def read_face(
     companions : parts that are objects of their own.
     points : feature points in the mesh's own coordinates; by default those stored with `obj`.
     scene : whose unit scale counts; by default the current one.
+    resting : which shape keys of a mesh, at which values, make its rest; by default the user's as they are now.
 
     Raises
     ------
@@ -121,7 +133,8 @@ def read_face(
     """
     refuse_unreadable(obj)
     refuse_confused(obj, companions)
-    table = points if points is not None else stored_points(obj)
+    settle_drivers([obj, *(companion.obj for companion in companions)])
+    table = points if points is not None else stored_points(obj, resting)
     members = [obj, *(companion.obj for companion in companions)]
     pieces: list[Piece] = []
     polygons: list[PolygonTable] = []
@@ -129,7 +142,7 @@ def read_face(
     for member, to_metres in zip(members, placements(obj, companions, scene), strict=True):
         refuse_unreadable(member)
         refuse_broken_vertices(member)
-        pieces.append(Piece(member, first, meshes.rest_vertices(member.data), to_metres))
+        pieces.append(Piece(member, first, meshes.rest_vertices(member.data, resting(member.data)), to_metres))
         corners, sizes = meshes.polygon_arrays(member.data)
         polygons.append(PolygonTable(corners + first, sizes))
         first = pieces[-1].slice.stop
@@ -143,7 +156,7 @@ def read_face(
         PolygonTable.joined(polygons),
         metric,
         None if (parts == Told.ANYTHING).all() else parts,
-        fingerprint(obj, companions, points=points, scene=scene),
+        fingerprint(obj, companions, points=points, scene=scene, resting=resting),
     )
 
 

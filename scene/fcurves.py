@@ -47,6 +47,15 @@ def played_curves(animation: AnimData) -> FCurves | None:
     return next((bag.fcurves for bag in bags if bag is not None), None)
 
 
+def curves_of(action: Action, data_path: str) -> list[FCurve]:
+    """The F-curves of an action, in any slot of it, for one thing; the action stays as it is."""
+    if not hasattr(action, "slots"):
+        found = [action.fcurves.find(data_path)]
+    else:
+        found = [bag.fcurves.find(data_path) for strip in _strips(action) for bag in strip.channelbags]
+    return [curve for curve in found if curve is not None]
+
+
 def is_empty(action: Action) -> bool:
     """Whether an action has no F-curves at all."""
     if not hasattr(action, "slots"):

@@ -1,9 +1,9 @@
 """Which object it is, and which face: the one fingerprint of all that a face is made of.
 
-It changes with the resting vertices and polygons of a face's objects, with its feature points and parts, and with the
-sizes of these objects and their places relative to the head. It does not change with where the head is and how it is
-turned, with other shape keys, modifiers, materials and names, or with how sure the points are. Two objects may have
-the same: a copy of a face is the same face.
+It changes with the resting vertices and polygons of a face's objects (so with the values of the user's shape keys),
+with its feature points and parts, and with the sizes of these objects and their places relative to the head. It does
+not change with where the head is and how it is turned, with keyframes, with what was baked, with materials and names,
+or with how sure the points are. Two objects may have the same: a copy of a face is the same face.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from .blender_types import Datablock, Object, Scene
 from .companions import Companion, placements
 from .mesh import polygon_arrays, read_parts, rest_vertices
 from .points.kept import mesh_counts, read_kept
+from .shape_mix import Resting, resting_values
 
 #: Blender holds matrices in single precision: objects that move together come out a little differently in every frame.
 #: Sizes are the same within this share of them, and places within this share of the head's size.
@@ -57,7 +58,12 @@ def uid_of(datablock: Datablock) -> int:
 
 
 def fingerprint(
-    obj: Object, companions: Sequence[Companion] = (), *, points: PointTable | None = None, scene: Scene | None = None
+    obj: Object,
+    companions: Sequence[Companion] = (),
+    *,
+    points: PointTable | None = None,
+    scene: Scene | None = None,
+    resting: Resting = resting_values,
 ) -> Fingerprint:
     """The fingerprint of a face; parameters as for `faces.read_face`. Takes some milliseconds.
 
@@ -69,7 +75,7 @@ def fingerprint(
     for member, part in [(obj, Told.ANYTHING), *((companion.obj, companion.part) for companion in companions)]:
         parts = read_parts(member.data) if part is Told.ANYTHING else None
         digest.update(repr((part, mesh_counts(member.data), parts is None)).encode())
-        digest.update(rest_vertices(member.data).astype(np.float32).tobytes())
+        digest.update(rest_vertices(member.data, resting(member.data)).astype(np.float32).tobytes())
         for numbers in (*polygon_arrays(member.data), parts):
             digest.update(b"" if numbers is None else numbers.astype(np.int32).tobytes())
     digest.update(repr(sorted(points.items()) if points is not None else _places(obj)).encode())

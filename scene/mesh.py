@@ -1,14 +1,13 @@
 """Mesh data to arrays and back, in the mesh's own coordinates or in metres.
 
-The resting face is the mesh's Basis (its reference shape key), or the bare mesh where it has no shape keys:
-modifiers, other shape keys, drivers and the pose of a rig are not part of it. They go on working on top of what is
-baked. Only a rotation and a shift of the object leave a face what it is, so *metres* means the mesh's own axes
-times the object's stretch in the world times the scene's unit scale.
+The resting face is what the user's shape keys make of the mesh at their present values (`shape_mix`). Only a rotation
+and a shift of the object leave a face what it is, so *metres* means the mesh's own axes times the object's stretch in
+the world times the scene's unit scale.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import bpy
 import numpy as np
@@ -26,14 +25,26 @@ from .attributes import (
     write_numbers,
 )
 from .blender_types import Depsgraph, Key, Mesh, Object, Scene, ShapeKey
+from .shape_mix import mixed_vertices, resting_values
 
 PART_ATTRIBUTE = "risorius_part"
 
 
-def rest_vertices(mesh: Mesh) -> Floats:
-    """(V, 3) resting vertices of `mesh` in its own coordinates: the Basis, or the bare mesh."""
-    keys = mesh.shape_keys
-    return mesh_vertices(mesh) if keys is None else key_vertices(keys.reference_key)
+def rest_vertices(mesh: Mesh, values: Mapping[str, float] | None = None) -> Floats:
+    """(V, 3) resting vertices of `mesh` in its own coordinates, before modifiers.
+
+    Parameters
+    ----------
+    values : shape key -> value that makes it what it is; by default those of the user's keys at present.
+    """
+    if mesh.shape_keys is None:
+        return mesh_vertices(mesh)
+    return mixed_vertices(mesh, resting_values(mesh) if values is None else values)
+
+
+def basis_vertices(mesh: Mesh) -> Floats:
+    """(V, 3) vertices of `mesh` without any shape key: the Basis, or the bare mesh."""
+    return rest_vertices(mesh, {})
 
 
 def mesh_vertices(mesh: Mesh) -> Floats:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ...scene.bake import shape_keys
 from ...scene.points.kept import has_points
+from ...scene.shape_mix import resting_values
 from ..active import active_object, face_reason
 from ..blender_classes import Panel
 from ..blender_types import Context, UILayout
@@ -41,6 +42,9 @@ class RISORIUS_PT_bake(MeshSidebar, Panel):
             layout.label(text=reason.partition(": ")[2].partition(":")[0].capitalize(), icon="INFO")
         elif not has_points(obj):
             layout.label(text="The face is found first", icon="INFO")
+        count = len(resting_values(obj.data))
+        if count:
+            layout.label(text=f"As it shows: {count} shape key{'s' * (count != 1)}", icon="SHAPEKEY_DATA")
         column = layout.column(align=True)
         column.scale_y = 1.3
         if clips:

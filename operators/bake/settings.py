@@ -12,6 +12,8 @@ from ...scene.bake.action import Curve
 from ...scene.bake.motion import CueMotion
 from ...scene.bake.notes import BakeKind, read_notes
 from ...scene.bake.timing import ClipTiming, scene_fps
+from ...scene.shape_mix import resting_values
+from ..active import target_of
 from ..blender_types import Object, Scene
 from ..emotion.performance import Performance, performance_of
 from ..emotion.profile import Wanted, title_of, wanted_of
@@ -57,7 +59,7 @@ def motion_of(obj: Object, performance: Performance) -> CueMotion:
 
 def expression_settings(obj: Object, scene: Scene) -> str:
     """Digest of what an expression bake is made of."""
-    return _digest(_look(wanted_of(obj)), timing_of(obj, scene), creases_wanted(obj))
+    return _digest(_look(wanted_of(obj)), timing_of(obj, scene), creases_wanted(obj), *_resting(obj))
 
 
 def motion_settings(obj: Object, performance: Performance) -> str:
@@ -66,7 +68,7 @@ def motion_settings(obj: Object, performance: Performance) -> str:
     return _digest(
         (performance.first_frame, performance.fps, performance.titles),
         *(motion.cues, motion.contractions, motion.tissue, motion.liveliness),
-        *(obj.risorius.emotion.drive, creases_wanted(obj)),
+        *(obj.risorius.emotion.drive, creases_wanted(obj), *_resting(obj)),
     )
 
 
@@ -86,7 +88,7 @@ def strip_settings(obj: Object, performance: Performance, number: int) -> str:
     """Digest of what one strip is made of: its expression, and the curve that overlaps leave it."""
     curve = strip_curve(performance, number)
     times = curve.frames.tobytes(), curve.values.tobytes(), curve.linear
-    return _digest(_look(performance.wanted[number]), times, creases_wanted(obj))
+    return _digest(_look(performance.wanted[number]), times, creases_wanted(obj), *_resting(obj))
 
 
 def stale_clips(obj: Object, scene: Scene) -> Mapping[str, BakeKind]:
@@ -115,6 +117,12 @@ def _look(wanted: Wanted) -> tuple[object, ...]:
     """All of a wanted expression that a pose depends on."""
     shares = sorted((str(name), share) for name, share in wanted.profile.weights.items())
     return wanted.faps.tobytes(), wanted.drive, shares, sorted(wanted.contractions.items())
+
+
+def _resting(obj: Object) -> list[dict[str, float]]:
+    """The user's shape keys that make the face what it is, of each of its objects that has any."""
+    members = (member for member in target_of(obj).objects() if member.type == "MESH")
+    return [values for member in members if (values := resting_values(member.data))]
 
 
 def _digest(*parts: object) -> str:

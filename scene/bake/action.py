@@ -18,6 +18,7 @@ from ...arrays import Floats
 from ...errors import ParameterError
 from ..blender_types import Action, Key
 from ..fcurves import add_keyframes, key_curves
+from ..shape_mix import data_path as data_path
 from . import tracks
 from .shape_keys import own_names_of
 from .tracks import CLIP_TAG, FACE_TAG
@@ -34,11 +35,6 @@ class Curve:
     def __post_init__(self) -> None:
         if self.frames.shape != self.values.shape or self.frames.ndim != 1 or len(self.frames) == 0:
             raise ParameterError("frames and values", "must be equally long and not empty", self.values.shape)
-
-
-def data_path(key_name: str) -> str:
-    """RNA path of a shape key's value."""
-    return f'key_blocks["{bpy.utils.escape_identifier(key_name)}"].value'
 
 
 def write_curve(action: Action, key_name: str, curve: Curve) -> None:

@@ -2,26 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING
 
 import bpy
 
-from ..blender_types import Key, Object
+from ..blender_types import Object
 from ..points.bound import followed
 from ..points.kept import has_points, read_kept
-from .shape_keys import own_names_of
+from ..shape_mix import moving_keys, resting_values
 
 if TYPE_CHECKING:
     from ...api import Face
 
+#: Shape keys that a remark names.
+NAMED = 3
 
-def _active_user_keys(keys: Key | None) -> list[str]:
-    """Names of shape keys that are not ours and move the face now."""
-    if keys is None:
-        return []
-    own = own_names_of(keys)
-    return [k.name for k in keys.key_blocks[1:] if k.value != 0.0 and not k.mute and k.name not in own]
+
+def shown_remarks(obj: Object) -> tuple[str, ...]:
+    """What the resting face of an object is, where that is not simply its mesh."""
+    values, moving = resting_values(obj.data), moving_keys(obj.data)
+    found = []
+    if values:
+        found.append(f"{obj.name}: posed on the face as it shows, with {_counted(values)}")
+    if moving:
+        found.append(f"{obj.name}: animation of {_counted(moving)} adds to the bake")
+    return tuple(found)
+
+
+def _counted(names: Collection[str]) -> str:
+    """How many shape keys, with the names of the first."""
+    listed = ", ".join(list(names)[:NAMED]) + (" ..." if len(names) > NAMED else "")
+    return f"{len(names)} shape key{'s' * (len(names) > 1)} ({listed})"
 
 
 def sewn_remarks(name: str, sewn: frozenset[str]) -> list[str]:
@@ -47,10 +59,7 @@ def remarks(obj: Object, face: Face | None = None) -> tuple[str, ...]:
             found.append(f"{obj.name}: was edited; its feature points moved to the nearest surface{lost}: check them")
     if face is not None:
         found += sewn_remarks(obj.name, face.sewn)
-    keys = obj.data.shape_keys
-    active = _active_user_keys(keys)
-    if active:
-        found.append(f"{obj.name}: the resting face is the Basis; {len(active)} active shape keys add to the bake")
+    found += shown_remarks(obj)
     if obj.show_only_shape_key:
         found.append(f"{obj.name}: Shape Key Lock shows one key only; turn it off to see the animation")
     return tuple(found)

@@ -9,64 +9,27 @@ from __future__ import annotations
 import json
 import uuid
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import bpy
 
 from ...arrays import Floats
 from ..blender_types import Key, Mesh, Object, ShapeKey
 from ..mesh import key_vertices, keys_of, write_key_vertices
-
-RECORD = "risorius"
+from ..shape_mix import RECORD, OwnKeys, own_keys
 
 #: Blender keeps this many bytes of a shape key's name, in UTF-8; a Japanese letter takes three.
 NAME_BYTES = 63
 
 
-@dataclass(frozen=True)
-class OwnKeys:
-    """What Risorius has put on one mesh.
-
-    Attributes
-    ----------
-    face : a name for this face that its actions carry too.
-    added_basis : the Basis is ours: there were no shape keys before.
-    clips : clip name -> names of its shape keys.
-    """
-
-    face: str = ""
-    added_basis: bool = False
-    clips: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """All own shape keys, clip by clip."""
-        return tuple(name for keys in self.clips.values() for name in keys)
-
-
 def read_own(mesh: Mesh) -> OwnKeys:
     """The record of `mesh`, without keys that no longer exist. Empty where there is none."""
-    return _record_of(mesh.shape_keys)
+    return own_keys(mesh.shape_keys)
 
 
 def own_names_of(keys: Key | None) -> tuple[str, ...]:
     """Names of the own keys of a shape key datablock."""
-    return _record_of(keys).names
-
-
-def _record_of(keys: Key | None) -> OwnKeys:
-    """The record of a shape key datablock."""
-    if keys is None or RECORD not in keys:
-        return OwnKeys()
-    try:
-        stored = json.loads(str(keys[RECORD]))
-        clips = {
-            str(clip): tuple(str(name) for name in names if name in keys.key_blocks)
-            for clip, names in stored["clips"].items()
-        }
-        return OwnKeys(str(stored["face"]), bool(stored["added_basis"]), clips)
-    except (ValueError, KeyError, TypeError, AttributeError):
-        return OwnKeys()
+    return own_keys(keys).names
 
 
 def _write_own(keys: Key, own: OwnKeys) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..blender_types import Object
 from ..companions import Companion
 from ..faces import FaceSource, read_face
 from ..refusals import refuse_unwritable
+from ..shape_mix import resting_without
 
 
 @dataclass(frozen=True)
@@ -31,11 +33,11 @@ class Target:
         """The head and its other objects."""
         return [self.obj, *(companion.obj for companion in self.companions)]
 
-    def source(self) -> FaceSource:
-        """Read the face, refusing what must not be written to."""
+    def source(self, *, replacing: Iterable[str] = ()) -> FaceSource:
+        """Read the face, refusing what must not be written to; shape keys that are replaced are no part of its rest."""
         for member in self.objects():
             refuse_unwritable(member, make_single_user=self.make_single_user)
-        return read_face(self.obj, companions=self.companions)
+        return read_face(self.obj, companions=self.companions, resting=resting_without(replacing))
 
     def remarks(self) -> tuple[str, ...]:
         """What stays behind, in words."""

@@ -66,7 +66,7 @@ def write_baked(
         if piece not in moving:
             shape_keys.remove_keys(piece.obj, [clip])
             continue
-        shapes = {name: piece.local_positions(d) for name, d in zip(free, displacements, strict=True)}
+        shapes = {name: piece.key_positions(d) for name, d in zip(free, displacements, strict=True)}
         face = shape_keys.write_keys(piece.obj, clip, shapes, slider_min=slider_min, face=face).face
     datablocks = [keys_of(piece.obj) for piece in moving]
     action = actions.write_clip(

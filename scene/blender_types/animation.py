@@ -192,3 +192,6 @@ class AnimData(Protocol):
     use_tweak_mode: bool
     use_nla: bool
     nla_tracks: NlaTracks
+
+    @property
+    def drivers(self) -> Items[FCurve]: ...

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..attributes import remove_attribute, write_vectors
 from ..blender_types import Material, Modifier, Node, NodeSocket, NodeTree, Object
-from ..faces import FaceSource, face_of
+from ..faces import FaceSource, Piece, face_of
 from ..materials import node_tree_of, principled_of
 from . import nodes
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 MODIFIER = "Risorius Creases"
 
-#: On an object whose resting positions are handed to its modifiers because of us.
+#: On an object of a file from before 0.2, whose resting positions are handed to its modifiers because of us.
 RESTING = "risorius_creases"
 
 #: By what the depth of a full crease multiplies the skin's colour: light that has gone through skin comes out red.
@@ -50,10 +50,7 @@ def settle(source: FaceSource, creases: Creases | None) -> None:
         remove(obj)
         return
     _clear(obj)
-    _write_places(obj, creases, source.pieces[0].slice)
-    if not obj.add_rest_position_attribute:
-        obj.add_rest_position_attribute = True
-        obj[RESTING] = True
+    _write_places(source.pieces[0], creases)
     modifier = obj.modifiers.new(MODIFIER, "NODES")
     modifier.node_group = nodes.measuring_group(creases.rounds)
     obj.modifiers.move(len(obj.modifiers) - 1, 0)
@@ -117,14 +114,14 @@ def _socket(sockets: Iterable[NodeSocket], identifier: str) -> NodeSocket:
     return next(socket for socket in sockets if socket.identifier == identifier)
 
 
-def _write_places(obj: Object, creases: Creases, head: slice[int, int, None]) -> None:
+def _write_places(head: Piece, creases: Creases) -> None:
     """The attributes that stay as they are in every pose."""
-    vectors = {nodes.HEAD: creases.head_positions[head]}
+    vectors = {nodes.REST: head.rest, nodes.HEAD: creases.head_positions[head.slice]}
     for name, crease in creases.creases.items():
-        places = crease.places[head]
+        places = crease.places[head.slice]
         vectors[nodes.PLACE + name] = np.column_stack([places, np.zeros(len(places))])
     for name, values in vectors.items():
-        write_vectors(obj.data, name, values)
+        write_vectors(head.obj.data, name, values)
 
 
 @contextmanager
@@ -144,7 +141,7 @@ def _clear(obj: Object) -> None:
     """Remove modifier and attributes."""
     for modifier in [modifier for modifier in obj.modifiers if _is_ours(modifier)]:
         obj.modifiers.remove(modifier)
-    ours = [a.name for a in obj.data.attributes if a.name == nodes.HEAD or a.name.startswith(nodes.PLACE)]
+    ours = [a.name for a in obj.data.attributes if a.name in (nodes.REST, nodes.HEAD) or a.name.startswith(nodes.PLACE)]
     for name in ours:
         remove_attribute(obj.data, name)
     if RESTING in obj:

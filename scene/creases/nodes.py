@@ -15,8 +15,9 @@ from ...face.products.crease_table import CreaseRow, Look, read_creases
 from ..blender_types import NodeSocket, NodeTree
 from ..node_graph import NodeGraph, Value
 
-#: Attributes of the mesh, written once: a vertex's resting place in head space, and its place on a crease.
-HEAD, PLACE = "risorius_head", "risorius_place_"
+#: Attributes of the mesh, written once: a vertex's resting place in the mesh's coordinates and in head space, and its
+#: place on a crease. Blender's own resting places are without the shape keys that make a character what it is.
+REST, HEAD, PLACE = "risorius_rest", "risorius_head", "risorius_place_"
 
 #: Attributes that the modifier writes: place across, fullness; and how squeezed the skin is all round.
 CREASE, STRAIN = "risorius_crease_", "risorius_strain"
@@ -42,7 +43,7 @@ def measuring_group(rounds: int) -> NodeTree:
     rounds : over which compression is averaged (`Creases.rounds`). Built into the group, because how a script sets an
         input of a modifier differs from Blender to Blender.
     """
-    return _ready(MEASURE, lambda rows: _measuring(rows, rounds), f"{rounds} rounds")
+    return _ready(MEASURE, lambda rows: _measuring(rows, rounds), f"{REST}, {rounds} rounds")
 
 
 def drawing_group() -> NodeTree:
@@ -92,7 +93,7 @@ def _measuring(rows: Sequence[CreaseRow], rounds: int) -> NodeTree:
     graph.tree.is_modifier = True
     geometry = graph.takes("Geometry", "NodeSocketGeometry")
     ends = graph.node("GeometryNodeInputMeshEdgeVertices").outputs
-    rest = _named(graph, "rest_position")
+    rest = _named(graph, REST)
     length = graph.vector("DISTANCE", *(_at(graph, end, rest) for end in ends[:2])).outputs["Value"]
     length = graph.math("MAXIMUM", length, 1e-12)
     posed = graph.vector("DISTANCE", ends[2], ends[3]).outputs["Value"]

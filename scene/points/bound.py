@@ -20,6 +20,7 @@ from ...arrays import Floats
 from ...face.mesh.point_files import PointTable
 from .. import mesh as meshes
 from ..blender_types import Mesh, SearchTree
+from ..shape_mix import resting_values
 from .kept import KeptPoint, KeptPoints, Origin, mesh_counts, triple
 
 #: A place farther from the surface than this share of the diagonal of all points lies off it, as a pupil does.
@@ -129,7 +130,7 @@ def bind(
         origin = origins if isinstance(origins, Origin) else origins.get(name, Origin.FILE)
         sure = 1.0 if confidence is None else float(np.clip(confidence.get(name, 1.0), 0.0, 1.0))
         kept[name] = surface.kept(held, places[name], sure, origin)
-    return KeptPoints(surface.counts, surface.digest, kept)
+    return KeptPoints(surface.counts, surface.digest, kept, resting=resting_values(mesh))
 
 
 def moved(kept: KeptPoints, name: str, place: Floats, surface: Surface, origin: Origin) -> KeptPoints:
@@ -158,7 +159,7 @@ def followed(kept: KeptPoints, mesh: Mesh) -> Followed:
             lost.append(name)
         else:
             points[name] = surface.kept(held, np.array(point.at), point.confidence, point.origin)
-    return Followed(KeptPoints(surface.counts, surface.digest, points, kept.score), True, tuple(lost))
+    return Followed(replace(kept, counts=surface.counts, digest=surface.digest, points=points), True, tuple(lost))
 
 
 def places(kept: KeptPoints, vertices: Floats) -> dict[str, Floats]:

@@ -17,13 +17,15 @@ from mathutils.bvhtree import BVHTree
 from ...arrays import Floats
 from ..attributes import read_vectors
 from ..blender_types import Mesh, Object, SearchTree
-from ..mesh import triangle_corners
+from ..mesh import basis_vertices, rest_vertices, triangle_corners
 from .bound import Held, shares
 
 #: The name that Blender gives it.
 REST = "rest_position"
 #: Building one takes a moment, and every redraw asks: so many are kept.
 KEPT = 2
+#: A place between vertices is moved by shape keys as so many of the nearest ones are.
+NEAR = 4
 _kept: OrderedDict[bytes, Carried] = OrderedDict()
 
 
@@ -36,11 +38,12 @@ class Carried:
     tree: SearchTree
 
     @classmethod
-    def of(cls, shown: Mesh) -> Carried | None:
-        """Of an evaluated mesh; None where Blender carries none along."""
+    def of(cls, shown: Mesh, of: Mesh) -> Carried | None:
+        """Of an evaluated mesh and the mesh that it is `of`; None where Blender carries none along."""
         rest = read_vectors(shown, REST)
         if rest is None:
             return None
+        rest = _mixed(rest, of)
         corners = triangle_corners(shown)
         name = hashlib.blake2b(rest.tobytes() + corners.tobytes(), digest_size=16).digest()
         carried = _kept.pop(name, None)
@@ -56,6 +59,20 @@ class Carried:
         """Vertices of what shows, and their shares, for the resting place nearest to `rest` (3,)."""
         found, _, triangle, _ = self.tree.find_nearest(Vector(rest))
         return None if found is None else shares(self.triangles[triangle], self.rest, np.array(found))
+
+
+def _mixed(places: Floats, mesh: Mesh) -> Floats:
+    """Places (V', 3) of the Basis, which Blender carries, as those of the resting face that shape keys make of it."""
+    basis, rest = basis_vertices(mesh), rest_vertices(mesh)
+    if np.array_equal(basis, rest):
+        return places
+    from scipy.spatial import cKDTree
+
+    found, near = cKDTree(basis).query(places, k=min(NEAR, len(basis)))
+    distance: Floats = np.asarray(found, dtype=np.float64)
+    weights = 1.0 / (distance + distance.mean() * 1e-6 + 1e-30)
+    moved = ((rest - basis)[near] * (weights / weights.sum(axis=1, keepdims=True))[..., None]).sum(axis=1)
+    return np.asarray(places + moved)
 
 
 def carry_rest(obj: Object) -> None:

@@ -13,6 +13,7 @@ from ...progress import Progress, Work
 from .. import mesh as meshes
 from ..blender_types import Object, Scene
 from ..refusals import refuse_broken_vertices, refuse_unreadable
+from ..shape_mix import settle_drivers
 from .bound import bind
 from .kept import KeptPoints, Origin, triple, write_kept
 from .presets import known_topologies
@@ -79,6 +80,7 @@ def seek_points(
     yield Progress(0.0, "Reading the mesh")
     refuse_unreadable(obj)
     refuse_broken_vertices(obj)
+    settle_drivers([obj])
     stretch = meshes.metres_matrix(obj, scene)
     vertices = meshes.rest_vertices(obj.data) @ stretch.T
     arrays = meshes.polygon_arrays(obj.data)

@@ -80,6 +80,7 @@ class KeptPoints:
     points : name ("8.4") -> point.
     score : how little the mesh looked like a face when they were found in it; 0 once a person has said where it is.
     sewn : what had no opening then: "mouth", and "l" and "r" for eyes (`Face.sewn`).
+    resting : shape key -> value, of the user's keys that made the resting face what it was then.
     """
 
     counts: tuple[int, int, int]
@@ -87,6 +88,7 @@ class KeptPoints:
     points: Mapping[str, KeptPoint] = field(default_factory=dict)
     score: float = 0.0
     sewn: frozenset[str] = frozenset()
+    resting: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def is_questioned(self) -> bool:
@@ -186,7 +188,7 @@ def _encoded(kept: KeptPoints) -> str:
         for name, point in kept.points.items()
     }
     told = {"counts": list(kept.counts), "digest": kept.digest, "score": kept.score, "sewn": sorted(kept.sewn)}
-    return json.dumps({**told, "points": points})
+    return json.dumps({**told, "resting": dict(kept.resting), "points": points})
 
 
 @lru_cache(maxsize=8)
@@ -208,4 +210,5 @@ def _decoded(text: str) -> KeptPoints:
     vertices, corners, polygons = stored["counts"]
     counts = int(vertices), int(corners), int(polygons)
     sewn = frozenset(str(name) for name in stored.get("sewn", ()))
-    return KeptPoints(counts, str(stored["digest"]), points, float(stored.get("score", 0.0)), sewn)
+    resting = {str(name): float(value) for name, value in stored.get("resting", {}).items()}
+    return KeptPoints(counts, str(stored["digest"]), points, float(stored.get("score", 0.0)), sewn, resting)

@@ -89,7 +89,7 @@ class Visible:
     @cached_property
     def _carried(self) -> Carried | None:
         """The resting places of what shows, where Blender carries them along."""
-        return Carried.of(self.shown.data)
+        return Carried.of(self.shown.data, self.obj.data)
 
     @cached_property
     def _shown_vertices(self) -> Floats:

@@ -6,6 +6,7 @@ from ...errors import SceneError
 from ...face.mesh.point_files import PointTable
 from .. import mesh as meshes
 from ..blender_types import Object
+from ..shape_mix import Resting, resting_values
 from .bound import bind, followed, table_of
 from .kept import Origin, read_kept, write_kept
 
@@ -27,7 +28,7 @@ def store_points(obj: Object, points: PointTable, *, origin: Origin = Origin.FIL
     write_kept(obj, bind(obj.data, points, origins=origin), as_given=True)
 
 
-def stored_points(obj: Object) -> dict[str, int | tuple[float, float, float]]:
+def stored_points(obj: Object, resting: Resting = resting_values) -> dict[str, int | tuple[float, float, float]]:
     """Feature points kept with the mesh of `obj`, where they are on it now.
 
     Raises
@@ -42,4 +43,4 @@ def stored_points(obj: Object) -> dict[str, int | tuple[float, float, float]]:
         raise SceneError(
             obj.name, f"was edited, and its feature points {', '.join(needed)} were lost: find or import them again"
         )
-    return table_of(now.kept, meshes.rest_vertices(obj.data))
+    return table_of(now.kept, meshes.rest_vertices(obj.data, resting(obj.data)))

@@ -52,7 +52,7 @@ def expression_key(obj: Any, word: str, value: float) -> None:
 def traces(obj: Any) -> list[str]:
     """All of ours that could be on an object or in the file."""
     left = [f"modifier {modifier.name}" for modifier in obj.modifiers]
-    ours = (crease_nodes.PLACE, crease_nodes.HEAD)
+    ours = (crease_nodes.PLACE, crease_nodes.HEAD, crease_nodes.REST)
     left += [f"attribute {a.name}" for a in obj.data.attributes if a.name.startswith(ours)]
     left += ["property"] * (creases.RESTING in obj)
     left += [f"group {group.name}" for group in bpy.data.node_groups if group.bl_idname == "GeometryNodeTree"]

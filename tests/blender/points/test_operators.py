@@ -186,8 +186,10 @@ def test_a_click_lands_on_the_surface_that_shows_and_is_kept_on_the_resting_one(
     lifted = head.shape_key_add(name="lifted", from_mix=False)
     for point in lifted.data:
         point.co.z += 0.05
-    lifted.value = 1.0
-    bpy.context.view_layer.update()
+    for frame, value in ((1, 0.0), (5, 1.0)):
+        lifted.value = value
+        lifted.keyframe_insert("value", frame=frame)
+    bpy.context.scene.frame_set(5)
     surface, nose = points_bound.Surface.of(head.data), places(head)["9.3"]
     world = np.array(head.matrix_world)
     aim = world[:3, :3] @ (nose + np.array([0.0, 0.0, 0.05])) + world[:3, 3]
