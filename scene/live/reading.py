@@ -7,7 +7,7 @@ where the mesh is a mask without one. Only the head's own mesh is read: eyes tha
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,11 +17,11 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import ModelError, ParameterError, SceneError
 from ...progress import Progress, Work
-from ..blender_types import Depsgraph, Mesh, Object, Scene
+from ..blender_types import Depsgraph, Object, Scene
 from ..faces import face_of, read_face
 from ..fingerprint import fingerprint, uid_of
 from ..mesh import mesh_vertices
-from ..points.kept import read_kept_with
+from ..points.kept import as_found
 from ..points.seen import Visible
 from .shown_rest import shown_rest
 
@@ -71,7 +71,7 @@ class FaceReader:
         SceneError, ModelError : no face, no feature points; says what to do.
         """
         self.obj, self.uid = obj, uid_of(obj)
-        source = read_face(obj, resting=_as_found)
+        source = read_face(obj, resting=as_found)
         self._face, self._fingerprint = face_of(source), source.fingerprint
         self._to_metres = source.pieces[0].to_metres[:3, :3]
         self._rest = source.pieces[0].rest
@@ -82,7 +82,7 @@ class FaceReader:
 
     def is_of(self, obj: Object) -> bool:
         """Whether `obj` still is the face that was read."""
-        return uid_of(obj) == self.uid and fingerprint(obj, resting=_as_found).matches(self._fingerprint)
+        return uid_of(obj) == self.uid and fingerprint(obj, resting=as_found).matches(self._fingerprint)
 
     def positions(self, depsgraph: Depsgraph) -> Floats:
         """(V, 3) vertices of the mesh in metres as they show.
@@ -144,11 +144,6 @@ class FaceReader:
         profile = beliefs.best_profile
         strength = 0.0 if profile is None else api.shown_strength(faps, profile)
         return Reading(faps, features, beliefs, api.recognise_words(faps, words), strength)
-
-
-def _as_found(mesh: Mesh) -> Mapping[str, float]:
-    """The shape keys that made the resting face what it was when its points were found: others are its expression."""
-    return read_kept_with(mesh, mesh.name).resting
 
 
 def _steadied(positions: Floats, rest: Floats, reader: Sparse) -> Floats:

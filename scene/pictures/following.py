@@ -7,6 +7,7 @@ import numpy as np
 from ...arrays import Floats, Ints
 from .. import mesh as meshes
 from ..blender_types import Depsgraph, Object, Scene
+from ..points.kept import as_found
 from .framing import Framing, framing_of
 from .furniture import carry
 
@@ -29,7 +30,7 @@ class CarriedFace:
     def __init__(self, obj: Object) -> None:
         """Read where it rests."""
         self._obj = obj
-        self._rest = meshes.rest_vertices(obj.data)
+        self._rest = meshes.rest_vertices(obj.data, as_found(obj.data))
         self._home = framing_of(obj, world=np.eye(4))
         self._skull = _skull(self._rest, self._home)
 

@@ -9,7 +9,7 @@ import numpy as np
 from ...arrays import Floats
 from .. import mesh as meshes
 from ..blender_types import Object
-from ..points.kept import has_points
+from ..points.kept import as_found, has_points
 from ..points.stored import stored_points
 
 #: Feature points that tell where the face is: pupils or eye corners, mouth corners, chin.
@@ -47,7 +47,7 @@ def framing_of(obj: Object, *, world: Floats | None = None) -> Framing:
     ----------
     world : (4, 4) from its own coordinates to the world's; by default where it stands now.
     """
-    local = meshes.rest_vertices(obj.data)
+    local = meshes.rest_vertices(obj.data, as_found(obj.data))
     world = meshes.world_matrix(obj) if world is None else world
     vertices = local @ world[:3, :3].T + world[:3, 3]
     points = _world_points(obj, local, world)
@@ -85,7 +85,7 @@ def _world_points(obj: Object, local: Floats, world: Floats) -> dict[str, Floats
     """The framing feature points in the world, or None where one is missing."""
     if not has_points(obj):
         return None
-    stored = stored_points(obj)
+    stored = stored_points(obj, as_found)
     needed = (*EYES_LEFT, *EYES_RIGHT, CHIN)
     if any(name not in stored for name in needed):
         return None

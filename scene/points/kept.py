@@ -19,6 +19,7 @@ from ...errors import FormatError, ParameterError, SceneError
 from ...face.fit.doubt import DOUBTFUL, DOUBTFUL_SCORE
 from ...mpeg4 import FEATURE_POINTS
 from ..blender_types import Mesh, Object
+from ..shape_mix import resting_values
 
 #: The mesh's points, and the same as they were before anything was corrected by hand.
 POINTS, AS_GIVEN = "risorius_points", "risorius_points_as_given"
@@ -138,6 +139,14 @@ def read_kept_with(mesh: Mesh, name: str, *, as_given: bool = False) -> KeptPoin
         return _decoded(str(text))
     except (ValueError, KeyError, TypeError) as problem:
         raise SceneError(name, "has unreadable feature points: find or import them again") from problem
+
+
+def as_found(mesh: Mesh) -> Mapping[str, float]:
+    """The shape keys that made the resting face what it was when its points were found: others are its expression.
+
+    Where no points are known, the user's keys as they are now.
+    """
+    return read_kept_with(mesh, mesh.name).resting if POINTS in mesh else resting_values(mesh)
 
 
 def write_kept(obj: Object, kept: KeptPoints, *, as_given: bool = False) -> None:

@@ -73,6 +73,13 @@ def tell_no_parts(head: Any, eye: Any) -> None:
     meshes.remove_parts(head.data)
 
 
+def set_a_shape_key(head: Any, eye: Any) -> None:
+    head.shape_key_add(name="Basis")
+    key = head.shape_key_add(name="mine")
+    key.data[3].co.x += 0.1
+    key.value = 0.7
+
+
 def stretch(head: Any, eye: Any) -> None:
     head.scale.z = 1.01
 
@@ -104,6 +111,7 @@ def shape_the_eye(head: Any, eye: Any) -> None:
         forget_a_point,
         correct_a_part,
         tell_no_parts,
+        set_a_shape_key,
         stretch,
         change_units,
         move_the_eye,
@@ -133,8 +141,10 @@ def test_what_leaves_it_the_same_face(head: Any, eye: Any) -> None:
     bpy.context.view_layer.update()
     before = fingerprint(head, companions)
     head.shape_key_add(name="Basis")
-    head.shape_key_add(name="mine").value = 0.7
-    head.data.shape_keys.key_blocks["mine"].data[3].co.x += 0.1
+    unused, muted = head.shape_key_add(name="unused"), head.shape_key_add(name="muted")
+    muted.value, muted.mute = 0.7, True
+    for key in (unused, muted):
+        key.data[3].co.x += 0.1
     head.modifiers.new("Subdivision", "SUBSURF")
     head.data.materials.append(bpy.data.materials.new("mine"))
     head.name, head.data.name, eye.name = "Other", "Others", "Ball"

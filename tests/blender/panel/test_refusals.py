@@ -209,7 +209,7 @@ def test_what_is_fine_is_remarked_on(head: Any) -> None:
     bpy.context.view_layer.update()
     said = " ".join(remarks(head))
     assert "modifiers change the vertex count" in said
-    assert "1 active shape keys" in said
+    assert "posed on the face as it shows, with 1 shape key (mine)" in said
 
 
 @pytest.mark.parametrize(
