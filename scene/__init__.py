@@ -22,6 +22,7 @@ points                feature points on objects: found, kept, bound, shown
 bake                  shape keys, actions and strips
 blendshape_keys       shape keys that engines know by name
 live                  previews and readings while the user works
+cut                   sewn lips cut open
 creases               wrinkles as attributes and node groups
 pictures              films, contact sheets, studio, letters
 jobs                  whole jobs for the command line

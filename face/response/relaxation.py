@@ -25,6 +25,9 @@ from .spring_skin import spring_skin
 #: stop the search a step earlier, and should not be seen.
 TOLERANCE = 1e-7
 
+#: The same where rounding ends the search: slivers of a mesh are far stiffer than the skin round them, metres.
+UNSEEN = 5e-6
+
 #: The same for a face that is only sketched, metres.
 SKETCHED = 5e-5
 
@@ -44,7 +47,7 @@ class Relaxation:
 
     @cached_property
     def _solver(self) -> EquilibriumSolver:
-        return EquilibriumSolver(spring_skin(self.skin), tolerance=TOLERANCE)
+        return EquilibriumSolver(spring_skin(self.skin), tolerance=TOLERANCE, unseen=UNSEEN)
 
     @cached_property
     def _membrane(self) -> float:

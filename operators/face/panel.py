@@ -13,6 +13,7 @@ from ..points.panel import kept_of
 from ..points.question import draw_question
 from ..requirements import MISSING, REMEDY, has_scipy
 from ..sidebar import Sidebar
+from .lips import draw_sewn
 from .ops import RISORIUS_OT_add_head, RISORIUS_OT_import_points
 from .six import RISORIUS_OT_bake_six
 
@@ -52,6 +53,8 @@ class RISORIUS_PT_main(Sidebar, Panel):
             return
         layout.label(text=obj.name, icon="CHECKMARK")
         _large(layout).operator(RISORIUS_OT_bake_six.bl_idname, icon="PLAY")
+        if kept is not None:
+            draw_sewn(layout, obj, kept)
 
     def _draw_unknown(self, layout: UILayout, obj: Object) -> None:
         """A mesh whose points are not known: the first step, all in one, and what helps where that fails."""

@@ -40,7 +40,7 @@ def sewn_remarks(name: str, sewn: frozenset[str]) -> list[str]:
     """What lips and lids without an opening mean for the face of an object."""
     found = []
     if "mouth" in sewn:
-        found.append(f"{name}: its lips are sewn together and stay closed")
+        found.append(f"{name}: its lips are sewn together and stay closed; use Cut Lips Open")
     if sewn - {"mouth"}:
         found.append(f"{name}: its lids are shut, in one surface with each other, and stay shut")
     return found

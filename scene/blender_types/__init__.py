@@ -10,6 +10,7 @@ collections     collections of Blender's, and what arrays are made of
 animation       datablocks, and what animates them
 nodes           nodes, materials, worlds, pictures
 meshes          meshes and their shape keys
+editing         meshes as they are edited
 objects         objects, modifiers, collections, and how they are evaluated
 scenes          scenes and how they are rendered
 windows         windows, and what the user works on
@@ -38,6 +39,7 @@ from .animation import (
     WithProperties,
 )
 from .collections import Buffer, Growing, Items, Matrix, Numbers, SearchTree
+from .editing import EditCorner, EditEdge, EditFace, EditMesh, EditVertex
 from .meshes import (
     Attribute,
     Attributes,
@@ -119,6 +121,11 @@ __all__ = [
     "Depsgraph",
     "DepsgraphUpdate",
     "Display",
+    "EditCorner",
+    "EditEdge",
+    "EditFace",
+    "EditMesh",
+    "EditVertex",
     "EvaluatedDatablock",
     "Event",
     "FCurve",

@@ -70,7 +70,7 @@ class UVLayers(Items[UVLayer], Protocol):
 class Materials(Items["Material | None"], Protocol):
     """Materials of a mesh or a curve, in their slots."""
 
-    def append(self, material: Material) -> None: ...
+    def append(self, material: Material | None) -> None: ...
 
 
 class Mesh(Datablock, Protocol):

@@ -43,7 +43,9 @@ class Finding:
         doubtful = self.kept.doubtful()
         listed = ", ".join(doubtful[:6]) + (" ..." if len(doubtful) > 6 else "")
         look = f"; check {listed}" if doubtful else ""
-        return f"{name}: {len(self.kept.points)} feature points found ({how}){look}"
+        sewn = "; the lips are sewn together" if "mouth" in self.kept.sewn else ""
+        shut = "; the lids stay shut" if self.kept.sewn - {"mouth"} else ""
+        return f"{name}: {len(self.kept.points)} feature points found ({how}){look}{sewn}{shut}"
 
 
 def find_points(

@@ -369,3 +369,17 @@ def test_bad_loads_are_named(solver: Any) -> None:
         integrator.step(State.at_rest(vertices), np.zeros((2, 3)))
     with pytest.raises(ParameterError, match="step"):
         solver(integrator.skin, 0.0)
+
+
+def test_where_the_search_ends_early_a_residual_that_nobody_sees_is_enough() -> None:
+    """A tolerance beyond double precision cannot be met."""
+    skin = Skin.from_mesh(*dome(), tissue())
+    load = np.zeros_like(skin.rest)
+    load[len(load) // 2] = 0.0, 0.0, 0.02
+    with pytest.raises(SolverError, match="no equilibrium"):
+        EquilibriumSolver(skin, tolerance=1e-22).solve(load)
+    near = EquilibriumSolver(skin, tolerance=1e-22, unseen=1e-9).solve(load)
+    exact = EquilibriumSolver(skin, tolerance=1e-10).solve(load)
+    np.testing.assert_allclose(near.positions, exact.positions, atol=1e-8)
+    with pytest.raises(SolverError, match="no equilibrium"):
+        EquilibriumSolver(skin, tolerance=1e-22, unseen=1e-9, max_iterations=2).solve(load)
