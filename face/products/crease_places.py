@@ -2,36 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from scipy.spatial import cKDTree
 
-from ...arrays import Floats, Ints
+from ...arrays import Floats
 from ..mesh.template import TemplateWarp
+from ..skin.lines import Beside, line_on
 from ..skin.outer import OuterSkin, smoothstep
 from .crease_table import CREASES, CreaseRow
 
-#: Points along a line, for its course.
-COURSE = 49
-
 _MIRROR = np.array([-1.0, 1.0, 1.0])
-
-
-@dataclass(frozen=True, eq=False)
-class Line:
-    """The outer skin about one line.
-
-    Attributes
-    ----------
-    across : (n,) signed distance, metres; of a single line positive away from the face's middle.
-    share : (n,) share of the line's length at the nearest place on it.
-    off : (n,) plain distance, metres.
-    """
-
-    across: Floats
-    share: Floats
-    off: Floats
 
 
 def place_crease(skin: OuterSkin, warp: TemplateWarp, row: CreaseRow) -> Floats:
@@ -48,18 +27,18 @@ def place_crease(skin: OuterSkin, warp: TemplateWarp, row: CreaseRow) -> Floats:
     return np.where((skin.positions[:, 0] > 0.0)[:, None], left, right)
 
 
-def _beside_all(skin: OuterSkin, warp: TemplateWarp, row: CreaseRow, *, mirrored: bool) -> list[Line]:
+def _beside_all(skin: OuterSkin, warp: TemplateWarp, row: CreaseRow, *, mirrored: bool) -> list[Beside]:
     """All lines of a crease; where there are several, the positive side of each is toward the last."""
-    lines = [_beside(skin, warp, line * _MIRROR if mirrored else line) for line in row.lines]
+    lines = [line_on(skin, warp, line * _MIRROR if mirrored else line).beside(skin.positions) for line in row.lines]
     signs = [1.0] * len(lines)
     for number, line in enumerate(lines if len(lines) > 1 else []):
         other = lines[number - 1] if number else lines[1]
         there = line.across[int(np.argmin(other.off))]
         signs[number] = float(np.copysign(1.0, there if number == 0 else -there))
-    return [Line(sign * line.across, line.share, line.off) for sign, line in zip(signs, lines, strict=True)]
+    return [Beside(sign * line.across, line.share, line.off) for sign, line in zip(signs, lines, strict=True)]
 
 
-def _places(lines: list[Line], spacing: float) -> Floats:
+def _places(lines: list[Beside], spacing: float) -> Floats:
     """(n, 2) place across and presence, from all lines of one side."""
     across = np.stack([line.across for line in lines])
     shares = np.stack([line.share for line in lines])
@@ -79,30 +58,3 @@ def _places(lines: list[Line], spacing: float) -> Floats:
     lasts, gone = CREASES.fades
     presence = ending * smoothstep((gone - beyond) / (gone - lasts)) * near
     return np.column_stack([place, presence])
-
-
-def _beside(skin: OuterSkin, warp: TemplateWarp, line: Floats) -> Line:
-    """The outer skin about one line (k, 3) of the template."""
-    course = warp(_resampled(line))
-    _, nearest = cKDTree(skin.positions).query(course)
-    normal = skin.normals[nearest]
-    course = course + normal * (normal * (skin.positions[nearest] - course)).sum(axis=1, keepdims=True)
-    outwards = np.cross(np.gradient(course, axis=0), normal)
-    outwards /= np.maximum(np.linalg.norm(outwards, axis=1, keepdims=True), 1e-12)
-    outwards *= np.copysign(1.0, (outwards[:, 0] * course[:, 0]).sum())
-    away = skin.positions[:, None] - course
-    flat = away - normal * (away * normal).sum(axis=2, keepdims=True)
-    closest: Ints = np.argmin((flat**2).sum(axis=2) + 0.1 * (away**2).sum(axis=2), axis=1)
-    every = np.arange(skin.vertex_count)
-    return Line(
-        across=(flat[every, closest] * outwards[closest]).sum(axis=1),
-        share=closest / (COURSE - 1.0),
-        off=np.linalg.norm(away[every, closest], axis=1),
-    )
-
-
-def _resampled(line: Floats) -> Floats:
-    """(COURSE, 3) points at even distances along a line (k, 3)."""
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
-    places = np.linspace(0.0, along[-1], COURSE)
-    return np.column_stack([np.interp(places, along, line[:, axis]) for axis in range(3)])

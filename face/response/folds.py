@@ -21,10 +21,11 @@ from ...physics.mesh import Sparse
 from ...tables import TomlTable, read_toml
 from ..figures import ANATOMY, Length, Share, read_figures
 from ..mesh.template import MM, TemplateWarp
+from ..skin.lines import COURSE, Beside, line_on
 from ..skin.outer import OuterSkin, smoothstep
 
-#: Points along a line: for its course, and where compression is taken.
-COURSE, GAUGES = 49, 9
+#: Points along a line at which compression is taken.
+GAUGES = 9
 
 #: Half a valley is at least this many edges wide; made so many times wider by that, a fold begins to fade and is gone.
 EDGES = 1.3
@@ -95,13 +96,6 @@ def read_folds(path: Path = ANATOMY / "folds.toml") -> list[FoldRow]:
     return [fold for name, row in read_toml(path).tables("folds").items() for fold in _rows(name, row)]
 
 
-def _resample(line: Floats, count: int) -> Floats:
-    """(count, 3) points at even distances along a polyline (k, 3)."""
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
-    places = np.linspace(0.0, along[-1], count)
-    return np.column_stack([np.interp(places, along, line[:, axis]) for axis in range(3)])
-
-
 @dataclass(frozen=True, eq=False)
 class PlacedFold:
     """One fold on one face.
@@ -152,43 +146,27 @@ def _profile(across: Floats, lean: float) -> Floats:
 
 def place_fold(skin: OuterSkin, warp: TemplateWarp, row: FoldRow, spared: Floats) -> PlacedFold | None:
     """A fold on a face, or None where the mesh is too coarse for it; `spared` (n,) is 0 where nothing may move."""
-    rest, tree = skin.positions, cKDTree(skin.positions)
-    course = warp(_resample(row.line, COURSE))
-    _, nearest = tree.query(course)
-    normal = skin.normals[nearest]
-    course = course + normal * (normal * (rest[nearest] - course)).sum(axis=1, keepdims=True)
-    tangent = np.gradient(course, axis=0)
-    outwards = np.cross(tangent, normal)
-    outwards /= np.maximum(np.linalg.norm(outwards, axis=1, keepdims=True), 1e-12)
-    outwards *= np.sign(outwards[:, 0].sum() * course[:, 0].sum() or 1.0)
-    edge = float(np.median(np.sqrt(skin.areas[tree.query(course, k=6)[1]])))
+    rest, tree, line = skin.positions, cKDTree(skin.positions), line_on(skin, warp, row.line)
+    edge = float(np.median(np.sqrt(skin.areas[tree.query(line.course, k=6)[1]])))
     width = max(row.width, EDGES * edge)
     excess = width / row.width
     depth = row.depth / excess * (1.0 - float(smoothstep(np.array((excess - FADES_FROM) / (FADES_TO - FADES_FROM)))))
     if depth < SHALLOWEST:
         return None
-    field = _field(skin, course, normal, outwards, width, row.lean)
+    field = _field(line.beside(rest), width, row.lean)
     field = _neutral(field * (depth * spared)[:, None], skin.areas)
     at = np.linspace(0, COURSE - 1, GAUGES).round().astype(np.int64)
-    reach = 0.5 * max(row.gauge, 3.0 * edge) * outwards[at]
-    plus, minus = (_reader(tree, course[at] + sign * reach, skin.vertex_count) for sign in (1.0, -1.0))
+    reach = 0.5 * max(row.gauge, 3.0 * edge) * line.outwards[at]
+    plus, minus = (_reader(tree, line.course[at] + sign * reach, skin.vertex_count) for sign in (1.0, -1.0))
     lengths = np.linalg.norm(np.asarray(plus @ rest - minus @ rest), axis=1)
     return PlacedFold(row, plus, minus, lengths, sparse.csr_array(field))
 
 
-def _field(skin: OuterSkin, course: Floats, normal: Floats, outwards: Floats, width: float, lean: float) -> Floats:
-    """(n, GAUGES) heights of a fold of depth 1 over the skin, shared among the gauges along the course."""
-    away = skin.positions[:, None] - course
-    flat = away - normal * (away * normal).sum(axis=2, keepdims=True)
-    near = (flat**2).sum(axis=2) + 0.1 * (away**2).sum(axis=2)
-    closest: Ints = np.argmin(near, axis=1)
-    every = np.arange(skin.vertex_count)
-    across = (flat[every, closest] * outwards[closest]).sum(axis=1) / width
-    along = closest / (COURSE - 1.0)
-    ends = smoothstep(along / FOLDS.ends) * smoothstep((1.0 - along) / FOLDS.ends)
-    off = np.linalg.norm(away[every, closest], axis=1)
-    height = _profile(across, lean) * ends * (off < 5.0 * width)
-    place = along * (GAUGES - 1.0)
+def _field(beside: Beside, width: float, lean: float) -> Floats:
+    """(n, GAUGES) heights of a fold of depth 1 over the skin about its line, shared among the gauges along it."""
+    ends = smoothstep(beside.share / FOLDS.ends) * smoothstep((1.0 - beside.share) / FOLDS.ends)
+    height = _profile(beside.across / width, lean) * ends * (beside.off < 5.0 * width)
+    place = beside.share * (GAUGES - 1.0)
     share = np.maximum(1.0 - np.abs(place[:, None] - np.arange(GAUGES)), 0.0)
     heights: Floats = height[:, None] * share
     return heights

@@ -1,1 +1,2 @@
-"""The visible skin as a sheet: geometry only (`outer`), and split finely where the mesh is coarse (`fine`)."""
+"""The visible skin as a sheet: geometry only (`outer`), split finely where the mesh is coarse (`fine`), lines on it
+(`lines`)."""

@@ -56,7 +56,6 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
         0.1,
         0.1,
         3.0,
-        0.1,
         5.0,
         1.5,
     ),  # how coarse a mesh may be; averages over vertices
@@ -65,6 +64,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "response/rooted.py": (0.02, 1e-3),  # ties that keep matrices regular
     "response/spring_skin.py": (3e-3,),  # when a sheet buckles
     "skin/fine.py": (6.0, 3.5),  # how finely skin is split
+    "skin/lines.py": (0.1,),  # which place of a line is nearest
     "skin/outer.py": (3.0,),  # the smooth step
 }
 
