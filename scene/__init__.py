@@ -15,6 +15,7 @@ following             which objects belong to a face, and how they follow it
 parts_found           parts of a face's mesh, told and corrected
 progress              the progress of long work, where scripts look for it
 refusals              what Risorius refuses to touch, and the remedy
+modifiers             modifiers of ours among those of the user's
 node_graph            node groups built in a few words
 materials             materials and worlds with nodes
 gltf                  a face with its clips as glTF

@@ -17,6 +17,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+from ..arrays import Floats
 from ..errors import SceneError
 from .bake import action as actions
 from .bake import shape_keys
@@ -145,6 +146,8 @@ def _copies(objects: Sequence[Object], clips: dict[str, Action]) -> Iterator[Sce
             copies[obj].data = obj.data.copy()
             _strip_modifiers(copies[obj])
             _lay_out(copies[obj].data.shape_keys, moved)
+        for obj in objects:
+            _play_out_drivers(scene, copies[obj], moved)
         scene.frame_start, scene.frame_end = 0, int(max(action.frame_end for action in moved.values()))
         with _named(copies):
             yield scene
@@ -234,6 +237,46 @@ def _lay_out(keys: Key | None, clips: dict[str, Action]) -> None:
     for block in keys.key_blocks:
         if block.name in own:
             block.value = 0.0
+
+
+def _play_out_drivers(scene: Scene, copy: Object, clips: dict[str, Action]) -> None:
+    """Under an armature, give driven keys the values that their drivers give them in each clip, frame by frame.
+
+    There Blender's exporter takes the animation of shape keys from the armature as soon as one key has a driver, and
+    leaves our clips out.
+    """
+    keys, parent = copy.data.shape_keys, copy.parent
+    animation = None if keys is None else keys.animation_data
+    if keys is None or animation is None or parent is None or parent.type != "ARMATURE" or not animation.drivers:
+        return
+    driven = [block.name for block in keys.key_blocks if animation.drivers.find(actions.data_path(block.name))]
+    played = {}
+    for track in animation.nla_tracks:
+        track.mute = True
+    for track in animation.nla_tracks:
+        action = clips[track.name]
+        frames = np.arange(int(action.frame_end) + 1, dtype=np.float64)
+        track.mute = False
+        played[action] = frames, _driven_values(scene, copy, driven, frames)
+        track.mute = True
+    for track in animation.nla_tracks:
+        track.mute = False
+    for driver in list(animation.drivers):
+        animation.drivers.remove(driver)
+    for action, (frames, values) in played.items():
+        for name, column in zip(driven, values.T, strict=True):
+            actions.write_curve(action, name, actions.Curve(frames, column, linear=True))
+
+
+def _driven_values(scene: Scene, obj: Object, names: Sequence[str], frames: Floats) -> Floats:
+    """(frames, names) values of some shape keys, as they are evaluated."""
+    values = np.empty((len(frames), len(names)))
+    for row, frame in zip(values, frames, strict=True):
+        scene.frame_set(int(frame))
+        keys = obj.evaluated_get(scene.view_layers[0].depsgraph).data.shape_keys
+        assert keys is not None
+        row[:] = [keys.key_blocks[name].value for name in names]
+    return values
 
 
 @contextmanager

@@ -138,11 +138,14 @@ def remove_keys(obj: Object, clips: Iterable[str] | None = None) -> tuple[str, .
 
 
 def _remove_blocks(obj: Object, keys: Key, names: Iterable[str]) -> None:
-    """Remove the named keys that exist."""
+    """Remove the named keys that exist; the one that the user works on stays active."""
+    active = "" if obj.active_shape_key is None else obj.active_shape_key.name
     for name in names:
         block = keys.key_blocks.get(name)
         if block is not None:
             obj.shape_key_remove(block)
+    if active in keys.key_blocks:
+        obj.active_shape_key_index = keys.key_blocks.find(active)
 
 
 def own_face(mesh: Mesh) -> str:

@@ -184,6 +184,12 @@ class NlaTracks(Items[NlaTrack], Protocol):
     def remove(self, track: NlaTrack) -> None: ...
 
 
+class Drivers(Items[FCurve], Protocol):
+    """The drivers of a datablock."""
+
+    def remove(self, driver: FCurve) -> None: ...
+
+
 class AnimData(Protocol):
     """What animates a datablock."""
 
@@ -194,4 +200,4 @@ class AnimData(Protocol):
     nla_tracks: NlaTracks
 
     @property
-    def drivers(self) -> Items[FCurve]: ...
+    def drivers(self) -> Drivers: ...

@@ -27,6 +27,8 @@ class Modifier(Protocol):
 class Modifiers(Items[Modifier], Protocol):
     """An object's modifiers."""
 
+    active: Modifier | None
+
     def new(self, name: str, type: str) -> Modifier: ...
     def remove(self, modifier: Modifier) -> None: ...
     def move(self, from_index: int, to_index: int) -> None: ...
@@ -48,6 +50,7 @@ class Object(Datablock, Protocol):
     add_rest_position_attribute: bool
     hide_render: bool
     hide_viewport: bool
+    active_shape_key_index: int
     visible_camera: bool
     show_only_shape_key: bool
 
@@ -61,6 +64,8 @@ class Object(Datablock, Protocol):
     def bound_box(self) -> Sequence[Numbers]: ...
     @property
     def is_editable(self) -> bool: ...
+    @property
+    def active_shape_key(self) -> ShapeKey | None: ...
     @property
     def modifiers(self) -> Modifiers: ...
     @property

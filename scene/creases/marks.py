@@ -15,6 +15,7 @@ from ..attributes import remove_attribute, write_vectors
 from ..blender_types import Material, Modifier, Node, NodeSocket, NodeTree, Object
 from ..faces import FaceSource, Piece, face_of
 from ..materials import node_tree_of, principled_of
+from ..modifiers import add_first, take_away
 from . import nodes
 
 if TYPE_CHECKING:
@@ -51,9 +52,7 @@ def settle(source: FaceSource, creases: Creases | None) -> None:
         return
     _clear(obj)
     _write_places(source.pieces[0], creases)
-    modifier = obj.modifiers.new(MODIFIER, "NODES")
-    modifier.node_group = nodes.measuring_group(creases.rounds)
-    obj.modifiers.move(len(obj.modifiers) - 1, 0)
+    add_first(obj, MODIFIER, nodes.measuring_group(creases.rounds))
     nodes.drawing_group().use_fake_user = not shown_by(obj)
 
 
@@ -140,7 +139,7 @@ def unmeasured(objects: Iterable[Object]) -> Iterator[None]:
 def _clear(obj: Object) -> None:
     """Remove modifier and attributes."""
     for modifier in [modifier for modifier in obj.modifiers if _is_ours(modifier)]:
-        obj.modifiers.remove(modifier)
+        take_away(obj, modifier)
     ours = [a.name for a in obj.data.attributes if a.name in (nodes.REST, nodes.HEAD) or a.name.startswith(nodes.PLACE)]
     for name in ours:
         remove_attribute(obj.data, name)

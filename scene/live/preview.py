@@ -13,6 +13,7 @@ import bpy
 from ...arrays import Floats
 from ..attributes import remove_attribute, write_vectors
 from ..blender_types import Modifier, NodeTree, Object
+from ..modifiers import add_first, take_away
 from ..node_graph import NodeGraph
 
 NAME = "Risorius Preview"
@@ -25,10 +26,8 @@ def show(obj: Object, positions: Floats) -> None:
     write_vectors(mesh, ATTRIBUTE, positions)
     modifier = _modifier(obj)
     if modifier is None:
-        modifier = obj.modifiers.new(NAME, "NODES")
-        modifier.node_group = _group()
+        modifier = add_first(obj, NAME, _group())
         modifier.show_render = modifier.show_in_editmode = modifier.show_expanded = False
-        obj.modifiers.move(len(obj.modifiers) - 1, 0)
     modifier.show_viewport = True
     mesh.update_tag()
 
@@ -58,7 +57,7 @@ def remove_all() -> None:
         if obj.type == "MESH" and obj.library is None:
             modifier = _modifier(obj)
             if modifier is not None:
-                obj.modifiers.remove(modifier)
+                take_away(obj, modifier)
     remove_unused()
 
 

@@ -316,3 +316,34 @@ def test_a_validator_finds_no_fault_and_the_file_comes_back(head: Any, made: Any
 def test_engine_shapes_as_glb_are_valid(tmp_path: Path) -> None:
     blendshape_file(tmp_path / "shapes.glb", names="oculus_visemes")
     refuse_invalid(tmp_path / "shapes.glb")
+
+
+def test_keys_that_ours_drive_move_in_the_clips_under_an_armature(head: Any, tmp_path: Path) -> None:
+    """A corrective key at half of joy: it follows in joy's clip and stays at rest in fear's."""
+    rigged(head)
+    for name in ("Basis", "fix"):
+        head.shape_key_add(name=name, from_mix=False)
+    for word in ("joy", "fear"):
+        head.risorius.emotion.word = word
+        assert bpy.ops.risorius.bake_expression() == {"FINISHED"}
+    keys = head.data.shape_keys
+    driver = keys.key_blocks["fix"].driver_add("value").driver
+    variable = driver.variables.new()
+    variable.targets[0].id_type, variable.targets[0].id = "KEY", keys
+    variable.targets[0].data_path = 'key_blocks["joy"].value'
+    driver.expression = f"0.5 * {variable.name}"
+    export_gltf([head], tmp_path / "face.glb")
+    assert len(keys.animation_data.drivers) == 1
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    bpy.ops.import_scene.gltf(filepath=str(tmp_path / "face.glb"))
+    face = next(obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data.shape_keys is not None)
+    came = face.data.shape_keys.animation_data
+    came.action = None
+    for clip, highest in (("joy", 0.5), ("fear", 0.0)):
+        for track in came.nla_tracks:
+            track.mute = track.name != clip
+        seen = []
+        for frame in range(0, 70, 2):
+            bpy.context.scene.frame_set(frame)
+            seen.append(face.data.shape_keys.key_blocks["fix"].value)
+        assert max(seen) == pytest.approx(highest, abs=1e-4)
