@@ -61,7 +61,7 @@ def differences(before: State, after: State) -> list[str]:
 
 
 #: Places that Risorius may take where they are empty.
-TAKEN = {"shape_keys", "animation_data", "action", "action_slot", "add_rest_position_attribute"}
+TAKEN = {"shape_keys", "animation_data", "action", "action_slot"}
 
 
 def _is_own(item: Any) -> bool:
