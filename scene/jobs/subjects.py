@@ -12,10 +12,14 @@ from ...face.mesh.point_files import read_point_file
 from ...progress import Progress, Work, part_of
 from ..bake.target import Target
 from ..blender_types import Mesh, Object
+from ..companions import Companion
+from ..following.found import find_followers
+from ..following.kinds import PARTS, Follows
 from ..head import add_default_head, select_only
 from ..points.found import Finding, find_points, seek_points
 from ..points.kept import has_points, write_kept
 from ..points.stored import store_points
+from ..refusals import reason
 from .inputs import Input, meshes_of, named_mesh, open_input
 from .painting import paint_parts
 
@@ -65,7 +69,21 @@ def subject(asked: Input, *, creases: bool = False) -> Work[Subject]:
     if not asked.is_scene and not obj.data.materials:
         paint_parts(obj, creases=creases)
     _show(obj)
-    return Subject(Target(obj), remarks, asked.is_scene)
+    return Subject(_with_followers(obj), remarks, asked.is_scene)
+
+
+def _with_followers(obj: Object) -> Target:
+    """A head with the objects of its scene that follow it; what cannot be written to stays behind."""
+    companions, behind = [], []
+    for follower in find_followers(obj):
+        why = follower.why_not or reason(follower.obj)
+        if follower.follows is Follows.NONE or why:
+            behind.append(
+                f"{follower.obj.name} ({(why or 'does not follow').removeprefix(follower.obj.name).lstrip(': ')})"
+            )
+        else:
+            companions.append(Companion(follower.obj, PARTS[follower.follows]))
+    return Target(obj, tuple(companions), left_behind=tuple(behind))
 
 
 def _bearer(path: Path, asked: Input) -> Work[tuple[Object, tuple[str, ...]]]:

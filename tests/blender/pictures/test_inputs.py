@@ -155,3 +155,20 @@ def test_an_object_is_named_where_there_are_objects(
 ) -> None:
     assert cli.main(["bake", "joy", "--out", "a.blend", *options]) == 2
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_what_belongs_to_the_face_follows_it(head: Any, tmp_path: Path) -> None:
+    """A cap named Eyebrows on the brow gets the expression's key, too; a far wall does not."""
+    vertices, polygons = rest_vertices(head.data), [tuple(p.vertices) for p in head.data.polygons]
+    high = (vertices[:, 2] > np.quantile(vertices[:, 2], 0.55)) & (vertices[:, 1] < np.quantile(vertices[:, 1], 0.15))
+    number = np.cumsum(high) - 1
+    mesh = bpy.data.meshes.new("Eyebrows")
+    own = [[int(number[v]) for v in p] for p in polygons if high[list(p)].all()]
+    mesh.from_pydata((vertices[high] + [0.0, -0.002, 0.0]).tolist(), [], own)
+    bpy.context.collection.objects.link(bpy.data.objects.new("Eyebrows", mesh))
+    grid("Wall", size=4.0, steps=3)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "brows.blend"))
+    words.bake_file(tmp_path / "out.blend", mesh=tmp_path / "brows.blend", words=["surprise"])
+    assert "surprise" in bpy.data.objects["Eyebrows"].data.shape_keys.key_blocks
+    assert bpy.data.objects["Wall"].data.shape_keys is None
