@@ -12,6 +12,7 @@ from ..errors import ModelError
 from ..mpeg4 import FAPS
 from ..physics import mesh
 from ..physics.elastic import laplacian
+from ..physics.mesh import Sparse
 from ..polygons import PolygonTable
 from .bodies.contact import Contact, build_contact
 from .bodies.eyeball import Eyeball, build_eyeball
@@ -38,6 +39,7 @@ from .response.pulls import Pulls, pulls_of
 from .response.relaxation import Relaxation
 from .response.rooted import RootedParts
 from .response.sheet import ElasticSheet
+from .skin.coarse import MOST, Thinning
 from .skin.fine import SOLVED, fine_skin
 from .skin.outer import OuterSkin
 
@@ -144,9 +146,24 @@ class Anatomy:
         )
 
     @cached_property
+    def _thinning(self) -> Thinning | None:
+        """The outer skin thinned out, where it is dense."""
+        return Thinning(self.given_skin) if self.given_skin.vertex_count > MOST else None
+
+    @cached_property
     def skin(self) -> OuterSkin:
-        """The outer skin as it is solved: split where the mesh is coarse, the vertices of `given_skin` first."""
-        return fine_skin(self.given_skin, SOLVED)[0]
+        """The outer skin as it is solved: split where the mesh is coarse, thinned out where it is dense.
+
+        Where it is split, the vertices of `given_skin` are the first ones.
+        """
+        return fine_skin(self.given_skin, SOLVED)[0] if self._thinning is None else self._thinning.skin
+
+    @cached_property
+    def carry(self) -> Sparse:
+        """(g, n) takes fields over `skin` to the vertices of `given_skin`."""
+        if self._thinning is not None:
+            return self._thinning.carry
+        return sparse.eye_array(self.given_skin.vertex_count, self.skin.vertex_count, format="csr")
 
     @cached_property
     def sheet(self) -> ElasticSheet:
@@ -252,9 +269,8 @@ class Anatomy:
         rows = self.inverse_rows
         if self._same_skin is not None:
             return self._same_skin.kernel.first(len(rows))
-        own = self.points.matrix(rows.names)[:, self.skin.index]
-        shape = (len(rows), self.skin.vertex_count)
-        return kernel_of(rows, sparse.csr_array((own.data, own.indices, own.indptr), shape=shape), self.sheet)
+        own = self.points.matrix(rows.names)[:, self.given_skin.index]
+        return kernel_of(rows, sparse.csr_array(own @ self.carry), self.sheet)
 
     @cached_property
     def inverse(self) -> Inverse:
@@ -263,8 +279,14 @@ class Anatomy:
 
     @cached_property
     def points_on_skin(self) -> Ints:
-        """Vertices of the outer skin that FAPs are read off."""
+        """Vertices of `skin` that FAPs are read off."""
         return np.unique(self.kernel.matrix.indices // 3).astype(np.int64)
+
+    @cached_property
+    def points_on_given_skin(self) -> Ints:
+        """The same of `given_skin`."""
+        read = self.points.matrix(self.inverse_rows.names)[:, self.given_skin.index]
+        return np.unique(read.indices).astype(np.int64)
 
     @cached_property
     def inner_skin(self) -> InnerSkin:

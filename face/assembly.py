@@ -25,7 +25,7 @@ class Assembly:
     @cached_property
     def folds(self) -> Folds:
         """Where the skin folds; no FAP's point moves with it."""
-        return Folds(self.anatomy.given_skin, self.anatomy.warp, self.anatomy.points_on_skin)
+        return Folds(self.anatomy.given_skin, self.anatomy.warp, self.anatomy.points_on_given_skin)
 
     def positions(self, displacement: Floats, jaw: JawMotion, request: Request) -> Floats:
         """(V, 3) positions in the face's coordinates.
@@ -54,7 +54,7 @@ class Assembly:
 
     def _folded(self, displacement: Floats, request: Request) -> Floats:
         """(g, 3) displacement of the outer skin's own vertices, with folds where the drive has them."""
-        own = displacement[: self.anatomy.given_skin.vertex_count]
+        own = np.asarray(self.anatomy.carry @ displacement)
         if not (self.with_folds and DRIVES[request.drive].folds):
             return own
         return own + self.folds.displacement(own)

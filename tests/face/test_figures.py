@@ -63,6 +63,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "response/relaxation.py": (5e-5,),  # how near a sketch comes
     "response/rooted.py": (0.02, 1e-3),  # ties that keep matrices regular
     "response/spring_skin.py": (3e-3,),  # when a sheet buckles
+    "skin/coarse.py": (1.2, 0.1, 4.5, 0.7, 0.05, 2.4, 0.05, 1e-3),  # how skin is thinned out; weights of its vertices
     "skin/fine.py": (6.0, 3.5),  # how finely skin is split
     "skin/lines.py": (0.1,),  # which place of a line is nearest
     "skin/outer.py": (3.0,),  # the smooth step

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from risorius.api import Face
+from risorius.face import anatomy
 from risorius.face.mesh import reach
 from risorius.face.mesh.reach import ReachFigures, within_reach
 from risorius.polygons import PolygonTable
@@ -80,6 +81,7 @@ def test_a_body_cut_off_the_head_leaves_its_faces_as_they_are(shared: Path, monk
     vertices = data["vertices"].astype(np.float64)
     wide = np.full(68, np.nan)
     wide[[2, 5, 6, 11, 12]] = 600.0, 150.0, 150.0, 80.0, 80.0
+    monkeypatch.setattr(anatomy, "MOST", len(vertices))
     cut = Face.from_arrays(vertices, polygons, points)
     posed, solved = cut.pose(wide).positions, cut.anatomy.skin.vertex_count
     monkeypatch.setattr(reach, "REACH", ReachFigures(along_the_skin=10.0))

@@ -1,0 +1,280 @@
+"""The outer skin thinned out where the mesh is dense, so that a scan's face is solved as fast as any other's.
+
+Elastic skin bends over a centimetre: vertices much nearer to each other than that cost time and change little. A dense
+skin is solved on a share of its own vertices: close together along lips and lids, ever farther apart away from them.
+What these do, the other vertices do by their place among them along the skin.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import cKDTree
+
+from ...arrays import Bools, Floats, Ints
+from ...physics.elastic import diagonal_matrix
+from ...physics.mesh import Sparse, adjacency, triangulate, vertex_areas
+from ...polygons import PolygonTable
+from ..mesh.openings import Opening
+from ..mesh.template import MM
+from .outer import OuterSkin
+
+#: A skin of more vertices than this is thinned out.
+MOST = 12_000
+
+#: No two vertices are kept nearer to each other than the first beside the margins of lips and lids, and so much more
+#: by each metre from them, up to the last; metres.
+NEAREST, WIDENING, FARTHEST = 1.2 * MM, 0.1, 4.5 * MM
+
+#: Vertices as near to a margin as this share of that distance are left out: the margin's own stand for them.
+BESIDE = 0.7
+
+#: One that stands for less skin than this share of the square of that distance is not kept.
+LEAST = 0.05
+
+#: A vertex goes with kept ones nearer than so many times that distance.
+REACH = 2.4
+
+#: Weights are level nearer to a vertex than this share of its reach; slopes that its neighbours do not tell are held
+#: at 0 by this much.
+LEVEL, SHEET_TIE = 0.05, 1e-3
+
+#: Weights whose sizes sum up to more than this tell nothing, and mere averages are taken; what no other vertex reaches
+#: goes with the one that is nearest, which counts so much for every other.
+FIRM, FAINT = 2.0, 1e-6
+
+#: Vertices whose weights are worked out at once.
+AT_ONCE = 4000
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Where vertices are about the margins of all openings; (n,) along the skin, metres.
+
+    Attributes
+    ----------
+    upper, lower : distances from upper and lower margins. corner : from where these meet.
+    """
+
+    upper: Floats
+    lower: Floats
+    corner: Floats
+
+    @cached_property
+    def off(self) -> Floats:
+        """(n,) distance from the nearest margin."""
+        return np.minimum(self.upper, self.lower)
+
+    @cached_property
+    def side(self) -> Floats:
+        """(n,) +1 towards an upper margin, -1 towards a lower one; less the more a corner is what is nearest."""
+        beside = np.clip(1.0 - self.off / np.maximum(self.corner, 1e-9), 0.0, 1.0)
+        return beside * np.sign(self.lower - self.upper)
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Kept vertices and what of the skin is nearest to each.
+
+    Attributes
+    ----------
+    kept : (N,) vertices that are kept. owners : (n,) the nearest of them along the skin, by its number among them.
+    triangles : (T, 3) between those whose surroundings meet; the last `web` of them are of webs.
+    """
+
+    kept: Ints
+    owners: Ints
+    triangles: Ints
+    web: int
+
+
+class Thinning:
+    """One dense skin being thinned out; each part is worked out when first asked for."""
+
+    def __init__(self, skin: OuterSkin) -> None:
+        self.given = skin
+
+    @cached_property
+    def _triangles(self) -> Ints:
+        return triangulate(self.given.polygons)
+
+    @cached_property
+    def _graph(self) -> Sparse:
+        return adjacency(self.given.positions, self._triangles, diagonals=False)
+
+    @cached_property
+    def _openings(self) -> tuple[Opening, ...]:
+        return self.given.mouth, *self.given.eyes.values()
+
+    @cached_property
+    def _places(self) -> Places:
+        sources = (
+            [opening.upper for opening in self._openings],
+            [opening.lower for opening in self._openings],
+            [arc[[0, -1]] for opening in self._openings for arc in (opening.upper, opening.lower)],
+        )
+        fields = [
+            dijkstra(self._graph, directed=False, indices=np.unique(np.concatenate(arcs)), min_only=True)
+            for arcs in sources
+        ]
+        return Places(*(np.minimum(field, 1.0) for field in fields))
+
+    @cached_property
+    def _apart(self) -> Floats:
+        """(n,) how far from each other vertices are kept, metres."""
+        return np.minimum(NEAREST + WIDENING * self._places.off, FARTHEST)
+
+    @cached_property
+    def _webs(self) -> PolygonTable:
+        return self.given.polygons[len(self.given.polygons) - self.given.web :]
+
+    @cached_property
+    def _chosen(self) -> Ints:
+        """(M,) vertices that are far enough from each other."""
+        positions = self.given.positions
+        arcs = [_thinned(positions, arc) for opening in self._openings for arc in (opening.upper, opening.lower)]
+        stay = np.unique(np.concatenate([*arcs, self._webs.loops]))
+        return _chosen(positions, self._apart, stay, self._places.off > BESIDE * self._apart)
+
+    @cached_property
+    def _cells(self) -> Cells:
+        """What is nearest to which of them; those that stand for hardly any skin are left out, too."""
+        first_web = len(self._triangles) - int((self._webs.sizes - 2).sum())
+        kept = self._chosen
+        while True:
+            found = dijkstra(self._graph, directed=False, indices=kept, min_only=True, return_predecessors=True)
+            owners = np.searchsorted(kept, found[2])
+            triangles, web = _dual(owners[self._triangles], first_web)
+            surface = vertex_areas(self.given.positions[kept], triangles) > LEAST * self._apart[kept] ** 2
+            if surface.all():
+                return Cells(kept, owners, triangles, web)
+            kept = kept[surface]
+
+    @property
+    def kept(self) -> Ints:
+        """(N,) vertices that are kept."""
+        return self._cells.kept
+
+    @cached_property
+    def skin(self) -> OuterSkin:
+        """The same skin with fewer vertices."""
+        local = np.full(self.given.vertex_count, -1, dtype=np.int64)
+        local[self.kept] = np.arange(len(self.kept))
+
+        def inside(opening: Opening) -> Opening:
+            return Opening(*(local[arc][local[arc] >= 0] for arc in (opening.upper, opening.lower)))
+
+        return replace(
+            self.given,
+            index=self.given.index[self.kept],
+            positions=self.given.positions[self.kept],
+            polygons=PolygonTable.of(self._cells.triangles),
+            web=self._cells.web,
+            mouth=inside(self.given.mouth),
+            eyes={side: inside(opening) for side, opening in self.given.eyes.items()},
+            _cache={},
+        )
+
+    @cached_property
+    def carry(self) -> Sparse:
+        """(n, N) weights that give every vertex what the kept ones round it do; a kept vertex does its own."""
+        count = len(self.kept)
+        graph = adjacency(self.skin.positions, self.skin.polygons, diagonals=False)
+        joined = sparse.csr_array((np.ones_like(graph.data), graph.indices, graph.indptr), shape=graph.shape)
+        step = joined + diagonal_matrix(np.ones(count))
+        around = sparse.csr_array(step @ step @ step)
+        owners = self._cells.owners
+        parts = np.array_split(np.argsort(owners, kind="stable"), len(owners) // AT_ONCE + 1)
+        rows, columns, weights = zip(*(self._shares(around, part) for part in parts), strict=True)
+        entries = (np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns)))
+        return sparse.csr_array(entries, shape=(len(owners), count))
+
+    def _shares(self, around: Sparse, part: Ints) -> tuple[Ints, Ints, Floats]:
+        """Entries of `carry` for some vertices (p,): rows, columns, weights.
+
+        Moving least squares over what is `around` each one's owner, with weights that grow without end towards a kept
+        vertex: constant and linear displacements are carried as they are.
+        """
+        owners, positions = self._cells.owners[part], self.given.positions
+        columns, has = _padded(around, owners)
+        reach = REACH * self._apart[part][:, None]
+        away = (positions[self.kept][columns] - positions[part][:, None]) / reach[:, :, None]
+        distance = np.linalg.norm(away, axis=2) + self._round_corners(part, columns) / reach
+        weight = np.where(has, np.maximum(1.0 - distance, 0.0) ** 2 / (distance**2 + LEVEL**2), 0.0)
+        weight[(columns == owners[:, None]) & has] += FAINT
+        basis = np.concatenate([np.ones((*distance.shape, 1)), away], axis=2)
+        moment = np.einsum("pk,pki,pkj->pij", weight, basis, basis)
+        moment[:, range(1, 4), range(1, 4)] += SHEET_TIE * weight.sum(axis=1)[:, None]
+        value = np.zeros((len(part), 4, 1))
+        value[:, 0] = 1.0
+        shares = weight * np.einsum("pki,pi->pk", basis, np.linalg.solve(moment, value)[:, :, 0])
+        beyond = np.abs(shares).sum(axis=1) > FIRM
+        shares[beyond] = weight[beyond] / weight[beyond].sum(axis=1, keepdims=True)
+        own = self.kept[owners] == part
+        shares[own] = (columns[own] == owners[own][:, None]) & has[own]
+        used = has & (shares != 0.0)
+        return np.repeat(part, used.sum(axis=1)), columns[used], shares[used]
+
+    def _round_corners(self, part: Ints, columns: Ints) -> Floats:
+        """(p, k) how much longer the way from vertices (p,) to kept ones is where it leads from lip to lip."""
+        places, others = self._places, self.kept[columns]
+        across = np.maximum(-places.side[part][:, None] * places.side[others], 0.0)
+        return across * (places.corner[part][:, None] + places.corner[others])
+
+
+def _thinned(positions: Floats, arc: Ints) -> Ints:
+    """Those of a margin's vertices (k,) that are kept: its ends, and between them as many as may be."""
+    steps = np.linalg.norm(np.diff(positions[arc], axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    count = max(int(along[-1] / NEAREST), 1) + 1
+    places = np.searchsorted(along, np.linspace(0.0, along[-1], count) - 0.5 * steps.min(initial=0.0))
+    return np.unique(arc[places])
+
+
+def _chosen(positions: Floats, apart: Floats, stay: Ints, is_open: Bools) -> Ints:
+    """(N,) vertices that are kept: `stay`, and of those open to it as many as may be, no two nearer than `apart` (n,).
+
+    Each round keeps whatever comes first among its neighbours that are still open, in an order that is even over the
+    skin and always the same, and leaves its neighbours out.
+    """
+    kept, open_to = np.zeros(len(positions), dtype=bool), is_open.copy()
+    pairs = cKDTree(positions).query_pairs(FARTHEST, output_type="ndarray")
+    distance = np.linalg.norm(positions[pairs[:, 0]] - positions[pairs[:, 1]], axis=1)
+    pairs = pairs[(distance < apart[pairs].min(axis=1)) & open_to[pairs].all(axis=1)]
+    order = np.random.default_rng(0).permutation(len(positions))
+    while open_to.any():
+        beaten = np.zeros(len(positions), dtype=bool)
+        beaten[np.where(order[pairs[:, 0]] < order[pairs[:, 1]], pairs[:, 1], pairs[:, 0])] = True
+        new = open_to & ~beaten
+        kept |= new
+        open_to &= ~new
+        open_to[pairs[new[pairs].any(axis=1)].ravel()] = False
+        pairs = pairs[open_to[pairs].all(axis=1)]
+    kept[stay] = True
+    return np.flatnonzero(kept)
+
+
+def _dual(owners: Ints, first_web: int) -> tuple[Ints, int]:
+    """(T, 3) triangles between vertices whose surroundings meet in a triangle, and how many are webs; these are last.
+
+    Parameters
+    ----------
+    owners : (t, 3) whose surroundings the corners of each triangle belong to. first_web : the first that is of a web.
+    """
+    a, b, c = owners.T
+    meets = np.flatnonzero((a != b) & (b != c) & (c != a))
+    _, first = np.unique(np.sort(owners[meets], axis=1), axis=0, return_index=True)
+    triangles = meets[np.sort(first)]
+    return owners[triangles], int((triangles >= first_web).sum())
+
+
+def _padded(rows: Sparse, numbers: Ints) -> tuple[Ints, Bools]:
+    """(p, k) columns of some rows (p,) of a matrix, and which of them are there: short rows are filled up."""
+    starts, sizes = rows.indptr[numbers], np.diff(rows.indptr)[numbers]
+    place = np.arange(int(sizes.max(initial=1)))[None, :]
+    has = place < sizes[:, None]
+    return rows.indices[starts[:, None] + np.where(has, place, 0)].astype(np.int64), has
