@@ -347,4 +347,5 @@ class Anatomy:
         landmarks = self.mesh.landmarks
         pivot = landmarks["7.1"] if "7.1" in landmarks else self.warp(TEMPLATE_POINTS["7.1"])
         brow = float(landmarks["4.3"][1] + landmarks["4.4"][1]) / 2.0
-        return build_head_turn(self.mesh.positions, pivot, brow, self.mesh.parts != COPY)
+        own = ~np.isin(self.mesh.parts, (COPY, Part.SKULL))
+        return build_head_turn(self.mesh.positions, pivot, brow, own)

@@ -85,9 +85,9 @@ class HeadTurn:
 def build_head_turn(positions: Floats, pivot: Floats, brow_height: float, read: Bools) -> HeadTurn:
     """The head's turn on a mesh (V, 3) in head space; a head without a neck turns as a whole.
 
-    `read` (V,) are the vertices that may tell how it is turned.
+    `read` (V,) are the vertices that may tell how it is turned, and whether it has a neck: not hair, nor a hat.
     """
-    low = float(positions[:, 1].min())
+    low = float(positions[read, 1].min())
     y = positions[:, 1]
     (root, over), (behind, above) = HEAD.neck, HEAD.occiput
     weights = np.ones(len(positions)) if low > HEAD.neckless else smoothstep((y - root) / over)

@@ -73,10 +73,11 @@ class Surroundings:
         from ...face.mesh.head_frame import head_frame_of
 
         to_metres = placements(obj, (), scene)[0]
-        vertices = meshes.rest_vertices(obj.data) @ to_metres[:3, :3].T
+        rest = meshes.rest_vertices(obj.data)
+        vertices = rest @ to_metres[:3, :3].T
         points = {
             name: vertices[place] if isinstance(place, int) else to_metres[:3, :3] @ np.asarray(place)
-            for name, place in with_pupils(stored_points(obj), meshes.rest_vertices(obj.data)).items()
+            for name, place in with_pupils(stored_points(obj), rest).items()
         }
         frame = head_frame_of(points)
         to_head = np.eye(4)

@@ -69,7 +69,10 @@ def subject(asked: Input, *, creases: bool = False) -> Work[Subject]:
     if not asked.is_scene and not obj.data.materials:
         paint_parts(obj, creases=creases)
     _show(obj)
-    return Subject(_with_followers(obj), remarks, asked.is_scene)
+    target = _with_followers(obj)
+    names = ", ".join(companion.obj.name for companion in target.companions)
+    follow = (f"the face is {obj.name}; these follow it: {names}",) if names else ()
+    return Subject(target, remarks + follow, asked.is_scene)
 
 
 def _with_followers(obj: Object) -> Target:

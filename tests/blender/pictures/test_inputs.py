@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 import pytest
 import risorius.api as api
+from mathutils import Matrix
 from risorius import cli
 from risorius.errors import FormatError, ModelError
 from risorius.progress import run
@@ -172,3 +173,18 @@ def test_what_belongs_to_the_face_follows_it(head: Any, tmp_path: Path) -> None:
     words.bake_file(tmp_path / "out.blend", mesh=tmp_path / "brows.blend", words=["surprise"])
     assert "surprise" in bpy.data.objects["Eyebrows"].data.shape_keys.key_blocks
     assert bpy.data.objects["Wall"].data.shape_keys is None
+
+
+@pytest.mark.slow
+def test_what_follows_the_face_in_a_file_is_taken_along(character: Path, tmp_path: Path) -> None:
+    bpy.ops.wm.open_mainfile(filepath=str(character))
+    face = bpy.data.objects["Lena"]
+    grid("Eyelashes", steps=4)
+    lashes = bpy.data.objects["Eyelashes"]
+    lashes.data.transform(Matrix.Scale(0.02, 4))
+    lashes.parent, lashes.location = face, (0.032, -0.085, 0.04)
+    bpy.ops.wm.save_mainfile()
+    made = words.bake_file(tmp_path / "out.blend", mesh=character, words=["surprise"], object_name="Lena")
+    assert "the face is Lena; these follow it: Eyelashes, Hair" in made.remarks
+    bpy.ops.wm.open_mainfile(filepath=str(made.blend))
+    assert "surprise" in bpy.data.objects["Eyelashes"].data.shape_keys.key_blocks

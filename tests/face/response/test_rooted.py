@@ -100,3 +100,18 @@ def test_what_is_on_the_skull_stays_unless_the_head_turns(shared_head: Callable)
     assert (face.pose(frame).positions[lashes] == head.vertices[lashes]).all()
     frame[48] = 10000.0
     assert np.linalg.norm(face.pose(frame).positions[lashes] - head.vertices[lashes], axis=1).min() > 2.0 * MM
+
+
+def test_long_hair_makes_no_neck_and_is_not_read(shared_head: Callable) -> None:
+    """How the head is turned is told by the head."""
+    head = shared_head("makehuman")
+    strand = np.array([[0.0, 0.1, 1.1], [0.0, 0.1, -0.3], [0.01, 0.1, -0.3], [0.01, 0.1, 1.1]])
+    vertices = np.concatenate([head.vertices, strand])
+    count = len(head.vertices)
+    parts = np.append(head.parts(), [int(Part.SKULL)] * 4)
+    bald = Face.from_arrays(head.vertices, head.polygons, head.points, head.parts())
+    haired = Face.from_arrays(vertices, [*head.polygons, np.arange(count, count + 4)], head.points, parts)
+    frame = np.full(68, np.nan)
+    frame[48] = 20000.0
+    np.testing.assert_allclose(haired.pose(frame).positions[:count], bald.pose(frame).positions, atol=1e-9)
+    assert (haired.anatomy.head_turn.skull < count).all()
