@@ -43,12 +43,6 @@ from .skin.coarse import MOST, Thinning
 from .skin.fine import SOLVED, fine_skin
 from .skin.outer import OuterSkin
 
-
-def _vertex_of(points: FeaturePoints) -> dict[str, int]:
-    """Feature point -> the vertex nearest to it on its polygon."""
-    return {n: int(p.vertices[np.argmax(p.weights)]) for n, p in points.items() if p.is_bound}
-
-
 #: Mechanisms without which the muscles pull on the skin as before. A mechanism that is not named here is taken to
 #: change everything.
 BESIDE_THE_PULLS = frozenset(MUSCLE_GROUPS) | {
@@ -100,7 +94,7 @@ class Anatomy:
     def _skin_polygons(self) -> PolygonTable:
         """Polygons of the skin that the face can move."""
         polygons = self._whole_skin
-        held = np.array(list(_vertex_of(self.mesh.points).values()), dtype=np.int64)
+        held = np.array(list(self.mesh.points.nearest.values()), dtype=np.int64)
         near = within_reach(self.mesh.positions, polygons, held[np.isin(held, polygons.loops)])
         return polygons.kept(polygons.within(near))
 
@@ -115,7 +109,7 @@ class Anatomy:
         face_mesh = self.mesh
         polygons = self._skin_polygons
         graph = mesh.adjacency(face_mesh.positions, polygons, diagonals=False)
-        nearest = _vertex_of(face_mesh.points)
+        nearest = face_mesh.points.nearest
         openings = {"mouth": find_opening(graph, nearest, LIP_UPPER, LIP_LOWER)}
         openings |= {side: find_opening(graph, nearest, *LIDS[side]) for side in "lr"}
         outside = outer_faces(polygons, list(openings.values()), nearest["9.3"])

@@ -12,6 +12,7 @@ from ...errors import ModelError
 from ...polygons import PolygonTable
 from .parts import Part, Told
 from .points import FeaturePoints, PointSource
+from .sealed_eyes import add_sealed_eyes
 from .template import TEMPLATE_POINTS
 from .told import parts_of_told
 
@@ -108,7 +109,9 @@ def known_parts(
     parts = parts_of_told(told, head, polygons, landmarks, int(nose.vertices[0]))
     if not (parts == Part.SKIN).any():
         raise ModelError("the face has no skin: parts marks no vertex as skin (0)")
-    return parts
+    sealed = parts.copy()
+    add_sealed_eyes(sealed, head, polygons, points.nearest, landmarks)
+    return np.where(told < 0, sealed, parts)
 
 
 def checked_axes(axes: ArrayLike) -> Floats:

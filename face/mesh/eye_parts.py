@@ -114,13 +114,19 @@ def _plates(
     members: Sequence[Ints], labels: Ints, positions: Floats, polygons: PolygonTable, lids: Floats
 ) -> list[Ints]:
     """Pieces that fill the lids' opening (4, 3) as seen from the front, and those that lie on them there."""
-    middle = lids.mean(axis=0)
-    places = np.concatenate([[middle], middle + FLAT_EYE.spread * (lids - middle)])
+    places = between(lids)
     near = [member for member in members if _fits(positions[member], lids)]
-    covered = [_covers(member, labels, positions, polygons, places) for member in near]
+    pieces = [polygons.kept(polygons.within(labels == labels[member[0]])) for member in near]
+    covered = [covers(positions, piece, places) for piece in pieces]
     if not any(each.sum() >= FLAT_EYE.covered for each in covered):
         return []
     return [member for member, each in zip(near, covered, strict=True) if each[0]]
+
+
+def between(lids: Floats) -> Floats:
+    """(5, 3) places between lids (4, 3) that an eye covers as seen from the front, the middle first."""
+    middle = lids.mean(axis=0)
+    return np.concatenate([[middle], middle + FLAT_EYE.spread * (lids - middle)])
 
 
 def _fits(piece: Floats, lids: Floats) -> bool:
@@ -132,11 +138,9 @@ def _fits(piece: Floats, lids: Floats) -> bool:
     return bool(beside and -FLAT_EYE.behind < away[2] < FLAT_EYE.before)
 
 
-def _covers(member: Ints, labels: Ints, positions: Floats, polygons: PolygonTable, places: Floats) -> Bools:
-    """(n,) which of some places (n, 3) a piece covers, as seen from the front."""
-    label = labels[member[0]]
-    triangles = fans(polygons.kept(polygons.within(labels == label)))[0]
-    corners = positions[triangles][:, :, :2]
+def covers(positions: Floats, polygons: PolygonTable, places: Floats) -> Bools:
+    """(n,) which of some places (n, 3) polygons cover, as seen from the front."""
+    corners = positions[fans(polygons)[0]][:, :, :2]
     edges = np.roll(corners, -1, axis=1) - corners
     away = places[:, None, None, :2] - corners
     side = edges[None, :, :, 0] * away[..., 1] - edges[None, :, :, 1] * away[..., 0]

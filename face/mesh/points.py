@@ -71,6 +71,11 @@ class FeaturePoints(Mapping[str, BoundPoint]):
         """Name -> (3,) position on the neutral face, in the face's coordinates."""
         return {name: point.position for name, point in self._bound.items()}
 
+    @property
+    def nearest(self) -> dict[str, int]:
+        """Feature point -> the vertex nearest to it on its polygon."""
+        return {name: int(p.vertices[np.argmax(p.weights)]) for name, p in self._bound.items() if p.is_bound}
+
     def matrix(self, names: Sequence[str]) -> Sparse:
         """(len(names), V) matrix that reads the named points off vertex positions or displacements."""
         rows, columns, values = [], [], []

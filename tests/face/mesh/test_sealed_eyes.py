@@ -1,0 +1,82 @@
+"""Eyes that are one surface with their lids: told from the skin, still under a blink, turned by the gaze."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from risorius.api import Face, Part
+from risorius.face.default_head import HeadMesh
+
+RINGS = (0.12, 0.35, 0.6, 0.85)
+
+
+def sealed(head: HeadMesh, face: Face, bulge: float = 1.0) -> tuple[Face, dict[str, np.ndarray]]:
+    """The default head without eyeballs and sockets, its lids closed by parts of balls; the vertices of these.
+
+    `bulge` -1: the same parts of balls, hollow as sockets are.
+    """
+    skin = face.anatomy.given_skin
+    kept = np.isin(np.arange(len(head.vertices)), skin.index)
+    polygons = [tuple(p) for p in head.polygons if kept[list(p)].all()]
+    vertices, eyes = [head.vertices], {}
+    count = len(head.vertices)
+    for side, part in (("l", Part.EYEBALL_L), ("r", Part.EYEBALL_R)):
+        own = head.vertices[head.parts == part]
+        centre = (own.min(axis=0) + own.max(axis=0)) / 2.0
+        upper, lower = skin.index[skin.eyes[side].upper], skin.index[skin.eyes[side].lower]
+        loop = [*upper.tolist(), *lower[1:-1].tolist()]
+        radius = float(np.linalg.norm(head.vertices[loop] - centre, axis=1).min()) - 0.3e-3
+        pole = own[own[:, 1].argmin()] if bulge > 0 else centre + np.array([0.0, radius, 0.0])
+        rings, before = [], loop
+        for share in RINGS:
+            way = (1.0 - share) * (head.vertices[loop] - centre) + share * (pole - centre)
+            rings.append(centre + radius * way / np.linalg.norm(way, axis=1, keepdims=True))
+            ring = [count + k for k in range(len(loop))]
+            turned = [(before[k - 1], before[k], ring[k], ring[k - 1]) for k in range(len(loop))]
+            polygons += turned
+            before, count = ring, count + len(loop)
+        polygons.append(tuple(before))
+        eyes[side] = np.arange(count - len(RINGS) * len(loop), count)
+        vertices += rings
+    places = {n: head.vertices[p] if isinstance(p, int) else p for n, p in head.points.items() if n[0] not in "67"}
+    return Face.from_arrays(np.concatenate(vertices), polygons, places), eyes
+
+
+def test_what_is_round_between_the_lids_is_an_eye(head: HeadMesh, face: Face) -> None:
+    own, eyes = sealed(head, face)
+    for side, part in (("l", Part.EYEBALL_L), ("r", Part.EYEBALL_R)):
+        assert (own.parts[eyes[side]] == part).mean() > 0.7
+        assert np.isin(np.flatnonzero(own.parts == part), eyes[side]).all()
+    assert own.sewn == frozenset()
+
+
+def test_a_hollow_socket_is_skin(head: HeadMesh, face: Face) -> None:
+    own, eyes = sealed(head, face, bulge=-1.0)
+    assert (own.parts[np.concatenate(list(eyes.values()))] == Part.SKIN).all()
+
+
+@pytest.mark.parametrize("name", ["ict_narrow", "mediapipe"])
+def test_the_lining_of_lids_round_a_hole_and_a_flat_filling_are_skin(
+    shared_head: Callable[[str], Any], name: str
+) -> None:
+    head = shared_head(name)
+    assert (Face.from_arrays(head.vertices, head.polygons, head.points).parts == Part.SKIN).all()
+
+
+def test_lids_close_over_it_and_it_looks_about(head: HeadMesh, face: Face) -> None:
+    own, _ = sealed(head, face)
+    eye = own.parts == Part.EYEBALL_L
+    frame = np.full(68, np.nan)
+    frame[[18, 20]] = 500.0
+    closed = own.pose(frame, drive="exact")
+    assert np.abs(closed.positions[eye] - own.vertices[eye]).max() < 1e-9
+    assert closed.achieved[18] == pytest.approx(500.0, abs=60.0)
+    frame[:] = np.nan
+    frame[22] = 15000.0
+    turned = own.pose(frame).positions[eye]
+    spans = [np.linalg.norm(each[:, None] - each[::9], axis=2) for each in (own.vertices[eye], turned)]
+    np.testing.assert_allclose(spans[1], spans[0], atol=1e-8)
+    assert np.abs(turned - own.vertices[eye]).max() > 1e-3
