@@ -8,6 +8,7 @@ blender_types         what is used of Blender's types, for mypy
 attributes            one figure of all items at once, to arrays and back
 fcurves               the F-curves of an action, whatever Blender keeps them in
 shape_mix             the mix of the user's shape keys that the resting face is
+posed                 a face that a rig has brought into another shape, and the way back
 mesh, head            meshes to arrays and back; the default head
 faces, companions     from objects to a face: the head, and what belongs to it
 fingerprint           which object it is, and which face

@@ -6,7 +6,7 @@ Building a face takes a moment, so the last few are kept, found again by the fin
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,8 +19,9 @@ from . import mesh as meshes
 from .blender_types import Mesh, Object, Scene
 from .companions import Companion, placements, refuse_confused
 from .fingerprint import Fingerprint, fingerprint
+from .points.stored import moved_points, stored_points
 from .points.stored import store_points as store_points
-from .points.stored import stored_points
+from .posed import Posed, posed
 from .refusals import refuse_broken_vertices, refuse_unreadable
 from .shape_mix import Resting, resting_values, settle_drivers
 
@@ -38,14 +39,21 @@ class Piece:
 
     Attributes
     ----------
-    rest : (V, 3) resting vertices in the mesh's own coordinates, as the user's shape keys make them.
+    mix : (V, 3) vertices in the mesh's own coordinates, as the user's shape keys make them.
     to_metres : (4, 4) from those to the joined arrays' metres.
+    posed : what a rig makes of them, where it changes the shape of the face.
     """
 
     obj: Object
     first: int
-    rest: Floats
+    mix: Floats
     to_metres: Floats
+    posed: Posed | None = None
+
+    @property
+    def rest(self) -> Floats:
+        """(V, 3) resting vertices in the mesh's own coordinates, as they show."""
+        return self.mix if self.posed is None else self.posed.positions
 
     @property
     def metric(self) -> Floats:
@@ -56,15 +64,15 @@ class Piece:
     @property
     def slice(self) -> slice[int, int, None]:
         """This piece's rows of the joined arrays."""
-        return slice(self.first, self.first + len(self.rest))
+        return slice(self.first, self.first + len(self.mix))
 
     def moves(self, displacements: Floats, least: float) -> bool:
         """Whether joined displacements (..., all vertices, 3) move this piece by more than `least` metres."""
         return bool(np.abs(displacements[..., self.slice, :]).max(initial=0.0) > least)
 
     def local_positions(self, displacements: Floats) -> Floats:
-        """(V, 3) positions in the mesh's own coordinates from joined displacements (all vertices, 3) in metres."""
-        positions: Floats = self.rest + self._change(displacements)
+        """(V, 3) positions before modifiers, in the mesh's own coordinates, from joined displacements in metres."""
+        positions: Floats = self.mix + self._change(displacements)
         return positions
 
     def key_positions(self, displacements: Floats) -> Floats:
@@ -73,9 +81,9 @@ class Piece:
         return positions
 
     def _change(self, displacements: Floats) -> Floats:
-        """(V, 3) joined displacements (all vertices, 3) in metres as those of this mesh."""
-        inverse = np.linalg.inv(self.to_metres[:3, :3])
-        return np.asarray(displacements[self.slice] @ inverse.T)
+        """(V, 3) joined displacements (all vertices, 3) in metres as those of this mesh before modifiers."""
+        shown = np.asarray(displacements[self.slice] @ np.linalg.inv(self.to_metres[:3, :3]).T)
+        return shown if self.posed is None else self.posed.back(shown, self.obj.name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,6 +124,7 @@ def read_face(
     points: PointTable | None = None,
     scene: Scene | None = None,
     resting: Resting = resting_values,
+    rigged: bool = True,
 ) -> FaceSource:
     """Read a face from its object, and from the objects of its eyes, teeth and tongue where they are apart.
 
@@ -126,6 +135,7 @@ def read_face(
     points : feature points in the mesh's own coordinates; by default those stored with `obj`.
     scene : whose unit scale counts; by default the current one.
     resting : which shape keys of a mesh, at which values, make its rest; by default the user's as they are now.
+    rigged : whether a rig that changes the shape of the face is part of its rest.
 
     Raises
     ------
@@ -134,7 +144,6 @@ def read_face(
     refuse_unreadable(obj)
     refuse_confused(obj, companions)
     settle_drivers([obj, *(companion.obj for companion in companions)])
-    table = points if points is not None else stored_points(obj, resting)
     members = [obj, *(companion.obj for companion in companions)]
     pieces: list[Piece] = []
     polygons: list[PolygonTable] = []
@@ -146,6 +155,13 @@ def read_face(
         corners, sizes = meshes.polygon_arrays(member.data)
         polygons.append(PolygonTable(corners + first, sizes))
         first = pieces[-1].slice.stop
+    shapes = posed(members, [piece.mix for piece in pieces]) if rigged else None
+    if shapes is not None:
+        pieces = [replace(piece, posed=shape) for piece, shape in zip(pieces, shapes, strict=True)]
+    head = pieces[0].rest
+    table = points if points is not None else stored_points(obj, head)
+    if points is not None and shapes is not None:
+        table = moved_points(obj, points, head)
     stretch = pieces[0].to_metres[:3, :3]
     metric = {n: p if isinstance(p, int) else stretch @ np.asarray(p, float) for n, p in table.items()}
     named = [Told.ANYTHING, *(companion.part for companion in companions)]
@@ -156,7 +172,7 @@ def read_face(
         PolygonTable.joined(polygons),
         metric,
         None if (parts == Told.ANYTHING).all() else parts,
-        fingerprint(obj, companions, points=points, scene=scene, resting=resting),
+        fingerprint(obj, companions, points=points, scene=scene, resting=resting, rigged=rigged),
     )
 
 

@@ -13,6 +13,9 @@ from ..arrays import Floats
 from .attributes import read_floats, write_floats
 from .blender_types import Action, AnimData, FCurve, FCurves, KeyframeStrip, Slot
 
+#: Keyframes that differ less than this are no motion.
+SMALL = 1e-6
+
 
 def key_curves(action: Action) -> FCurves:
     """The F-curves of an action for shape keys; room for them is made where there is none."""
@@ -54,6 +57,21 @@ def curves_of(action: Action, data_path: str) -> list[FCurve]:
     else:
         found = [bag.fcurves.find(data_path) for strip in _strips(action) for bag in strip.channelbags]
     return [curve for curve in found if curve is not None]
+
+
+def bone_curves(action: Action) -> list[FCurve]:
+    """The F-curves of an action that move bones."""
+    if not hasattr(action, "slots"):
+        groups = [action.fcurves]
+    else:
+        groups = [bag.fcurves for strip in _strips(action) for bag in strip.channelbags]
+    return [curve for group in groups for curve in group if curve.data_path.startswith("pose.bones")]
+
+
+def changes(curve: FCurve) -> bool:
+    """Whether a curve's keyframes differ."""
+    values = read_floats(curve.keyframe_points, "co", 2)[:, 1]
+    return len(values) > 1 and float(np.ptp(values)) > SMALL
 
 
 def is_empty(action: Action) -> bool:

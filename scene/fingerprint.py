@@ -21,11 +21,14 @@ from .blender_types import Datablock, Object, Scene
 from .companions import Companion, placements
 from .mesh import polygon_arrays, read_parts, rest_vertices
 from .points.kept import mesh_counts, read_kept
+from .posed import NotKnownYet, posed
 from .shape_mix import Resting, resting_values
 
 #: Blender holds matrices in single precision: objects that move together come out a little differently in every frame.
 #: Sizes are the same within this share of them, and places within this share of the head's size.
 STRETCHED, MOVED = 1e-5, 1e-4
+#: So many vertices of each object are compared where a rig shapes it.
+SAMPLE = 400
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,16 +40,22 @@ class Fingerprint:
     digest : of vertices, polygons, points and parts.
     placements : (n, 4, 4) from the coordinates of its objects, the head first, to metres.
     size : of the head, metres, a measure for the places of companions; 0 without any.
+    posed : (k, 3) places of some vertices where a rig changes the shape of the face, none where it does not; NaN where
+        that is not known yet, which is no face's.
     """
 
     digest: str
     placements: Floats
     size: float
+    posed: Floats
 
     def matches(self, other: Fingerprint) -> bool:
         """Whether the other is of the same face."""
-        if self.digest != other.digest:
+        if self.digest != other.digest or self.posed.shape != other.posed.shape:
             return False
+        if len(self.posed):
+            extent = float(np.linalg.norm(np.ptp(self.posed, axis=0)))
+            return bool(np.abs(self.posed - other.posed).max() <= MOVED * extent)
         off = np.abs(self.placements - other.placements)
         stretch = float(np.abs(self.placements[:, :3, :3]).max())
         return bool(off[:, :3, :3].max() <= STRETCHED * stretch and off[:, :3, 3].max() <= MOVED * self.size)
@@ -64,6 +73,7 @@ def fingerprint(
     points: PointTable | None = None,
     scene: Scene | None = None,
     resting: Resting = resting_values,
+    rigged: bool = True,
 ) -> Fingerprint:
     """The fingerprint of a face; parameters as for `faces.read_face`. Takes some milliseconds.
 
@@ -72,15 +82,33 @@ def fingerprint(
     SceneError : no feature points; an object that is scaled to nothing, or a mirrored head.
     """
     digest, matrices = blake2b(digest_size=16), np.array(placements(obj, companions, scene))
+    rests = []
     for member, part in [(obj, Told.ANYTHING), *((companion.obj, companion.part) for companion in companions)]:
         parts = read_parts(member.data) if part is Told.ANYTHING else None
         digest.update(repr((part, mesh_counts(member.data), parts is None)).encode())
-        digest.update(rest_vertices(member.data, resting(member.data)).astype(np.float32).tobytes())
+        rests.append(rest_vertices(member.data, resting(member.data)))
+        digest.update(rests[-1].astype(np.float32).tobytes())
         for numbers in (*polygon_arrays(member.data), parts):
             digest.update(b"" if numbers is None else numbers.astype(np.int32).tobytes())
     digest.update(repr(sorted(points.items()) if points is not None else _places(obj)).encode())
-    size = np.ptp(rest_vertices(obj.data) @ matrices[0, :3, :3].T, axis=0).max() if companions else 0.0
-    return Fingerprint(digest.hexdigest(), matrices, float(size))
+    size = np.ptp(rests[0] @ matrices[0, :3, :3].T, axis=0).max() if companions else 0.0
+    shape = _posed([obj, *(companion.obj for companion in companions)], rests, matrices) if rigged else np.zeros((0, 3))
+    return Fingerprint(digest.hexdigest(), matrices, float(size), shape)
+
+
+def _posed(members: Sequence[Object], rests: Sequence[Floats], matrices: Floats) -> Floats:
+    """(k, 3) see `Fingerprint.posed`."""
+    try:
+        shapes = posed(members, rests, look=False)
+    except NotKnownYet:
+        return np.full((1, 3), np.nan)
+    if shapes is None:
+        return np.zeros((0, 3))
+    places = [
+        shape.positions[:: max(1, len(shape.positions) // SAMPLE)] @ matrix[:3, :3].T + matrix[:3, 3]
+        for shape, matrix in zip(shapes, matrices, strict=True)
+    ]
+    return np.concatenate(places)
 
 
 def _places(obj: Object) -> list[tuple[object, ...]]:

@@ -71,6 +71,14 @@ def keys_of(obj: Object) -> Key:
     return keys
 
 
+def remove_all_keys(obj: Object) -> None:
+    """Take all shape keys off an object that no scene has; Blender alone would leave them in the file."""
+    keys = obj.data.shape_keys
+    if keys is not None:
+        obj.shape_key_clear()
+        bpy.data.batch_remove([keys])
+
+
 def evaluated_vertices(obj: Object, depsgraph: Depsgraph | None = None) -> Floats:
     """(V', 3) vertices as Blender shows them: shape keys and modifiers applied; the object's own coordinates.
 

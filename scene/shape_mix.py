@@ -17,15 +17,13 @@ import numpy as np
 
 from ..arrays import Floats
 from .attributes import read_floats
-from .blender_types import Action, FCurve, Key, Mesh, Object, ShapeKey
-from .fcurves import curves_of
+from .blender_types import Action, Key, Mesh, Object, ShapeKey
+from .fcurves import SMALL, changes, curves_of
 
 #: Which shape keys of a mesh, at which values, make its rest.
 Resting: TypeAlias = Callable[[Mesh], Mapping[str, float]]
 
 RECORD = "risorius"
-#: Values nearer to 0 than this show nothing, and keyframes that differ less are no motion.
-SMALL = 1e-6
 
 
 @dataclass(frozen=True)
@@ -139,7 +137,7 @@ def _is_moving(keys: Key | None, key: ShapeKey) -> bool:
     if keys is None or keys.animation_data is None:
         return False
     path = data_path(key.name)
-    return any(_changes(curve) for action in _actions(keys) for curve in curves_of(action, path))
+    return any(changes(curve) for action in _actions(keys) for curve in curves_of(action, path))
 
 
 def _actions(keys: Key) -> list[Action]:
@@ -148,9 +146,3 @@ def _actions(keys: Key) -> list[Action]:
     assert animation is not None
     strips = [strip.action for track in animation.nla_tracks for strip in track.strips]
     return [action for action in (animation.action, *strips) if action is not None]
-
-
-def _changes(curve: FCurve) -> bool:
-    """Whether a curve's keyframes differ."""
-    values = read_floats(curve.keyframe_points, "co", 2)[:, 1]
-    return len(values) > 1 and float(np.ptp(values)) > SMALL

@@ -10,6 +10,7 @@ import bpy
 from ..blender_types import Object
 from ..points.bound import followed
 from ..points.kept import has_points, read_kept
+from ..posed import is_reshaped
 from ..shape_mix import moving_keys, resting_values
 
 if TYPE_CHECKING:
@@ -27,6 +28,8 @@ def shown_remarks(obj: Object) -> tuple[str, ...]:
         found.append(f"{obj.name}: posed on the face as it shows, with {_counted(values)}")
     if moving:
         found.append(f"{obj.name}: animation of {_counted(moving)} adds to the bake")
+    if is_reshaped(obj):
+        found.append(f"{obj.name}: posed on the face as it shows, in the shape that its rig gives it")
     return tuple(found)
 
 

@@ -11,6 +11,29 @@ from .meshes import Mesh, ShapeKey, VertexGroup
 from .nodes import NodeTree
 
 
+class Setting(Protocol):
+    """One setting of something, as Blender describes it."""
+
+    @property
+    def identifier(self) -> str: ...
+    @property
+    def type(self) -> str: ...
+
+
+class Settings(Protocol):
+    """All settings of a kind of thing."""
+
+    @property
+    def properties(self) -> Items[Setting]: ...
+
+
+class Pose(Protocol):
+    """The posed bones of an armature."""
+
+    @property
+    def bones(self) -> Items[object]: ...
+
+
 class Modifier(Protocol):
     """A modifier; those of nodes have a group."""
 
@@ -22,6 +45,9 @@ class Modifier(Protocol):
     show_expanded: bool
     object: Object | None  # of an armature
     node_group: NodeTree | None
+
+    @property
+    def bl_rna(self) -> Settings: ...
 
 
 class Modifiers(Items[Modifier], Protocol):
@@ -72,6 +98,8 @@ class Object(Datablock, Protocol):
     def users_collection(self) -> Sequence[Collection]: ...
     @property
     def vertex_groups(self) -> Items[VertexGroup]: ...
+    @property
+    def pose(self) -> Pose | None: ...  # of an armature
     def select_set(self, state: bool) -> None: ...
     def visible_get(self) -> bool: ...
     def shape_key_add(self, *, name: str, from_mix: bool) -> ShapeKey: ...

@@ -115,7 +115,7 @@ def _socket(sockets: Iterable[NodeSocket], identifier: str) -> NodeSocket:
 
 def _write_places(head: Piece, creases: Creases) -> None:
     """The attributes that stay as they are in every pose."""
-    vectors = {nodes.REST: head.rest, nodes.HEAD: creases.head_positions[head.slice]}
+    vectors = {nodes.REST: head.mix, nodes.HEAD: creases.head_positions[head.slice]}
     for name, crease in creases.creases.items():
         places = crease.places[head.slice]
         vectors[nodes.PLACE + name] = np.column_stack([places, np.zeros(len(places))])

@@ -144,7 +144,7 @@ class LiveFace:
     def show(self, target: Target, displacement: Floats) -> None:
         """Show a displacement (V, 3) on the objects of the face: after an undo they are others than those read."""
         for piece, obj in zip(self._source.pieces, target.objects(), strict=True):
-            if piece.moves(displacement, 0.0):
+            if piece is self._source.pieces[0] or piece.moves(displacement, 0.0):
                 preview.show(obj, piece.local_positions(displacement))
             else:
                 preview.rest([obj])

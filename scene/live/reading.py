@@ -71,7 +71,7 @@ class FaceReader:
         SceneError, ModelError : no face, no feature points; says what to do.
         """
         self.obj, self.uid = obj, uid_of(obj)
-        source = read_face(obj, resting=as_found)
+        source = read_face(obj, resting=as_found, rigged=False)
         self._face, self._fingerprint = face_of(source), source.fingerprint
         self._to_metres = source.pieces[0].to_metres[:3, :3]
         self._rest = source.pieces[0].rest
@@ -82,7 +82,7 @@ class FaceReader:
 
     def is_of(self, obj: Object) -> bool:
         """Whether `obj` still is the face that was read."""
-        return uid_of(obj) == self.uid and fingerprint(obj, resting=as_found).matches(self._fingerprint)
+        return uid_of(obj) == self.uid and fingerprint(obj, resting=as_found, rigged=False).matches(self._fingerprint)
 
     def positions(self, depsgraph: Depsgraph) -> Floats:
         """(V, 3) vertices of the mesh in metres as they show.

@@ -13,7 +13,7 @@ from ...arrays import Floats
 from ...errors import SceneError
 from ..attributes import write_floats
 from ..blender_types import Object
-from ..mesh import mesh_vertices, rest_vertices
+from ..mesh import mesh_vertices, remove_all_keys, rest_vertices
 
 #: Modifiers that keep the mesh's own vertices, first and in their order, and add others to them.
 ADDING = {"SUBSURF", "MULTIRES", "MIRROR", "SOLIDIFY"}
@@ -60,8 +60,7 @@ def _through(obj: Object, rest: Floats) -> Floats:
     try:
         copy.parent = None
         copy.animation_data_clear()
-        if mesh.shape_keys is not None:
-            copy.shape_key_clear()
+        remove_all_keys(copy)
         write_floats(mesh.vertices, "co", rest)
         for modifier in list(copy.modifiers):
             if modifier.type not in ADDING:

@@ -8,6 +8,7 @@ from ...arrays import Floats, Ints
 from .. import mesh as meshes
 from ..blender_types import Depsgraph, Object, Scene
 from ..points.kept import as_found
+from ..posed import rigid_motion as rigid_motion
 from .framing import Framing, framing_of
 from .furniture import carry
 
@@ -61,17 +62,6 @@ def _skull(rest: Floats, home: Framing) -> Ints:
     above = near & (away @ home.up > 0.1 * home.height)
     chosen = np.flatnonzero(above if above.sum() >= 3 else near)
     return chosen[:: max(1, len(chosen) // SAMPLE)]
-
-
-def rigid_motion(before: Floats, after: Floats) -> Floats:
-    """(4, 4) rotation and shift that take points (N, 3) nearest to others in the sense of least squares (Kabsch)."""
-    first, second = before.mean(axis=0), after.mean(axis=0)
-    u, _, vt = np.linalg.svd((before - first).T @ (after - second))
-    flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(vt.T @ u.T)) or 1.0])
-    motion = np.eye(4)
-    motion[:3, :3] = vt.T @ flip @ u.T
-    motion[:3, 3] = second - motion[:3, :3] @ first
-    return motion
 
 
 class FollowingCamera:

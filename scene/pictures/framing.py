@@ -85,7 +85,7 @@ def _world_points(obj: Object, local: Floats, world: Floats) -> dict[str, Floats
     """The framing feature points in the world, or None where one is missing."""
     if not has_points(obj):
         return None
-    stored = stored_points(obj, as_found)
+    stored = stored_points(obj, local)
     needed = (*EYES_LEFT, *EYES_RIGHT, CHIN)
     if any(name not in stored for name in needed):
         return None

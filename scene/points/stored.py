@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from ...arrays import Floats
 from ...errors import SceneError
 from ...face.mesh.point_files import PointTable
 from .. import mesh as meshes
 from ..blender_types import Object
-from ..shape_mix import Resting, resting_values
 from .bound import bind, followed, table_of
 from .kept import Origin, read_kept, write_kept
 
@@ -28,8 +28,12 @@ def store_points(obj: Object, points: PointTable, *, origin: Origin = Origin.FIL
     write_kept(obj, bind(obj.data, points, origins=origin), as_given=True)
 
 
-def stored_points(obj: Object, resting: Resting = resting_values) -> dict[str, int | tuple[float, float, float]]:
+def stored_points(obj: Object, vertices: Floats | None = None) -> dict[str, int | tuple[float, float, float]]:
     """Feature points kept with the mesh of `obj`, where they are on it now.
+
+    Parameters
+    ----------
+    vertices : (V, 3) of the mesh; by default as it rests.
 
     Raises
     ------
@@ -43,4 +47,9 @@ def stored_points(obj: Object, resting: Resting = resting_values) -> dict[str, i
         raise SceneError(
             obj.name, f"was edited, and its feature points {', '.join(needed)} were lost: find or import them again"
         )
-    return table_of(now.kept, meshes.rest_vertices(obj.data, resting(obj.data)))
+    return table_of(now.kept, meshes.rest_vertices(obj.data) if vertices is None else vertices)
+
+
+def moved_points(obj: Object, points: PointTable, vertices: Floats) -> dict[str, int | tuple[float, float, float]]:
+    """Feature points of a table on the resting mesh of `obj`, where they are when its vertices (V, 3) have moved."""
+    return table_of(bind(obj.data, points), vertices)
