@@ -77,6 +77,7 @@ def one(head: str, way: str, sheet: Path) -> Outcome:
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     obj = bring(head, way)
     from file_state import differences, file_state
+    from risorius.operators.active import target_of
 
     outcome = Outcome(head, way, len(obj.data.vertices))
     others = [other for other in bpy.context.scene.objects if other.type == "MESH" and other != obj]
@@ -94,7 +95,8 @@ def one(head: str, way: str, sheet: Path) -> Outcome:
     if keys is not None and not outcome.said:
         outcome.keys = sum(word in keys.key_blocks for word in WORDS)
         outcome.copies, outcome.torn = torn_seams(obj)
-        outcome.follow = sum(other.data.shape_keys is not None for other in others)
+        target = target_of(obj)
+        outcome.follow = len(target.companions) + len(target.left_behind)
         picture([obj, *others], sheet)
     return outcome
 
@@ -215,7 +217,7 @@ def picture(objects: list[Any], path: Path) -> None:
                 seen.append(read_picture(render_frame(scene, number + 1, Path(folder))))
             rows.append(np.concatenate(seen, axis=1))
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_picture(np.concatenate(rows[::-1], axis=0), path)
+    write_picture(np.concatenate(rows, axis=0), path)
 
 
 def page(outcomes: list[Outcome]) -> str:
@@ -228,7 +230,7 @@ def page(outcomes: list[Outcome]) -> str:
         "",
         "- **copies**: pairs of vertices at one place, as importers leave them at seams.",
         "- **torn**: the largest distance between two copies in any expression, as a share of the mesh.",
-        "- **follow**: objects beside the head that got shape keys, of all that there are.",
+        "- **follow**: objects beside the head that follow the face or are named as staying behind, of all there are.",
         "- **changed**: places in the file that are not Risorius' own and differ afterwards: keys, actions, drivers,",
         "  modifiers, parents, materials, ranges and all else.",
         "",

@@ -61,7 +61,7 @@ def differences(before: State, after: State) -> list[str]:
 
 
 #: Places that Risorius may take where they are empty.
-TAKEN = {"shape_keys", "animation_data", "action", "action_slot"}
+TAKEN = {"shape_keys", "animation_data", "action", "action_slot", "active_shape_key"}
 
 
 def _is_own(item: Any) -> bool:
