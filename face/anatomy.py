@@ -290,7 +290,8 @@ class Anatomy:
         inner[self.given_skin.index] = False
         positions, polygons = self.mesh.positions, self._skin_polygons
         areas = mesh.vertex_areas(positions, polygons)
-        return InnerSkin(laplacian(positions, polygons), areas, inner, positions, self.given_skin)
+        before = self.given_skin if self._thinning is None else self.skin
+        return InnerSkin(laplacian(positions, polygons), areas, inner, positions, before)
 
     @cached_property
     def rooted_parts(self) -> RootedParts:

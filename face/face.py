@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -290,16 +290,25 @@ class Face:
         'Preparing the skin'
         """
         anatomy, poser = self.anatomy, self._poser
-        yield Progress(0.0, "Preparing the skin")
-        _ = anatomy.skin, anatomy.muscles
-        yield Progress(0.1, "Computing what each muscle does")
-        _ = anatomy.actuators
-        yield Progress(0.5, "Relating muscles to FAPs")
-        _ = anatomy.inverse
-        yield Progress(0.7, "Preparing contact of lips and lids")
-        _ = poser.anatomy.contact
-        yield Progress(0.9, "Solving the skin")
-        poser.sketch(Request(silent_faps()), Memory())
+        stages: tuple[tuple[str, Callable[[], object]], ...] = (
+            ("Preparing the skin", lambda: anatomy.given_skin),
+            ("Preparing the skin", lambda: (anatomy.skin, anatomy.muscles)),
+            ("Preparing the skin", lambda: (anatomy.carry, anatomy.skin.normals)),
+            ("Computing what each muscle does", lambda: anatomy.sheet.factor),
+            ("Computing what each muscle does", lambda: anatomy.pulls),
+            ("Computing what each muscle does", lambda: anatomy.actuators),
+            ("Relating muscles to FAPs", lambda: anatomy.inverse),
+            ("Preparing contact of lips and lids", lambda: anatomy.eyeballs),
+            ("Preparing contact of lips and lids", lambda: anatomy.contact),
+            ("Preparing what follows the skin", lambda: anatomy.inner_skin),
+            ("Preparing what follows the skin", lambda: anatomy.rooted_parts),
+            ("Placing folds", lambda: anatomy.given_skin.normals),
+            ("Placing folds", lambda: poser.assembly.folds),
+            ("Solving the skin", lambda: poser.sketch(Request(silent_faps()), Memory())),
+        )
+        for number, (text, stage) in enumerate(stages):
+            yield Progress(number / len(stages), text)
+            stage()
 
     def sketcher(self) -> Sketcher:
         """Quick poses for a live preview; see `Sketcher`.

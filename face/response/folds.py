@@ -31,6 +31,9 @@ GAUGES = 9
 EDGES = 1.3
 FADES_FROM, FADES_TO = 1.4, 1.75
 
+#: A fold reaches so many times its width to both sides.
+SPREAD = 5.0
+
 #: A fold that would be shallower than this at its fullest is left out, metres.
 SHALLOWEST = 0.1 * MM
 
@@ -153,7 +156,9 @@ def place_fold(skin: OuterSkin, warp: TemplateWarp, row: FoldRow, spared: Floats
     depth = row.depth / excess * (1.0 - float(smoothstep(np.array((excess - FADES_FROM) / (FADES_TO - FADES_FROM)))))
     if depth < SHALLOWEST:
         return None
-    field = _field(line.beside(rest), width, row.lean)
+    near = np.flatnonzero(cKDTree(line.course).query(rest, distance_upper_bound=SPREAD * width)[0] < np.inf)
+    field = np.zeros((skin.vertex_count, GAUGES))
+    field[near] = _field(line.beside(rest[near]), width, row.lean)
     field = _neutral(field * (depth * spared)[:, None], skin.areas)
     at = np.linspace(0, COURSE - 1, GAUGES).round().astype(np.int64)
     reach = 0.5 * max(row.gauge, 3.0 * edge) * line.outwards[at]
@@ -165,7 +170,7 @@ def place_fold(skin: OuterSkin, warp: TemplateWarp, row: FoldRow, spared: Floats
 def _field(beside: Beside, width: float, lean: float) -> Floats:
     """(n, GAUGES) heights of a fold of depth 1 over the skin about its line, shared among the gauges along it."""
     ends = smoothstep(beside.share / FOLDS.ends) * smoothstep((1.0 - beside.share) / FOLDS.ends)
-    height = _profile(beside.across / width, lean) * ends * (beside.off < 5.0 * width)
+    height = _profile(beside.across / width, lean) * ends * (beside.off < SPREAD * width)
     place = beside.share * (GAUGES - 1.0)
     share = np.maximum(1.0 - np.abs(place[:, None] - np.arange(GAUGES)), 0.0)
     heights: Floats = height[:, None] * share

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import SceneError
-from ...progress import Progress, Work
+from ...progress import Progress, Work, part_of
 from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of
 from . import action as actions
@@ -85,7 +85,8 @@ def bake_expression(
     source = target.source()
     yield Progress(0.1, "Placing the muscles")
     face = face_of(source)
-    yield Progress(0.5, f"Solving the skin for {clip}")
+    yield from part_of(face.prepare(), 0.15, 0.9)
+    yield Progress(0.9, f"Solving the skin for {clip}")
     pose = face.pose(faps, drive=drive, emotion=emotion, contractions=contractions)
     yield Progress(0.95, "Writing the shape key")
     shapes = (np.asarray(pose.positions) - face.vertices)[None]
@@ -130,6 +131,7 @@ def bake_motion(
     source = target.source()
     yield Progress(0.02, "Placing the muscles")
     face = face_of(source)
+    yield from part_of(face.prepare(), 0.03, 0.1)
     displacements = np.empty((count, *face.vertices.shape))
     for index, positions in enumerate(motion.positions(face, rate, drive)):
         displacements[index] = positions - face.vertices

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ...arrays import Floats
-from ...progress import Progress, Work
+from ...progress import Progress, Work, part_of
 from ..blender_types import Action, Key, NlaTrack
 from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of
@@ -63,6 +63,7 @@ def bake_strips(
     source = target.source()
     yield Progress(0.05, "Placing the muscles")
     face = face_of(source)
+    yield from part_of(face.prepare(), 0.06, 0.2)
     poses: list[Pose] = []
     for number, shape in enumerate(shapes):
         yield Progress(0.2 + 0.75 * number / len(shapes), f"Solving the skin for {shape.clip}")

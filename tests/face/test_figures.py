@@ -37,7 +37,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "drive/natural/planning.py": (0.01,),  # units that are not worth naming
     "drive/natural/recognition.py": (0.01,),  # shares that are not worth naming
     "drive/plan.py": (0.02, 0.1, 5.0),  # when a goal is told as it was asked
-    "face.py": (0.1, 0.7, 0.9, 25.0, 25.0, 25.0),  # how far work is; frames per second
+    "face.py": (25.0, 25.0, 25.0),  # frames per second
     "figures.py": (1e-3, 1e6, 180.0),  # units
     "mechanisms/bulge.py": (6.0,),  # a triangle's share of a divergence
     "mechanisms/lids.py": (0.3,),  # shortest lever
@@ -53,10 +53,10 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
         1.3,
         1.4,
         1.75,
+        5.0,
         0.1,
         0.1,
         3.0,
-        5.0,
         1.5,
     ),  # how coarse a mesh may be; averages over vertices
     "response/followers.py": (1e-4, 4.0),  # a tie that keeps a matrix regular; a kernel's norm
