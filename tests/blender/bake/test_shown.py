@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -198,3 +200,40 @@ def test_a_form_makes_no_creases(morphed: Any) -> None:
     strain = np.empty(len(shown.vertices), dtype=np.float32)
     shown.attributes["risorius_strain"].data.foreach_get("value", strain)
     assert np.abs(strain).max() < 1e-3
+
+
+def human(shared: Path, name: str) -> Any:
+    """The shared MakeHuman head: its raw base with the form as a live key, or the form applied."""
+    data = np.load(shared / "heads" / "makehuman.npz")
+    base, form = (data[key].astype(np.float64) for key in ("vertices_base", "vertices"))
+    mesh = meshes.new_mesh(name, form if name == "applied" else base, data["loops"], data["face_sizes"])
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    if name == "live":
+        give_key(obj, "$md-universal-$fe-$yn", form, 1.0)
+    return obj
+
+
+@pytest.mark.slow
+def test_a_human_whose_form_is_a_key_shows_what_one_shows_whose_form_is_applied(shared: Path) -> None:
+    lids = json.loads((shared / "heads" / "makehuman.fp.json").read_text())["points"]
+    skin = np.load(shared / "heads" / "makehuman.npz")["labels"] == 0
+    shown: dict[str, np.ndarray] = {}
+    for name in ("applied", "live"):
+        obj = human(shared, name)
+        obj.risorius.emotion.word = "surprise"
+        bpy.ops.risorius.find_points()
+        bpy.ops.risorius.bake_expression()
+        bpy.context.scene.frame_set(20)
+        shown[name] = meshes.evaluated_vertices(obj)
+    assert np.linalg.norm(shown["live"] - shown["applied"], axis=1)[skin].max() < 1e-4
+    bpy.ops.risorius.make_shapes()
+    bpy.context.scene.frame_set(1)
+    rest = meshes.evaluated_vertices(obj)
+    for side in ("Left", "Right"):
+        obj.data.shape_keys.key_blocks[f"eyeBlink{side}"].value = 1.0
+    bpy.context.view_layer.update()
+    shut = meshes.evaluated_vertices(obj)
+    gap, left = (np.linalg.norm(each[lids["3.1"]] - each[lids["3.3"]]) for each in (rest, shut))
+    assert left < 0.35 * gap
