@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +17,7 @@ from .blender_types import Object
 from .faces import FaceSource, face_of
 from .mesh import keys_of
 from .refusals import own_mesh
+from .shape_mix import data_path
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
     """Make the shape keys of a preset of names by posing the face, and write them onto its meshes.
 
     They are the user's own: no later bake, and no clearing of what was baked, touches them. Every key is on the head's
-    mesh; eyes, teeth and tongue that are objects of their own get those in which they move.
+    mesh; its other objects get those in which they move, driven by the head's.
 
     Parameters
     ----------
@@ -73,7 +74,9 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
             for name, moved in shapes.items()
             if piece is source.pieces[0] or piece.moves(moved, STILL * face.scale)
         }
-        _write(piece.obj, moving)
+        new = _write(piece.obj, moving)
+        if piece is not source.pieces[0]:
+            _drive(piece.obj, new, source.head)
     missed = (f"{name}: {why}" for name, why in posed.unmet.items())
     return WrittenKeys(tuple(shapes), there, (*shown_remarks(source.head), *missed, *target.remarks()))
 
@@ -84,11 +87,27 @@ def _taken(source: FaceSource, wanted: Mapping[str, object]) -> tuple[str, ...]:
     return tuple(sorted({block.name for keys in blocks for block in keys if block.name in wanted}))
 
 
-def _write(obj: Object, shapes: Mapping[str, Floats]) -> None:
-    """Shape keys at rest, positions (V, 3) in the mesh's own coordinates."""
+def _write(obj: Object, shapes: Mapping[str, Floats]) -> list[str]:
+    """Shape keys at rest, positions (V, 3) in the mesh's own coordinates; returns names of those that are new."""
+    new: list[str] = []
     for name, positions in shapes.items():
         keys = keys_of(obj)
+        new += [] if name in keys.key_blocks else [name]
         block = keys.key_blocks.get(name) or obj.shape_key_add(name=name, from_mix=False)
         block.slider_min, block.slider_max = 0.0, 1.0
         write_shape(keys, block, positions)
     obj.data.update_tag()
+    return new
+
+
+def _drive(obj: Object, names: Iterable[str], head: Object) -> None:
+    """Give shape keys of an object the values of the head's keys of the same names, by drivers."""
+    keys, heads = keys_of(obj), keys_of(head)
+    for name in names:
+        driver = keys.key_blocks[name].driver_add("value").driver
+        if driver.variables:  # of a key of this name that was deleted
+            continue
+        driver.type = "AVERAGE"
+        variable = driver.variables.new()
+        variable.targets[0].id_type, variable.targets[0].id = "KEY", heads
+        variable.targets[0].data_path = data_path(name)

@@ -184,6 +184,43 @@ class NlaTracks(Items[NlaTrack], Protocol):
     def remove(self, track: NlaTrack) -> None: ...
 
 
+class DriverTarget(Protocol):
+    """What a driver reads: a property of a datablock."""
+
+    id_type: str
+    id: Datablock
+    data_path: str
+
+
+class DriverVariable(Protocol):
+    """A variable of a driver."""
+
+    @property
+    def targets(self) -> Sequence[DriverTarget]: ...
+
+
+class DriverVariables(Items[DriverVariable], Protocol):
+    """The variables of a driver."""
+
+    def new(self) -> DriverVariable: ...
+
+
+class Driver(Protocol):
+    """What gives a property its value."""
+
+    type: str
+
+    @property
+    def variables(self) -> DriverVariables: ...
+
+
+class DriverCurve(Protocol):
+    """A driver with its curve."""
+
+    @property
+    def driver(self) -> Driver: ...
+
+
 class Drivers(Items[FCurve], Protocol):
     """The drivers of a datablock."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
-from .animation import Datablock
+from .animation import Datablock, DriverCurve
 from .collections import Growing, Items, Numbers
 from .nodes import Material
 
@@ -113,6 +113,8 @@ class ShapeKey(Protocol):
     vertex_group: str
     relative_key: ShapeKey
     data: Items[object]
+
+    def driver_add(self, path: str) -> DriverCurve: ...
 
 
 class Key(Datablock, Protocol):

@@ -55,6 +55,10 @@ def test_engine_shapes_are_on_every_object_that_moves(character: Callable) -> No
     assert "eyeLookUpLeft" in keys["Eyes"]
     assert "browInnerUp" in keys["Brows"]
     assert all(names <= keys["Face"] for names in keys.values())
+    made["Face"].data.shape_keys.key_blocks["jawOpen"].value = 0.6
+    bpy.context.view_layer.update()
+    shown = made["Teeth"].evaluated_get(bpy.context.evaluated_depsgraph_get())
+    assert shown.data.shape_keys.key_blocks["jawOpen"].value == pytest.approx(0.6)
 
 
 def test_what_the_user_says_stays(character: Callable) -> None:
