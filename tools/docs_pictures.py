@@ -76,6 +76,25 @@ class Session:
         time.sleep(DRAWN)
         self.window.ask("viewport()[2]['UI'].active_panel_category = 'Risorius'")
 
+    def lent(self, name: str) -> Path:
+        """A copy of a shared file where the window's Blender sees it."""
+        copy = self.folder / Path(name).name
+        copy.write_bytes((shared_folder() / name).read_bytes())
+        return copy
+
+    def only_panels(self, *names: str) -> None:
+        """Leave these of the tab's panels, open; the other pictures come before."""
+        self.window.ask(
+            "panels = bpy.types.Panel.__subclasses__()\n"
+            "kinds = {c.__name__: c for c in panels if c.__name__.startswith('RISORIUS_PT_')}\n"
+            "for cls in kinds.values():\n"
+            "    if cls.is_registered and getattr(cls, 'bl_parent_id', ''): bpy.utils.unregister_class(cls)\n"
+            f"for name in {names!r}:\n"
+            "    cls = kinds[f'RISORIUS_PT_{name}']\n"
+            "    cls.bl_options = set()\n"
+            "    bpy.utils.register_class(cls)"
+        )
+
     def head(self) -> None:
         """The default head, shown by the preview."""
         self.fresh()
@@ -135,7 +154,7 @@ def baked(session: Session) -> None:
 
 def own_head(session: Session) -> None:
     """A head of the user's: points found, parts told apart."""
-    mesh = shared_folder() / "heads" / "makehuman.npz"
+    mesh = session.lent("heads/makehuman.npz")
     session.fresh()
     session.window.ask(
         "import numpy as np\n"
@@ -162,17 +181,51 @@ def own_head(session: Session) -> None:
     session.run("bpy.context.window_manager.risorius.parts.show = False")
 
 
+#: Objects of a character -> labels of the shared head that they are made of, and their colour.
+CHARACTER = {
+    "Body": ((0, 5, 7), (0.72, 0.5, 0.4)),
+    "Eyes": ((1, 2), (0.9, 0.9, 0.9)),
+    "Teeth": ((3, 8), (0.95, 0.92, 0.8)),
+    "Tongue": ((4,), (0.75, 0.25, 0.25)),
+    "Eyelashes": ((6,), (0.08, 0.05, 0.05)),
+}
+
+
+def character(session: Session) -> None:
+    """A character of several objects, baked by one button, and what follows its face."""
+    mesh = session.lent("heads/makehuman.npz")
+    session.only_panels("followers", "emotion")
+    session.fresh()
+    session.window.ask(
+        "import numpy as np\n"
+        f"data = np.load({str(mesh)!r})\n"
+        "labels, ends = data['labels'], np.cumsum(data['face_sizes'])\n"
+        "faces = [data['loops'][e - n:e] for e, n in zip(ends, data['face_sizes'])]\n"
+        f"for name, (kinds, colour) in {CHARACTER!r}.items():\n"
+        "    mine = [face for face in faces if labels[face[0]] in kinds]\n"
+        "    used = np.unique(np.concatenate(mine))\n"
+        "    mesh = bpy.data.meshes.new(name)\n"
+        "    polygons = [np.searchsorted(used, face).tolist() for face in mine]\n"
+        "    mesh.from_pydata(data['vertices'][used].tolist(), [], polygons)\n"
+        "    mesh.polygons.foreach_set('use_smooth', [True] * len(mesh.polygons))\n"
+        "    material = bpy.data.materials.new(name)\n"
+        "    material.diffuse_color = (*colour, 1.0)\n"
+        "    mesh.materials.append(material)\n"
+        "    obj = bpy.data.objects.new(name, mesh)\n"
+        "    bpy.context.scene.collection.objects.link(obj)\n"
+        "body = bpy.data.objects['Body']\n"
+        "bpy.context.view_layer.objects.active = body\n"
+        "body.select_set(True)"
+    )
+    session.run("bpy.ops.view3d.view_axis(type='FRONT')\nbpy.ops.view3d.view_selected()")
+    session.run("bpy.ops.risorius.bake_six()\nbody.risorius.emotion.word = 'surprise'")
+    session.window.wait("any(m.name == 'Risorius Preview' and m.show_viewport for m in body.modifiers)")
+    session.take("character")
+
+
 def reading(session: Session) -> None:
     """The Read panel, alone and open, on joy at its apex; and the plot of its animation."""
-    session.window.ask(
-        "kinds = {name: getattr(bpy.types, name) for name in dir(bpy.types) if name.startswith('RISORIUS_PT_')}\n"
-        "below = [c for c in kinds.values() if getattr(c, 'bl_parent_id', '')]\n"
-        "for cls in below: bpy.utils.unregister_class(cls)\n"
-        "for name in ('read', 'read_faps', 'read_features'):\n"
-        "    cls = kinds[f'RISORIUS_PT_{name}']\n"
-        "    cls.bl_options = set()\n"
-        "    bpy.utils.register_class(cls)"
-    )
+    session.only_panels("read", "read_faps", "read_features")
     session.head()
     session.run(
         "scene = bpy.context.scene\nscene.frame_end = 75\nscene.risorius.read.rule = 'robust'\n"
@@ -196,7 +249,8 @@ PICTURED: Mapping[str, Callable[[Session], None]] = {
     "muscles": muscles,
     "baked": baked,
     "own_head": own_head,
-    "reading": reading,  # the last: it takes the other panels away
+    "reading": reading,  # the last two take the other panels away
+    "character": character,
 }
 
 
