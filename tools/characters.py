@@ -141,7 +141,8 @@ def from_arrays(name: str, path: Path, *, apart: bool) -> list[Any]:
     import bpy
     from risorius.scene.mesh import new_mesh
 
-    data = np.load(path)
+    with np.load(path) as stored:
+        data = dict(stored)
     ends = np.cumsum(data["face_sizes"])
     polygons = [data["loops"][end - size : end] for end, size in zip(ends, data["face_sizes"], strict=True)]
     labels = data["labels"] if apart else np.zeros(len(data["vertices"]), dtype=int)
