@@ -15,6 +15,7 @@ from ...progress import Progress, Work, part_of, run
 from ..mesh.checks import checked_polygons, checked_vertices
 from .bending.carry import RIM_POINTS, carry
 from .bending.fitted import fit
+from .bending.painted_brows import Look
 from .bending.target import head_target
 from .clicks import (
     FEWEST,
@@ -30,6 +31,7 @@ from .locating.crooked import Start, better_start, starting_bend
 from .locating.head_pose import HeadPose
 from .locating.locate import HEAD, HEAD_BOX, Located, box_cloud, locate, looks_backwards, scored
 from .surface.cloud import Surface
+from .surface.paint import Paint
 from .template.template import FitTemplate, fit_template
 from .topologies import Topology, load_topologies, recognise_topology
 
@@ -76,6 +78,7 @@ def find_points(
     clicks: Mapping[str, Sequence[float] | Floats] | None = None,
     *,
     topologies: Sequence[Topology] | None = None,
+    paint: Paint | None = None,
 ) -> FoundPoints:
     """Find the feature points of a face, whichever way it looks and however large it is.
 
@@ -85,6 +88,7 @@ def find_points(
     polygons : its polygons, as for `Face.from_arrays`.
     clicks : name -> (3,) points that are known; four or more also say where the face is.
     topologies : known connectivities; None: those that come with Risorius.
+    paint : how bright the mesh is painted; brows that show on it tell where the points of the brows are.
 
     Raises
     ------
@@ -99,7 +103,7 @@ def find_points(
     >>> min(found.confidence.values()) > 0.0
     True
     """
-    return run(find_points_steps(vertices, polygons, clicks, topologies=topologies))
+    return run(find_points_steps(vertices, polygons, clicks, topologies=topologies, paint=paint))
 
 
 def find_points_steps(
@@ -108,6 +112,7 @@ def find_points_steps(
     clicks: Mapping[str, Sequence[float] | Floats] | None = None,
     *,
     topologies: Sequence[Topology] | None = None,
+    paint: Paint | None = None,
 ) -> Work[FoundPoints]:
     """`find_points` as a generator: yields `Progress(fraction, text)`, returns the points; close it to cancel.
 
@@ -135,7 +140,7 @@ def find_points_steps(
         located = yield from part_of(locate(surface), 0.02, 0.55)
         yield Progress(0.55, "Checking for a crooked face")
         start = better_start(located)
-    return (yield from part_of(_fitted_points(start, clicked), 0.6, 1.0))
+    return (yield from part_of(_fitted_points(start, clicked, paint), 0.6, 1.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,7 +224,7 @@ def _located_by_clicks(surface: Surface, clicked: Mapping[str, Floats], template
     return Located(pose, surface, scored(surface, pose, template), template)
 
 
-def _fitted_points(start: Start, clicked: Mapping[str, Floats]) -> Work[FoundPoints]:
+def _fitted_points(start: Start, clicked: Mapping[str, Floats], paint: Paint | None) -> Work[FoundPoints]:
     """Bend the template onto the head and carry its points over."""
     located = start.place
     pose, template = located.pose, located.template
@@ -227,7 +232,7 @@ def _fitted_points(start: Start, clicked: Mapping[str, Floats]) -> Work[FoundPoi
     wishes = [click_wishes(clicked, pose, template)] if clicked else []
     fitted = yield from part_of(fit(template, target, wishes, start=starting_bend(template, start.flow)), 0.0, 0.95)
     score = located.score.value
-    carried = carry(template, target, fitted, score)
+    carried = carry(template, target, fitted, score, _seen(paint, pose))
     positions = {name: pose.to_mesh(place) for name, place in carried.positions.items()}
     confidence = dict(carried.confidence)
     for name, place in clicked.items():
@@ -235,6 +240,11 @@ def _fitted_points(start: Start, clicked: Mapping[str, Floats]) -> Work[FoundPoi
         if not _means_corner(name, place, positions[name], pose):
             positions[name] = place
     return FoundPoints(positions, confidence, score)
+
+
+def _seen(paint: Paint | None, pose: HeadPose) -> Look | None:
+    """What is painted in a box of the template's coordinates."""
+    return None if paint is None else lambda low, high: paint.within(low, high, pose.to_template)
 
 
 def _means_corner(name: str, click: Floats, found: Floats, pose: HeadPose) -> bool:

@@ -53,6 +53,7 @@ class NodeLink(Protocol):
 
     from_node: Node
     to_node: Node
+    to_socket: NodeSocket
 
 
 class NodeLinks(Items[NodeLink], Protocol):

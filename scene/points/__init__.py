@@ -1,6 +1,7 @@
 """Feature points on Blender's objects.
 
 found, presets        found from the shape alone; topologies that a user saved
+painted               how bright a mesh is painted
 refused               meshes in which none was found, this session
 kept, bound           kept with the mesh; bound to its vertices
 stored                given to an object, and read where they are now

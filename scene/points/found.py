@@ -16,6 +16,7 @@ from ..refusals import refuse_broken_vertices, refuse_unreadable
 from ..shape_mix import settle_drivers
 from .bound import bind
 from .kept import KeptPoints, Origin, triple, write_kept
+from .painted import paint_of
 from .presets import known_topologies
 from .refused import keep_refusal, refusal_of, search_digest
 
@@ -94,7 +95,8 @@ def seek_points(
         raise _explained(obj, ModelError(said))
     try:
         polygons = meshes.polygon_sequence(*arrays)
-        found = yield from api.find_points_steps(vertices, polygons, known or None, topologies=topologies)
+        paint = paint_of(obj, stretch)
+        found = yield from api.find_points_steps(vertices, polygons, known or None, topologies=topologies, paint=paint)
     except ModelError as refusal:
         keep_refusal(search, str(refusal))
         raise _explained(obj, refusal) from refusal

@@ -3,6 +3,8 @@
 fitted        the whole fit, ever softer
 target        what the template is bent onto
 bend, ears    the cage's nodes moved; where the ears are
-carry         points on the mesh, and how sure each is
+carry         points on the mesh
 proportions   where points on smooth skin lie by a face's proportions
+painted_brows  brows that are painted
+confidence    how sure each point is
 """

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ....arrays import Floats
 from ....physics.mesh import vertex_normals
-from ....resources import PRESETS
-from ....tables import read_csv
 from ...mesh.points import closest_on_triangles
-from ..doubt import DOUBTFUL_SCORE
 from ..surface.margins import Margin
 from ..template.template import FitTemplate
+from .confidence import confidences
 from .fitted import Fit, ring_shares
+from .painted_brows import Look, box_of_brows, find_brows
 from .proportions import read_brow_places, read_proportions
-from .target import RIM, Target, feature
+from .target import Target, feature
 
 #: How much a disagreement of the normals counts when a point is dropped on the surface, metres per turn.
 TURN = 5e-3
@@ -30,12 +28,8 @@ NEAREST = 8
 TIP_SHARE, TIP_REACH = 0.1, 7e-3
 #: Where the middles of both lids lie between an eye's right corner and its left one.
 LID_MIDDLE = {"eye_l": 0.46, "eye_r": 0.54}
-#: Usual errors of this size halve the confidence, metres.
-HALF_ERROR = 5e-3
-#: A point that lies this far from the mirror image of its twin is doubtful, metres; or from the fitted skin.
-ASKEW, ASTRAY = 4e-3, 4e-3
-#: What is left of the confidence of a doubtful point.
-DOUBT = 0.4
+#: How sure the points of brows are that show: some 2 mm off.
+PAINTED = 0.85
 
 #: Feature points on the lid margins and where the lips meet: ring, and edge or side of the corner.
 RIM_POINTS: Mapping[str, tuple[str, str]] = {
@@ -46,8 +40,6 @@ RIM_POINTS: Mapping[str, tuple[str, str]] = {
     "2.3": ("mouth", "lower"), "2.8": ("mouth", "lower"), "2.9": ("mouth", "lower"),
 }  # fmt: skip
 
-ERRORS_FILE = PRESETS / "anatomy" / "point_errors.csv"
-
 
 @dataclass(frozen=True, eq=False)
 class Carried:
@@ -57,12 +49,13 @@ class Carried:
     confidence: Mapping[str, float]
 
 
-def carry(template: FitTemplate, target: Target, fit: Fit, score: float) -> Carried:
+def carry(template: FitTemplate, target: Target, fit: Fit, score: float, look: Look | None = None) -> Carried:
     """The template's feature points on the head that it was bent onto.
 
     Parameters
     ----------
     score : the face's score; poor faces make every point doubtful.
+    look : how bright the face is painted; None: it is not.
     """
     fit = replace(fit, margins={ring: margin for ring, margin in fit.margins.items() if _is_sound(ring, margin)})
     fitted = template.read(fit.skin)
@@ -72,7 +65,10 @@ def carry(template: FitTemplate, target: Target, fit: Fit, score: float) -> Carr
     places |= _lids_in_order(places, drop)
     places["9.3"] = _foremost(target, places["9.3"])
     places |= _by_proportions(template, fit, places, drop)
-    return Carried(places, _confidence(template, target, fit, places, fitted, score))
+    brows = {} if look is None else _painted(places, drop, look)
+    places |= brows
+    sure = confidences(template, target, fit.skin, fit.margins, places, RIM_POINTS, score)
+    return Carried(places, sure | dict.fromkeys(brows, PAINTED))
 
 
 class _Drop:
@@ -112,6 +108,15 @@ def _by_proportions(template: FitTemplate, fit: Fit, places: Mapping[str, Floats
             place[picture] = aim[picture]
             known[name] = moved[name] = drop.nearest(name, place)
     return moved
+
+
+def _painted(places: Mapping[str, Floats], drop: _Drop, look: Look) -> dict[str, Floats]:
+    """The points of brows that show on the face."""
+    found = {}
+    for name, (x, z) in find_brows(*look(*box_of_brows(places)), places).items():
+        place = drop.nearest(name, np.array([x, places[name][1], z]))
+        found[name] = drop.nearest(name, np.array([x, place[1], z]))
+    return found
 
 
 def _has_rim(name: str, fit: Fit) -> bool:
@@ -174,38 +179,3 @@ def _foremost(target: Target, tip: Floats) -> Floats:
     foremost = near[near[:, 1] <= np.quantile(near[:, 1], TIP_SHARE)]
     middle = foremost.mean(axis=0)
     return np.asarray(near[np.linalg.norm(near - middle, axis=1).argmin()])
-
-
-def _confidence(
-    template: FitTemplate,
-    target: Target,
-    fit: Fit,
-    places: Mapping[str, Floats],
-    fitted: Floats,
-    score: float,
-) -> dict[str, float]:
-    """How sure each point is: its usual error, and what is doubtful about it here."""
-    usual = usual_errors()
-    rim = cKDTree(target.rim) if len(target.rim) else None
-    flip = np.array([-1.0, 1.0, 1.0])
-    confidence: dict[str, float] = {}
-    for number, name in enumerate(template.names):
-        place = places[name]
-        sure = 1.0 / (1.0 + (usual.get(name, HALF_ERROR) / HALF_ERROR) ** 2)
-        twin = template.twins.get(name)
-        if twin is not None and np.linalg.norm(place - flip * places[twin]) > ASKEW:
-            sure *= DOUBT
-        if name not in RIM_POINTS and np.linalg.norm(place - fitted[number]) > ASTRAY:
-            sure *= DOUBT
-        if name in RIM_POINTS and RIM_POINTS[name][0] not in fit.margins:
-            sure *= DOUBT
-        if rim is not None and rim.query(place)[0] < RIM:
-            sure *= DOUBT
-        confidence[name] = sure * (DOUBT if score > DOUBTFUL_SCORE else 1.0)
-    return confidence
-
-
-@lru_cache(maxsize=1)
-def usual_errors() -> Mapping[str, float]:
-    """Feature point -> its median error in metres over the heads that the finding was measured on (docs/fit.md)."""
-    return {row.text("point"): 1e-3 * row.number("median_mm", above=0.0) for row in read_csv(ERRORS_FILE)}

@@ -2,6 +2,7 @@
 
 cloud       points spread evenly over it
 depth_map   its front as a picture of depths
+paint       how bright it is painted
 pieces      its skin among its connected pieces
 rims        closed lines along which the skin ends
 margins     those of eyes and mouth among the rims

@@ -12,7 +12,8 @@ import risorius.api as api
 #: Feature points by the landmarks (iBUG) whose mean they are; those of the lids' middles lie beside them.
 LANDMARKS = {
     "3.7": (45,), "3.11": (42,), "3.8": (39,), "3.12": (36,), "3.1": (43, 44), "3.3": (46, 47), "3.2": (37, 38),
-    "3.4": (40, 41), "4.1": (22,), "4.2": (21,), "4.3": (24,), "4.4": (19,), "8.3": (54,), "8.4": (48,),
+    "3.4": (40, 41), "4.1": (22,), "4.2": (21,), "4.3": (24,), "4.4": (19,), "8.3": (54,), "8.4": (48,), "4.5": (26,),
+    "4.6": (17,), "8.1": (51,), "8.2": (57,), "2.1": (8,), "9.3": (30,), "9.15": (33,),
 }  # fmt: skip
 #: In which order the file has its groups, against iBUG's.
 GROUPS = ("chin", "leyebrow", "reyebrow", "nose", "leye", "reye", "mouth")
@@ -55,3 +56,15 @@ def test_brows_of_a_scan_are_not_found_too_high(scan: tuple[api.FoundPoints, dic
 def test_lids_of_a_scan_do_not_gape(scan: tuple[api.FoundPoints, dict[str, np.ndarray]]) -> None:
     off = heights(scan, ("3.1", "3.2", "3.3", "3.4"))
     assert abs(off).max() < 2.0
+
+
+@pytest.mark.slow
+def test_the_confidence_tells_good_points_of_a_scan(scan: tuple[api.FoundPoints, dict[str, np.ndarray]]) -> None:
+    found, truth = scan
+    off = {name: float(np.linalg.norm(found.positions[name] - place)) for name, place in truth.items()}
+    good = [found.confidence[name] for name in off if off[name] < 2.5]
+    bad = [found.confidence[name] for name in off if off[name] > 5.0]
+    assert len(good) > 5
+    assert len(bad) > 2
+    assert np.mean([[high > low for low in bad] for high in good]) > 0.75
+    assert min(found.confidence[name] for name in ("3.7", "3.11", "3.12")) > 0.6
