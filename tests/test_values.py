@@ -17,7 +17,19 @@ import pytest
 import risorius
 
 #: What a Python without Blender, or without the tracker's libraries, may lack.
-FOREIGN = {"bpy", "bpy_extras", "bl_ui", "bl_operators", "blf", "gpu", "gpu_extras", "mathutils", "mediapipe", "cv2"}
+FOREIGN = {
+    "bmesh",
+    "bpy",
+    "bpy_extras",
+    "bl_ui",
+    "bl_operators",
+    "blf",
+    "gpu",
+    "gpu_extras",
+    "mathutils",
+    "mediapipe",
+    "cv2",
+}
 #: Beside the package in a checkout, or run by other programs.
 NOT_PRODUCT = {"tests", "tools", "docs", "build", "dist", "out", "setup", "__main__"}
 
