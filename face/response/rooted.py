@@ -150,11 +150,15 @@ def _around(graph: Sparse, positions: Floats, roots: Floats) -> tuple[Ints, Floa
     straight = np.linalg.norm(positions[found] - positions[found[:, :1]], axis=2)
     limit = ROOTS.detour * float(straight.max(initial=0.0)) + ROOTS.touch
     places, of = np.unique(found[:, 0], return_inverse=True)
+    reached = np.flatnonzero(cKDTree(positions[places]).query(positions, distance_upper_bound=limit)[0] < np.inf)
+    local = np.full(len(positions), -1, dtype=np.int64)
+    local[reached] = np.arange(len(reached))
+    lengths = sparse.csr_array(lengths[reached][:, reached])
     way = np.empty(found.shape)
     for first in range(0, len(places), AT_ONCE):
-        searched = dijkstra(lengths, directed=False, indices=places[first : first + AT_ONCE], limit=limit)
+        searched = dijkstra(lengths, directed=False, indices=local[places[first : first + AT_ONCE]], limit=limit)
         mine = np.flatnonzero((of >= first) & (of < first + AT_ONCE))
-        way[mine] = np.take_along_axis(searched[of[mine] - first], found[mine], axis=1)
+        way[mine] = np.take_along_axis(searched[of[mine] - first], local[found[mine]], axis=1)
     distance = np.where(way <= ROOTS.detour * straight + ROOTS.touch, distance, np.inf)
     order = np.argsort(distance, axis=1, kind="stable")[:, : min(NEIGHBOURS, count)]
     return np.take_along_axis(found, order, axis=1), np.take_along_axis(distance, order, axis=1)
