@@ -135,9 +135,16 @@ def vertex_normals(vertices: Floats, polygons: Polygons) -> Floats:
     return np.asarray(normals / np.where(length > 0, length, 1.0))
 
 
-def unique_edges(polygons: Polygons) -> Ints:
-    """Sides of all polygons, each once, (E, 2) int64 with the smaller index first, sorted."""
+def unique_edges(polygons: Polygons, *, below: int | None = None) -> Ints:
+    """Sides of all polygons, each once, (E, 2) int64 with the smaller index first, sorted.
+
+    Parameters
+    ----------
+    below : only sides between vertices of smaller indices than this; None: all.
+    """
     pairs = [np.stack([index, np.roll(index, -1, axis=1)], axis=2).reshape(-1, 2) for _, index in by_size(polygons)]
+    if below is not None:
+        pairs = [sides[(sides < below).all(axis=1)] for sides in pairs]
     return _unique_pairs(pairs)
 
 

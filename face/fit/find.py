@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Floats, Ints
 from ...errors import ModelError, ParameterError
-from ...physics.mesh import Polygons, corners
+from ...physics.mesh import Polygons, corners, triangulate
 from ...progress import Progress, Work, part_of, run
 from ..mesh.checks import checked_polygons, checked_vertices
 from .bending.carry import RIM_POINTS, carry
@@ -37,6 +37,8 @@ from .topologies import Topology, load_topologies, recognise_topology
 
 #: Vertices nearer to each other than this share of the mesh's diagonal are one: exporters split them along seams.
 SAME_PLACE = 1e-6
+#: Bits that hold how many times that goes into the diagonal.
+CELL_BITS = 20
 #: Alignment is kept only while it moves no click farther off than this, metres, or by this ratio.
 CLICK_DRIFT, CLICK_RATIO = 8e-3, 1.5
 #: A click on a corner of eye or mouth that lies this near to the corner that was found means that one, metres.
@@ -193,13 +195,13 @@ def _known_points(known: Topology, vertices: Floats, clicked: Mapping[str, Float
 
 def _welded(vertices: Floats, polygons: Polygons) -> Surface:
     """The surface with vertices of one place made one, and triangles without area left out."""
-    surface = Surface.from_polygons(vertices, polygons)
     size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
     if not size > 0.0:
         raise ModelError("no face found: all vertices are in one place")
     cells = np.round((vertices - vertices.min(axis=0)) / (SAME_PLACE * size)).astype(np.int64)
-    _, first, same = np.unique(cells, axis=0, return_index=True, return_inverse=True)
-    triangles: Ints = first[np.ravel(same)][surface.triangles]
+    keys = (cells << np.array([2 * CELL_BITS, CELL_BITS, 0])).sum(axis=1)  # sorts several times faster than rows
+    _, first, same = np.unique(keys, return_index=True, return_inverse=True)
+    triangles: Ints = first[same][triangulate(polygons)]
     a, b, c = triangles.T
     triangles = triangles[(a != b) & (b != c) & (c != a)]
     if len(triangles) == 0:

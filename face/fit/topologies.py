@@ -71,12 +71,12 @@ def recognise_topology(vertex_count: int, polygons: Polygons, topologies: Sequen
     >>> api.recognise_topology(len(face.vertices), face.polygons, api.load_topologies(".")).name
     'Risorius, default head'
     """
-    edges = unique_edges(polygons)
-    for topology in sorted(topologies, key=lambda known: -known.vertices):
-        if topology.vertices <= vertex_count:
-            known = edges[(edges < topology.vertices).all(axis=1)]
-            if len(known) == topology.edges and edge_digest(known) == topology.digest:
-                return topology
+    possible = [topology for topology in topologies if topology.vertices <= vertex_count]
+    edges = unique_edges(polygons, below=max((topology.vertices for topology in possible), default=0))
+    for topology in sorted(possible, key=lambda known: -known.vertices):
+        known = edges[(edges < topology.vertices).all(axis=1)]
+        if len(known) == topology.edges and edge_digest(known) == topology.digest:
+            return topology
     return None
 
 

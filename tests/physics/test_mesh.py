@@ -63,6 +63,8 @@ def test_fan_triangles_keep_winding_and_area() -> None:
 def test_edges_and_diagonals_are_counted_once() -> None:
     _, quads = grid(4, 3)
     assert len(mesh.unique_edges(quads)) == 4 * 4 + 5 * 3
+    edges = mesh.unique_edges(quads)
+    np.testing.assert_array_equal(mesh.unique_edges(quads, below=9), edges[(edges < 9).all(axis=1)])
     assert len(mesh.face_diagonals(quads)) == 2 * 12
     assert len(mesh.face_diagonals([[0, 1, 2], [0, 2, 3]])) == 0
     assert len(mesh.face_diagonals([[0, 1, 2, 3, 4]])) == 5

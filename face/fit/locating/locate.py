@@ -85,7 +85,7 @@ def locate(surface: Surface, *, refuse: bool = True) -> Work[Located]:
 
 def _guesses_of_whole(surface: Surface, cloud: Cloud) -> Work[list[Guess]]:
     """The best guesses about the planes of symmetry of the whole mesh."""
-    area = float(np.linalg.norm(surface.cross(), axis=1).sum() / 2.0)
+    area = float(surface.twice_areas.sum() / 2.0)
     diagonal = float(np.linalg.norm(np.ptp(cloud.positions, axis=0)))
     planes = symmetry_planes(cloud.positions[:: WHOLE // SYMMETRY])
     guesses: list[Guess] = []
@@ -163,7 +163,9 @@ def scored(surface: Surface, pose: HeadPose, template: FitTemplate) -> FaceScore
 def in_box(surface: Surface, pose: HeadPose, box: Box) -> Bools:
     """(T,) which triangles touch a box round the head."""
     if len(surface.triangles) > MANY:
-        return np.asarray(lies_in_box(surface.vertices, pose, box)[surface.triangles].any(axis=1), dtype=np.bool_)
+        a, b, c = surface.triangles.T
+        inside = lies_in_box(surface.vertices, pose, box)
+        return np.asarray(inside[a] | inside[b] | inside[c], dtype=np.bool_)
     corners = pose.with_one_scale().to_template(surface.vertices)[surface.triangles]
     touches: Bools = ((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)
     return touches
@@ -180,8 +182,8 @@ def box_cloud(surface: Surface, pose: HeadPose, box: Box, count: int) -> Cloud:
 def lies_in_box(positions: Floats, pose: HeadPose, box: Box) -> Bools:
     """Which positions (N, 3) of the mesh lie in a box round the head."""
     local = pose.with_one_scale().to_template(positions)
-    inside: Bools = np.all((local >= np.array(box[0])) & (local <= np.array(box[1])), axis=1)
-    return inside
+    x, y, z = ((local >= np.array(box[0])) & (local <= np.array(box[1]))).T
+    return np.asarray(x & y & z, dtype=np.bool_)
 
 
 def _aligned(surface: Surface, cloud: Cloud, guess: HeadPose) -> Located:

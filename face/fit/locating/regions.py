@@ -70,7 +70,7 @@ def _guesses_in(part: Surface) -> list[Guess]:
     cloud = sample(part, REGION)
     if len(cloud) == 0:
         return []
-    area = float(np.linalg.norm(part.cross(), axis=1).sum() / 2.0)
+    area = float(part.twice_areas.sum() / 2.0)
     diagonal = float(np.linalg.norm(np.ptp(cloud.positions, axis=0)))
     planes = symmetry_planes(cloud.positions[::SYMMETRY_STRIDE], refined=REFINED)[:PLANES]
     return [guess for plane in planes for guess in search_plane(cloud, area, diagonal, plane, lengths=LENGTHS)]

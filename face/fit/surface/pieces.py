@@ -25,7 +25,7 @@ def skin_pieces(surface: Surface) -> Surface:
     _, side, count = np.unique(keys, return_inverse=True, return_counts=True)
     users = count[side.reshape(keys.shape)]
     piece = joined_over(keys, users == 2)
-    areas = np.bincount(piece, np.linalg.norm(surface.cross(), axis=1))
+    areas = np.bincount(piece, surface.twice_areas)
     free = np.bincount(piece, (users == 1).sum(axis=1))
     held = np.bincount(piece, (users > 2).sum(axis=1))
     kept = (areas >= LARGE * areas.max()) | (free < LOOSE * held)
