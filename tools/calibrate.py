@@ -106,7 +106,7 @@ class Bench:
         """Displacement (ICT_SKIN, 3) that the shape's FAPs alone give."""
         posture = self.balance.posture(Plan.as_asked(Request(shape.frame, Drive.EXACT)))
         moved = np.zeros_like(self.anatomy.mesh.positions)
-        moved[self.anatomy.given_skin.index] = self.anatomy.carry @ posture.displacement
+        moved[self.anatomy.given_skin.index] = np.asarray(self.anatomy.carry @ posture.displacement)
         self.anatomy.inner_skin.follow(moved)
         return moved[:ICT_SKIN]
 

@@ -158,7 +158,8 @@ def from_arrays(name: str, path: Path, *, apart: bool) -> list[Any]:
         corners = np.concatenate([np.asarray(polygon) for polygon in own])
         mesh = new_mesh(title, data["vertices"][inside].astype(float), corners, np.array([len(p) for p in own]))
         if "uv" in data and not apart:
-            mesh.uv_layers.new().data.foreach_set("uv", data["uv"].astype(np.float32).ravel())
+            layer: Any = mesh.uv_layers.new(name="UVMap")
+            layer.data.foreach_set("uv", data["uv"].astype(np.float32).ravel())
         obj = bpy.data.objects.new(title, mesh)
         bpy.context.scene.collection.objects.link(obj)
         obj.parent = root
@@ -175,9 +176,9 @@ def torn_seams(obj: Any) -> tuple[int, float]:
 
     rest = rest_vertices(obj.data)
     size = float(np.linalg.norm(np.ptp(rest, axis=0)))
-    normals = np.zeros(3 * len(rest), dtype=np.float32)
-    obj.data.vertices.foreach_get("normal", normals)
-    normals = normals.reshape(-1, 3)
+    flat = np.zeros(3 * len(rest), dtype=np.float32)
+    obj.data.vertices.foreach_get("normal", flat)
+    normals = flat.reshape(-1, 3)
     _, place = np.unique(np.round(rest / (ONE_PLACE * size)).astype(np.int64), axis=0, return_inverse=True)
     order = np.argsort(place.ravel(), kind="stable")
     same = np.flatnonzero(np.diff(place.ravel()[order]) == 0)

@@ -93,7 +93,7 @@ def main(paths: list[str]) -> int:
     issues = []
     for path in paths:
         found = validate(Path(path))
-        print(path, *(found or ["nothing found"]), sep="\n  ")
+        print(path, *(map(str, found) if found else ["nothing found"]), sep="\n  ")
         issues += found
     return int(any(issue.severity == "error" for issue in issues))
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...arrays import Floats, Ints
 from .. import mesh as meshes
-from ..attributes import read_floats, read_ints
+from ..attributes import read_floats, read_ints, read_pixels
 from ..blender_types import Image, Material, Mesh, Node, NodeTree, Object
 
 if TYPE_CHECKING:
@@ -106,8 +106,5 @@ def _behind(tree: NodeTree, node: Node, hops: int = HOPS) -> Image | None:
 
 def _luminance(image: Image) -> Floats:
     """(rows from below, columns) brightness of an image, at most `ROWS` rows or columns of it."""
-    width, height = image.size
-    flat = np.empty(4 * width * height, dtype=np.float32)
-    image.pixels.foreach_get(flat)
-    step = max(1, -(-max(width, height) // ROWS))
-    return np.asarray(flat.reshape(height, width, 4)[::step, ::step, :3] @ LUMA, dtype=np.float64)
+    step = max(1, -(-max(image.size) // ROWS))
+    return np.asarray(read_pixels(image, step)[::-1] @ LUMA)

@@ -32,7 +32,7 @@ ARCH, ARCH_COST = 0.6, 0.06
 INSIDE = 0.8
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Eye:
     """An eye: its inner corner (x, z) and the direction towards the ear, in the picture; the width of both eyes."""
 
