@@ -64,7 +64,8 @@ class RISORIUS_OT_render_film(WorkOperator[film.FilmResult | Finding], Operator)
         """Say where it is."""
         if isinstance(result, Finding):
             return show_finding(self, context, result)
-        for remark in result.remarks:
+        target = target_of(active_object(context), context.scene)
+        for remark in (*result.remarks, *target.remarks()):
             self.report({"WARNING"}, remark)
         where = " and ".join(str(place) for place in (result.path, result.frames) if place is not None)
         return f"Rendered {result.frame_count} frames to {where}"

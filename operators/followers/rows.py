@@ -3,41 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from ...errors import RisoriusError
-from ...face.mesh.parts import Part
-from ...scene import refusals
 from ...scene.blender_types import Object as AnyObject
 from ...scene.companions import Companion
-from ...scene.following.kinds import PARTS, Follows
+from ...scene.following.kinds import Follows
+from ...scene.following.rows import SLOTS, Row, behind_of, followers_of, of_slots, staying_of
 from ..blender_types import Object, Scene
 from .props import RISORIUS_PG_follower
 
-#: Properties of a face that name the object of one part, from before there was a list; scripts set them.
-SLOTS = {
-    "eyeball_l": Part.EYEBALL_L,
-    "eyeball_r": Part.EYEBALL_R,
-    "teeth_upper": Part.TEETH_UPPER,
-    "teeth_lower": Part.TEETH_LOWER,
-    "tongue": Part.TONGUE,
-}
 #: So many names stand in a message.
 NAMED = 6
-
-#: What an object with several parts follows as.
-_EYES = frozenset((Part.EYEBALL_L, Part.EYEBALL_R))
-_TEETH = frozenset((Part.TEETH_UPPER, Part.TEETH_LOWER))
-
-
-@dataclass(frozen=True)
-class Row:
-    """One object of the list: how it follows, why it cannot, whether the user has said so."""
-
-    obj: AnyObject
-    follows: Follows
-    why_not: str = ""
-    by_hand: bool = False
 
 
 def rows_of(obj: Object) -> tuple[Row, ...]:
@@ -53,50 +29,22 @@ def rows_of(obj: Object) -> tuple[Row, ...]:
 
 def companions_of(obj: Object) -> tuple[Companion, ...]:
     """The objects that follow a face. What was found by itself and cannot be written to is left out (`left_behind`)."""
-    return tuple(
-        Companion(row.obj, PARTS[row.follows])
-        for row in rows_of(obj)
-        if row.follows is not Follows.NONE and (row.by_hand or _refused(obj, row) is None)
-    )
+    return followers_of(rows_of(obj), make_single_user=obj.risorius.face.make_single_user)
 
 
 def left_behind(obj: Object) -> tuple[str, ...]:
     """The objects of the list that do not follow, each with the reason."""
-    names = []
-    for row in rows_of(obj):
-        if row.follows is Follows.NONE:
-            names.append(f"{row.obj.name} ({row.why_not or 'does not follow'})")
-        elif not row.by_hand and (reason := _refused(obj, row)) is not None:
-            names.append(f"{row.obj.name} ({reason.removeprefix(row.obj.name).lstrip(': ')})")
-    return tuple(names)
+    return behind_of(rows_of(obj), make_single_user=obj.risorius.face.make_single_user)
 
 
 def staying(obj: Object) -> list[AnyObject]:
     """The objects of the list that do not follow: what shows the face shows them, too."""
-    followers = {companion.obj for companion in companions_of(obj)}
-    return [row.obj for row in rows_of(obj) if row.obj not in followers]
-
-
-def _refused(obj: Object, row: Row) -> str | None:
-    """Why a row's object cannot be written to, or None."""
-    return refusals.reason(row.obj, make_single_user=obj.risorius.face.make_single_user)
+    return staying_of(rows_of(obj), make_single_user=obj.risorius.face.make_single_user)
 
 
 def _of_slots(obj: Object) -> dict[AnyObject, Follows]:
-    """The objects that properties of single parts name, and how they follow; one that is named twice has both."""
-    named: dict[AnyObject, set[Part]] = {}
-    for slot, part in SLOTS.items():
-        other: AnyObject | None = getattr(obj.risorius.face, slot)
-        if other is not None:
-            named.setdefault(other, set()).add(part)
-    return {other: _together(frozenset(parts)) for other, parts in named.items()}
-
-
-def _together(parts: frozenset[Part]) -> Follows:
-    """How an object of these parts follows."""
-    if len(parts) == 1:
-        return next(follows for follows, part in PARTS.items() if part is next(iter(parts)))
-    return {_EYES: Follows.EYES, _TEETH: Follows.TEETH}.get(parts, Follows.SEVERAL)
+    """The objects that properties of single parts name, and how they follow."""
+    return of_slots({slot: getattr(obj.risorius.face, slot) for slot in SLOTS})
 
 
 def take_slots(obj: Object) -> None:

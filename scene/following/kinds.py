@@ -9,7 +9,7 @@ from ...face.mesh.parts import Part, Told
 
 
 class Follows(StrEnum):
-    """How an object follows a face."""
+    """How an object follows a face. Files keep the place in this order: what is new comes last."""
 
     EYES = "eyes"
     EYE_L = "eye_l"

@@ -12,7 +12,6 @@ import numpy as np
 
 from ...arrays import Floats
 from ..bake.performance import FIRST_FRAME
-from ..bake.target import Target
 from ..bake.timing import scene_fps
 from ..blender_types import Object
 from ..faces import face_of, read_face
@@ -32,19 +31,19 @@ def apex_frame(cue: Cue, fps: float, first: int = FIRST_FRAME) -> int:
     return first + int(np.floor((cue.start + cue.onset + cue.apex) * fps))
 
 
-def write_apexes(target: Target, cues: Sequence[Cue], look: Look, path: Path) -> None:
-    """Picture each cue's apex, with what was asked against what the baked face shows."""
+def write_apexes(shown: Sequence[Object], cues: Sequence[Cue], look: Look, path: Path) -> None:
+    """Picture each cue's apex on objects, the head first, with what was asked against what the baked face shows."""
     first, fps = bpy.context.scene.frame_start, scene_fps()
     frames = [apex_frame(cue, fps, first) for cue in cues]
-    framing = framing_of(target.obj)
+    framing = framing_of(shown[0])
     with tempfile.TemporaryDirectory(prefix="risorius-") as name:
         pictures = []
-        with studio(target.objects(), framing, look) as scene:
-            camera = FollowingCamera(scene, target.obj, framing)
+        with studio(shown, framing, look) as scene:
+            camera = FollowingCamera(scene, shown[0], framing)
             for frame in frames:
                 camera.go_to(frame)
                 pictures.append(render_frame(scene, frame, Path(name)))
-        write_sheet(_exhibits(target.obj, cues, frames, pictures), path)
+        write_sheet(_exhibits(shown[0], cues, frames, pictures), path)
 
 
 def _exhibits(obj: Object, cues: Sequence[Cue], frames: Sequence[int], pictures: Sequence[Path]) -> list[Exhibit]:

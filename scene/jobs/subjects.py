@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import bpy
@@ -12,16 +12,18 @@ from ...face.mesh.point_files import read_point_file
 from ...progress import Progress, Work, part_of
 from ..bake.target import Target
 from ..blender_types import Mesh, Object
-from ..companions import Companion
 from ..following.found import find_followers
-from ..following.kinds import PARTS, Follows
+from ..following.rows import Row, behind_of, followers_of, staying_of
+from ..following.saved import saved_with
 from ..head import add_default_head, select_only
 from ..points.found import Finding, find_points, seek_points
 from ..points.kept import has_points, write_kept
 from ..points.stored import store_points
-from ..refusals import reason
 from .inputs import Input, meshes_of, named_mesh, open_input
 from .painting import paint_parts
+
+#: What is said of an object that seems to belong to a face, but is not in the list saved with it.
+UNLISTED = "is not in the list Follows the Face: press Refresh there"
 
 
 @dataclass(frozen=True)
@@ -33,16 +35,22 @@ class Subject:
     target : its objects.
     remarks : how it was chosen, where there was a choice.
     in_own_scene : whether the scene around it is the user's, to be left as it is.
+    staying : objects about the face that do not follow it, but show beside it.
     """
 
     target: Target
     remarks: tuple[str, ...] = ()
     in_own_scene: bool = False
+    staying: tuple[Object, ...] = ()
 
     @property
     def obj(self) -> Object:
         """The head."""
         return self.target.obj
+
+    def shown(self) -> list[Object]:
+        """All that pictures of the face show, the head first."""
+        return [*self.target.objects(), *self.staying]
 
 
 def subject(asked: Input, *, creases: bool = False) -> Work[Subject]:
@@ -69,24 +77,31 @@ def subject(asked: Input, *, creases: bool = False) -> Work[Subject]:
     if not asked.is_scene and not obj.data.materials:
         paint_parts(obj, creases=creases)
     _show(obj)
-    target = _with_followers(obj)
-    names = ", ".join(companion.obj.name for companion in target.companions)
-    follow = (f"the face is {obj.name}; these follow it: {names}",) if names else ()
-    return Subject(target, remarks + follow, asked.is_scene)
+    face = _with_followers(obj, in_own_scene=asked.is_scene)
+    return replace(face, remarks=remarks + face.remarks)
 
 
-def _with_followers(obj: Object) -> Target:
-    """A head with the objects of its scene that follow it; what cannot be written to stays behind."""
-    companions, behind = [], []
-    for follower in find_followers(obj):
-        why = follower.why_not or reason(follower.obj)
-        if follower.follows is Follows.NONE or why:
-            behind.append(
-                f"{follower.obj.name} ({(why or 'does not follow').removeprefix(follower.obj.name).lstrip(': ')})"
-            )
-        else:
-            companions.append(Companion(follower.obj, PARTS[follower.follows]))
-    return Target(obj, tuple(companions), left_behind=tuple(behind))
+def _with_followers(obj: Object, *, in_own_scene: bool) -> Subject:
+    """A head with the objects that follow it: as saved with it in the file, else as found in its scene.
+
+    What came into the scene after the list was saved is named, not taken along.
+    """
+    saved = saved_with(obj)
+    single = saved.make_single_user
+    kept = saved.rows if saved.is_whole else tuple(row for row in saved.rows if row.by_hand)
+    others = find_followers(obj, beside={row.obj for row in kept})
+    found = () if saved.is_whole else tuple(Row(other.obj, other.follows, other.why_not) for other in others)
+    behind = behind_of((*kept, *found), make_single_user=single)
+    if saved.is_whole:
+        behind += tuple(f"{other.obj.name} ({UNLISTED})" for other in others)
+    as_saved, as_found = (followers_of(rows, make_single_user=single) for rows in (kept, found))
+    target = Target(obj, as_saved + as_found, make_single_user=single, left_behind=behind)
+    remarks = tuple(
+        f"the face is {obj.name}; these follow it{where}: {', '.join(each.obj.name for each in companions)}"
+        for companions, where in ((as_saved, " as saved in the file"), (as_found, ""))
+        if companions
+    )
+    return Subject(target, remarks, in_own_scene, tuple(staying_of((*kept, *found), make_single_user=single)))
 
 
 def _bearer(path: Path, asked: Input) -> Work[tuple[Object, tuple[str, ...]]]:

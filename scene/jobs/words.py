@@ -177,7 +177,7 @@ def _render_film(out: Path, load: Load, words: Sequence[str], look: Look, crease
 def filming(face: Subject, moved: bake.BakeResult, out: Path, look: Look) -> Work[film.FilmResult]:
     """Film what was baked."""
     start, end = (int(frame) for frame in moved.frame_range)
-    return film.render_film(face.target.objects(), out, start=start, end=end, look=look)
+    return film.render_film(face.shown(), out, start=start, end=end, look=look)
 
 
 def _demo(out: Path, load: Load, words: Sequence[str], look: Look, creases: bool | None = None) -> Work[Made]:
@@ -187,7 +187,7 @@ def _demo(out: Path, load: Load, words: Sequence[str], look: Look, creases: bool
     cues, moved = yield from part_of(_move(face, words, creases), 0.05, 0.35)
     rendered = yield from part_of(filming(face, moved, movie, look), 0.35, 0.9)
     yield Progress(0.91, "Composing the contact sheet")
-    write_apexes(face.target, cues, replace(look, width=SHEET_SIZE, height=SHEET_SIZE, fine=True), sheet)
+    write_apexes(face.shown(), cues, replace(look, width=SHEET_SIZE, height=SHEET_SIZE, fine=True), sheet)
     yield Progress(0.99, "Saving the .blend")
     said = cover(face, moved.frame_range[1])
     dress(face, look)
