@@ -8,13 +8,14 @@ import bpy
 
 from ...errors import SceneError
 from ...scene.following.kinds import Follows
+from ...scene.following.rows import SLOTS
 from ..active import active_object
 from ..base import RisoriusOperator
 from ..blender_classes import Operator
 from ..blender_types import Context, Object
 from ..changes import changed
 from ..points.reasons import no_points_reason
-from .rows import SLOTS, refresh, rows_of
+from .rows import refresh, rows_of
 
 
 class RISORIUS_OT_find_followers(RisoriusOperator, Operator):

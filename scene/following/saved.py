@@ -75,7 +75,8 @@ def _rows(entries: object) -> Iterator[Row]:
 
 def _group(value: object) -> _Group:
     """A stored group; an empty one where nothing, or something else, is stored."""
-    return value if isinstance(value, _Group) else {}
+    empty: dict[str, object] = {}
+    return value if isinstance(value, _Group) else cast(_Group, empty)
 
 
 def _object(value: object) -> Object | None:
