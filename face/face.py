@@ -12,7 +12,7 @@ from ..arrays import Floats, Ints
 from ..mpeg4 import Cue, Liveliness
 from ..physics import mesh
 from ..physics.tissue import Tissue
-from ..progress import Progress, Work
+from ..progress import Progress, Work, part_of, run
 from .anatomy import Anatomy
 from .bodies.eyeball import EyeballPlace
 from .drive.over_time import cue_plans, stream_plans
@@ -32,7 +32,7 @@ from .mesh.fap_units import Fapu, fapu
 from .mesh.head_frame import head_frame_of
 from .mesh.parts import Part, Told
 from .mesh.points import FeaturePoints, PointSource, bind_points, check_sides
-from .mesh.weld import weld
+from .mesh.weld import weld_steps
 from .muscles.placement import PlacedMuscle
 from .pose import Pose, Poser, Sketcher
 from .requests import checked_drive, checked_emotions, checked_request, checked_stream
@@ -86,9 +86,33 @@ class Face:
         >>> len(face.vertices) == len(head.vertices)
         True
         """
+        return run(cls.from_arrays_steps(vertices, polygons, points, parts, axes=axes))
+
+    @classmethod
+    def from_arrays_steps(
+        cls,
+        vertices: ArrayLike,
+        polygons: Sequence[Sequence[int]] | ArrayLike,
+        points: Mapping[str, PointSource],
+        parts: ArrayLike | None = None,
+        *,
+        axes: ArrayLike | None = None,
+    ) -> Work[Face]:
+        """As `from_arrays`, bit by bit, for whoever shows progress.
+
+        Examples
+        --------
+        >>> head = api.build_default_head()
+        >>> steps = api.Face.from_arrays_steps(head.vertices, head.polygons, head.points)
+        >>> next(steps).text
+        'Checking the mesh'
+        """
+        yield Progress(0.0, "Checking the mesh")
         array = checked_vertices(vertices)
         faces = checked_polygons(polygons, len(array))
-        seams = weld(array, faces)
+        yield Progress(0.2, "Checking the mesh")
+        seams = yield from part_of(weld_steps(array, faces), 0.2, 0.4)
+        yield Progress(0.4, "Placing the feature points")
         sources, triangles = seams.of_leads(with_pupils(points, array)), mesh.fans(seams.polygons)[0]
         told = checked_parts(parts, len(array))
         bound = bind_points(sources, array, triangles, np.isin(told, (Part.SKIN, Told.ANYTHING)))
@@ -98,7 +122,9 @@ class Face:
         check_sides(landmarks)
         units = fapu(positions, head_frame.axes)
         head = head_frame.to_head(array)
+        yield Progress(0.6, "Telling skin, eyes and teeth apart")
         given = known_parts(told, head, seams.polygons, landmarks, bound)
+        yield Progress(0.8, "Placing the feature points")
         if (told < 0).any():
             bound = bind_points(sources, array, triangles, given == Part.SKIN)
         given[seams.copies] = COPY

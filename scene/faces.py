@@ -15,6 +15,7 @@ from ..arrays import Floats, Ints
 from ..face.mesh.parts import Part, Told
 from ..face.mesh.point_files import PointTable
 from ..polygons import PolygonTable
+from ..progress import Work, run
 from . import mesh as meshes
 from .blender_types import Mesh, Object, Scene
 from .companions import Companion, placements, refuse_confused
@@ -189,11 +190,18 @@ def face_of(source: FaceSource) -> Face:
     ------
     ModelError : what the face lacks.
     """
+    return run(face_steps(source))
+
+
+def face_steps(source: FaceSource) -> Work[Face]:
+    """As `face_of`, bit by bit."""
     kept = next((kept for kept in _faces if kept[0].matches(source.fingerprint)), None)
     if kept is None:
         from .. import api
 
-        face = api.Face.from_arrays(source.vertices, source.polygons, dict(source.points), parts=source.parts)
+        face = yield from api.Face.from_arrays_steps(
+            source.vertices, source.polygons, dict(source.points), parts=source.parts
+        )
         kept = source.fingerprint, face
     else:
         _faces.remove(kept)

@@ -119,6 +119,14 @@ class _Surface:
         self._own: Ints = np.unique(triangles)
         self._near = cKDTree(vertices[self._own])
         self._reach = FREE_DISTANCE * float(np.linalg.norm(np.ptp(vertices, axis=0)))
+        owners = np.repeat(np.arange(len(triangles)), 3)
+        ends = (triangles.ravel(), owners)
+        self._at = sparse.csr_array((np.ones(len(owners), dtype=bool), ends), shape=(len(vertices), len(triangles)))
+
+    def _round(self, vertices: Ints) -> Ints:
+        """(k,) triangles that have one of some vertices as a corner, in their order."""
+        starts, held = self._at.indptr, self._at.indices
+        return np.unique(np.concatenate([held[starts[vertex] : starts[vertex + 1]] for vertex in vertices]))
 
     def bind(self, name: str, position: Floats) -> BoundPoint:
         """Bind a position to the closest triangle, or leave it free where there is none within reach."""
@@ -126,7 +134,7 @@ class _Surface:
         if len(self._own) == 0:
             return free
         _, nearest = self._near.query(position, k=min(NEAR_VERTICES, len(self._own)))
-        corners = self.triangles[np.isin(self.triangles, self._own[nearest]).any(axis=1)]
+        corners = self.triangles[self._round(self._own[np.atleast_1d(nearest)])]
         weights, distance = closest_on_triangles(position, self._vertices[corners])
         if distance.min() > self._reach:
             return free

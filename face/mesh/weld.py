@@ -19,6 +19,7 @@ from scipy.spatial import cKDTree
 from ...arrays import Bools, Floats, Ints
 from ...physics.mesh import Polygons, corners
 from ...polygons import PolygonTable
+from ...progress import Progress, Work, run
 from .points import PointSource
 
 #: Two vertices are in one place when they lie nearer than this share of the mesh's median edge.
@@ -68,6 +69,11 @@ def weld(vertices: Floats, polygons: Polygons) -> Weld:
     vertices : (V, 3) any unit.
     polygons : index sequences, three corners or more.
     """
+    return run(weld_steps(vertices, polygons))
+
+
+def weld_steps(vertices: Floats, polygons: Polygons) -> Work[Weld]:
+    """As `weld`, bit by bit."""
     loops, sizes = corners(polygons, len(vertices))
     lengths = np.linalg.norm(vertices[loops] - vertices[_next(loops, sizes)], axis=1)
     usual = float(np.median(lengths[lengths > 0.0])) if lengths.any() else 0.0
@@ -75,6 +81,7 @@ def weld(vertices: Floats, polygons: Polygons) -> Weld:
     doubles, covering = _covering(place, loops, sizes)
     if doubles.mean() < DOUBLED:
         doubles, covering = np.zeros_like(doubles), covering[:0]
+    yield Progress(0.5, "Checking the mesh")
     closed = _closed(loops, sizes, lengths <= NO_LENGTH * usual)
     leads = _joined(np.arange(len(vertices)), np.concatenate([covering, closed]))
     kept = np.repeat(~doubles, sizes)

@@ -15,7 +15,7 @@ from ...arrays import Floats
 from ...errors import SceneError
 from ...progress import Progress, Work, part_of
 from ..creases import marks as crease_marks
-from ..faces import FaceSource, face_of
+from ..faces import FaceSource, face_of, face_steps
 from . import action as actions
 from . import shape_keys
 from .compress import TOLERANCE, compress
@@ -84,7 +84,7 @@ def bake_expression(
     yield Progress(0.0, "Reading the face")
     source = target.source()
     yield Progress(0.1, "Placing the muscles")
-    face = face_of(source)
+    face = yield from part_of(face_steps(source), 0.1, 0.15)
     yield from part_of(face.prepare(), 0.15, 0.9)
     yield Progress(0.9, f"Solving the skin for {clip}")
     pose = face.pose(faps, drive=drive, emotion=emotion, contractions=contractions)
@@ -130,7 +130,7 @@ def bake_motion(
     yield Progress(0.0, "Reading the face")
     source = target.source()
     yield Progress(0.02, "Placing the muscles")
-    face = face_of(source)
+    face = yield from part_of(face_steps(source), 0.02, 0.03)
     yield from part_of(face.prepare(), 0.03, 0.1)
     displacements = np.empty((count, *face.vertices.shape))
     for index, positions in enumerate(motion.positions(face, rate, drive)):

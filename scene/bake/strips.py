@@ -15,7 +15,7 @@ from ...arrays import Floats
 from ...progress import Progress, Work, part_of
 from ..blender_types import Action, Key, NlaTrack
 from ..creases import marks as crease_marks
-from ..faces import FaceSource, face_of
+from ..faces import FaceSource, face_steps
 from . import action as actions
 from . import shape_keys
 from .baking import BakeResult
@@ -62,7 +62,7 @@ def bake_strips(
     yield Progress(0.0, "Reading the face")
     source = target.source()
     yield Progress(0.05, "Placing the muscles")
-    face = face_of(source)
+    face = yield from part_of(face_steps(source), 0.05, 0.06)
     yield from part_of(face.prepare(), 0.06, 0.2)
     poses: list[Pose] = []
     for number, shape in enumerate(shapes):
