@@ -110,9 +110,9 @@ class Face:
         yield Progress(0.0, "Checking the mesh")
         array = checked_vertices(vertices)
         faces = checked_polygons(polygons, len(array))
-        yield Progress(0.2, "Checking the mesh")
-        seams = yield from part_of(weld_steps(array, faces), 0.2, 0.4)
-        yield Progress(0.4, "Placing the feature points")
+        yield Progress(0.0, "Checking the mesh")
+        seams = yield from part_of(weld_steps(array, faces), 0.0, 0.5)
+        yield Progress(0.5, "Placing the feature points")
         sources, triangles = seams.of_leads(with_pupils(points, array)), mesh.fans(seams.polygons)[0]
         told = checked_parts(parts, len(array))
         bound = bind_points(sources, array, triangles, np.isin(told, (Part.SKIN, Told.ANYTHING)))
@@ -122,9 +122,9 @@ class Face:
         check_sides(landmarks)
         units = fapu(positions, head_frame.axes)
         head = head_frame.to_head(array)
-        yield Progress(0.6, "Telling skin, eyes and teeth apart")
+        yield Progress(0.5, "Telling skin, eyes and teeth apart")
         given = known_parts(told, head, seams.polygons, landmarks, bound)
-        yield Progress(0.8, "Placing the feature points")
+        yield Progress(0.5, "Placing the feature points")
         if (told < 0).any():
             bound = bind_points(sources, array, triangles, given == Part.SKIN)
         given[seams.copies] = COPY
