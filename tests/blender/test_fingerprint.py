@@ -142,6 +142,7 @@ def test_what_leaves_it_the_same_face(head: Any, eye: Any) -> None:
     before = fingerprint(head, companions)
     head.shape_key_add(name="Basis")
     unused, muted = head.shape_key_add(name="unused"), head.shape_key_add(name="muted")
+    unused.value = 0.0  # newer Blenders add keys with 1
     muted.value, muted.mute = 0.7, True
     for key in (unused, muted):
         key.data[3].co.x += 0.1
