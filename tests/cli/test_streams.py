@@ -82,6 +82,7 @@ def test_damage_is_said_and_refused_when_asked(
     assert "cut off" in said.err
 
 
+@pytest.mark.slow
 def test_tables_are_written_with_their_error(run_json: Run, tmp_path: Path) -> None:
     out = tmp_path / "face.json"
     said = run_json("tables", "--out", out, "--faps", 23, 65, "--steps", 1)

@@ -32,6 +32,7 @@ def cuts(head: HeadMesh) -> dict[str, np.ndarray]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["halves", "uv", "flat"])
 @pytest.mark.parametrize("given_parts", [True, False])
 def test_a_split_head_poses_as_the_whole_one(head: HeadMesh, kind: str, given_parts: bool) -> None:
@@ -50,6 +51,7 @@ def test_a_split_head_poses_as_the_whole_one(head: HeadMesh, kind: str, given_pa
     np.testing.assert_allclose(torn.measure(found.positions), wanted.achieved, atol=1e-3)
 
 
+@pytest.mark.slow
 def test_points_may_be_copies(head: HeadMesh) -> None:
     polygons = [np.asarray(polygon) for polygon in head.polygons]
     vertices, faces, was = split(head.vertices, polygons, cuts(head)["flat"])
@@ -62,6 +64,7 @@ def test_points_may_be_copies(head: HeadMesh) -> None:
     assert np.isfinite(face.pose(api.archetype("joy", 1).frame()).positions).all()
 
 
+@pytest.mark.slow
 def test_a_doubled_head_moves_as_one(head: HeadMesh) -> None:
     polygons = [np.asarray(polygon) for polygon in head.polygons]
     count = len(head.vertices)
@@ -76,6 +79,7 @@ def test_a_doubled_head_moves_as_one(head: HeadMesh) -> None:
     assert len(twice.polygons) == 2 * len(polygons)
 
 
+@pytest.mark.slow
 def test_creases_lie_on_both_sides_of_a_seam(head: HeadMesh) -> None:
     polygons = [np.asarray(polygon) for polygon in head.polygons]
     vertices, faces, was = split(head.vertices, polygons, cuts(head)["uv"])

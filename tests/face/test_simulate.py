@@ -82,6 +82,7 @@ def overshoot(moving: np.ndarray, vertex: int) -> float:
     return float((way @ way[-1]).max() / (way[-1] @ way[-1])) - 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("head", "word", "loose"),
     [("default", "joy", ("5.1", "5.2")), ("default", "surprise", ("2.1", "2.10")), ("makehuman", "joy", ("5.1",)),
@@ -100,6 +101,7 @@ def test_cheek_and_chin_overshoot_slightly_and_the_forehead_does_not(
         assert overshoot(moving, vertex) < 0.001
 
 
+@pytest.mark.slow
 def test_loose_tissue_alone_makes_the_cheek_overshoot(face: Face) -> None:
     """What is firmly held everywhere follows without."""
     assert overshoot(sudden(face, "joy", 12, tissue="stiff"), face.points["5.1"].vertices[0]) < 0.005

@@ -96,6 +96,7 @@ def alike(one: np.ndarray, other: np.ndarray) -> float:
     return float((one * other).sum() / np.linalg.norm(one) / np.linalg.norm(other))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["default", "makehuman"])
 def test_each_muscle_moves_the_feature_points_of_another_head_alike(heads: Mapping[str, Face], name: str) -> None:
     def at_points(face: Face) -> dict[str, np.ndarray]:
@@ -111,6 +112,7 @@ def test_each_muscle_moves_the_feature_points_of_another_head_alike(heads: Mappi
         assert alike(here[muscle], there[muscle]) > 0.9, muscle
 
 
+@pytest.mark.slow
 def test_each_muscle_moves_each_vertex_of_another_person_alike(heads: Mapping[str, Face]) -> None:
     ict, identity = heads["ict"], heads["another identity"]
     common, here, there = np.intersect1d(ict.anatomy.skin.index, identity.anatomy.skin.index, return_indices=True)

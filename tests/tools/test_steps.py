@@ -80,6 +80,7 @@ def test_report_of_a_run_counts_errors_as_failures(tmp_path: Path) -> None:
     assert str(read_report(report)) == "3 passed, 3 failed, 3 skipped"
 
 
+@pytest.mark.slow
 def test_a_command_that_does_not_end_is_stopped_with_all_that_it_started(tmp_path: Path) -> None:
     script = f"sleep 60 & echo $! > '{tmp_path}/started'; wait"
     with pytest.raises(subprocess.TimeoutExpired):

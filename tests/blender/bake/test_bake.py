@@ -219,6 +219,7 @@ def test_clearing_leaves_the_file_as_found(head: Any) -> None:
     assert not bpy.ops.risorius.clear.poll()
 
 
+@pytest.mark.slow
 def test_an_error_of_the_solver_is_reported_and_changes_nothing(head: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: Any, **__: Any) -> None:
         raise SolverError("no equilibrium", step=3)

@@ -230,6 +230,7 @@ def test_gltf_keeps_the_skins_colour(head: Any, tmp_path: Path) -> None:
     assert written["meshes"][0]["primitives"][0]["targets"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "measured"), [("WORKBENCH", False), ("CYCLES", True)])
 def test_a_film_that_shows_no_creases_does_not_measure_them(head: Any, engine: str, measured: bool) -> None:
     """Workbench draws none: measuring takes a tenth of the time of a frame."""

@@ -36,6 +36,7 @@ def state() -> dict[str, Any]:
     return {kind: sorted(block.name for block in getattr(bpy.data, kind)) for kind in kinds}
 
 
+@pytest.mark.slow
 def test_clips_come_back_with_names_lengths_and_apexes(joy_and_fear: Any, tmp_path: Path) -> None:
     head, before = joy_and_fear, state()
     basis = meshes.rest_vertices(head.data)
@@ -99,6 +100,7 @@ def document(path: Path) -> dict[str, Any]:
     return found
 
 
+@pytest.mark.slow
 def test_a_face_under_a_turned_and_scaled_parent_is_in_the_file_where_it_stands(head: Any, tmp_path: Path) -> None:
     root = bpy.data.objects.new("Root", None)
     bpy.context.collection.objects.link(root)
@@ -134,6 +136,7 @@ def rigged(head: Any) -> None:
     bpy.context.view_layer.objects.active = head
 
 
+@pytest.mark.slow
 def test_an_armature_and_its_weights_go_along(head: Any, tmp_path: Path) -> None:
     rigged(head)
     assert bpy.ops.risorius.bake_expression() == {"FINISHED"}
@@ -197,6 +200,7 @@ def test_names_are_lent_and_given_back_however_long(joy_and_fear: Any, tmp_path:
     assert [node["name"] for node in written["nodes"]] == [long]
 
 
+@pytest.mark.slow
 def test_an_armature_of_another_file_goes_along(head: Any, tmp_path: Path) -> None:
     rigged(head)
     library = tmp_path / "rig.blend"
@@ -216,6 +220,7 @@ def test_an_armature_of_another_file_goes_along(head: Any, tmp_path: Path) -> No
     assert {node["name"] for node in written["nodes"]} >= {"Rig", "Head", head.name}
 
 
+@pytest.mark.slow
 def test_morph_targets_move_the_normals_where_that_is_chosen(joy_and_fear: Any, tmp_path: Path) -> None:
     chosen = bpy.context.scene.risorius.film
     chosen.model = str(tmp_path / "face.glb")
@@ -318,6 +323,7 @@ def test_engine_shapes_as_glb_are_valid(tmp_path: Path) -> None:
     refuse_invalid(tmp_path / "shapes.glb")
 
 
+@pytest.mark.slow
 def test_keys_that_ours_drive_move_in_the_clips_under_an_armature(head: Any, tmp_path: Path) -> None:
     """A corrective key at half of joy: it follows in joy's clip and stays at rest in fear's."""
     rigged(head)

@@ -67,6 +67,7 @@ def test_engine_shapes_say_what_does_not_show(tongueless: Any, tmp_path: Path) -
     assert written.remarks == (f"la: {SAID}",)
 
 
+@pytest.mark.slow
 def test_the_panel_says_what_does_not_show(tongueless: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     begin_session()
     monkeypatch.setattr(live, "is_on", lambda: True)

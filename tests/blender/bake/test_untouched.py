@@ -196,6 +196,7 @@ def test_all_of_the_users_is_the_same(character: Any, operation: Callable[[Any, 
     assert found == []
 
 
+@pytest.mark.slow
 def test_a_change_anywhere_is_a_difference(character: Any) -> None:
     before = file_state()
     assert len(before) > 3000

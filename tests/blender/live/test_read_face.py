@@ -94,6 +94,7 @@ def differences(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.delete(one - other, np.arange(47, 50))
 
 
+@pytest.mark.slow
 @pytest.mark.smoke
 def test_what_shows_is_what_the_api_measures(smiling: Any, joy: np.ndarray) -> None:
     face = face_of(read_face(smiling))

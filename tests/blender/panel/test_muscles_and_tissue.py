@@ -42,6 +42,7 @@ def test_no_muscle_of_that_name(head: Any) -> None:
         set_by_hand(head, "biceps", 1.0)
 
 
+@pytest.mark.slow
 def test_what_is_set_by_hand_is_baked(head: Any) -> None:
     set_by_hand(head, "frontalis_med_l", 1.0)
     assert bpy.ops.risorius.bake_expression() == {"FINISHED"}

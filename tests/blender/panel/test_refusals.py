@@ -131,6 +131,7 @@ def test_linked_data(head: Any, tmp_path: Path) -> None:
         bake_key(linked)
 
 
+@pytest.mark.slow
 def test_a_shared_mesh_is_refused_or_made_single_user(head: Any) -> None:
     twin = bpy.data.objects.new("Twin", head.data)
     bpy.context.collection.objects.link(twin)

@@ -178,6 +178,7 @@ def test_command_line_is_registered(monkeypatch: pytest.MonkeyPatch) -> None:
     assert seen == [["profile", "joy"]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("left", ["", "risorius.unregister()"])
 def test_python_ends_as_asked_after_a_registration(left: str) -> None:
     code = f"import bpy, risorius, sys\nrisorius.register()\n{left}\nsys.exit(3)"

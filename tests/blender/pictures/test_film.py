@@ -235,6 +235,7 @@ def test_letters_are_black_on_white(tmp_path: Path) -> None:
     assert counted() == before
 
 
+@pytest.mark.slow
 def test_a_sheet_holds_the_pictures(tmp_path: Path) -> None:
     rng = np.random.default_rng(1)
     exhibits = []

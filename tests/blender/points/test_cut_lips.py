@@ -93,6 +93,7 @@ def test_all_that_was_there_stays_and_what_is_new_is_like_its_neighbours(scan: A
     assert (np.abs(heights[new] - now[new, 2]) < 0.012).all()
 
 
+@pytest.mark.slow
 def test_the_mouth_opens_afterwards(scan: Any) -> None:
     assert face_of(read_face(scan)).sewn == {"mouth"}
     cut(scan)

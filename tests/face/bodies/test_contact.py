@@ -190,6 +190,7 @@ def test_contact_takes_the_speed_of_what_it_stops_and_adds_none(face: Face) -> N
     assert contact.hold(apart, 0.5, Surroundings(), at_rest, step) is apart
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("head", HEADS)
 @pytest.mark.parametrize("word", ["anger:0", "anger:1", "grieving"])
 def test_pressed_lips_do_not_pass_through_each_other(head: str, word: str, any_face: Callable[[str], Face]) -> None:

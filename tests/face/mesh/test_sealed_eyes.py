@@ -66,6 +66,7 @@ def test_the_lining_of_lids_round_a_hole_and_a_flat_filling_are_skin(
     assert (Face.from_arrays(head.vertices, head.polygons, head.points).parts == Part.SKIN).all()
 
 
+@pytest.mark.slow
 def test_lids_close_over_it_and_it_looks_about(head: HeadMesh, face: Face) -> None:
     own, _ = sealed(head, face)
     eye = own.parts == Part.EYEBALL_L

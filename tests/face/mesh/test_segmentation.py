@@ -113,6 +113,7 @@ def turned_eyes(head: HeadMesh, shaped: Callable[[np.ndarray, np.ndarray], np.nd
     return vertices
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [0.005, 0.0235, 0.029])
 def test_eyeballs_of_drawn_heads_are_found_and_stay_round(head: HeadMesh, radius: float) -> None:
     def grown(ball: np.ndarray, centre: np.ndarray) -> np.ndarray:
@@ -129,6 +130,7 @@ def test_eyeballs_of_drawn_heads_are_found_and_stay_round(head: HeadMesh, radius
         np.testing.assert_allclose(spans[1], spans[0], atol=1e-6)
 
 
+@pytest.mark.slow
 def test_flat_eyes_are_eyes_and_stay_flat(head: HeadMesh) -> None:
     def flat(ball: np.ndarray, centre: np.ndarray) -> np.ndarray:
         front = ball[:, 1].min() + 0.004

@@ -85,6 +85,7 @@ def test_what_sewn_lips_keep_a_face_from_is_said(sewn: Callable[..., Face], face
     assert not any("sewn" in reason for reason in sewn("mouth").pose(frame).reasons.values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drive", ["natural", "exact"])
 def test_shut_lids_stay_shut(sewn: Callable[..., Face], drive: str) -> None:
     own, frame = sewn("l", "r"), np.full(68, np.nan)

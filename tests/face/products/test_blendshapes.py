@@ -29,6 +29,7 @@ def point(face: Face, positions: np.ndarray, name: str) -> np.ndarray:
     return np.asarray(face.points.matrix([name]) @ (positions - face.vertices))[0]
 
 
+@pytest.mark.slow
 def test_there_are_52_and_all_move_something(face: Face, shapes: dict[str, np.ndarray]) -> None:
     assert list(shapes) == list(load_shapes())
     for name, positions in shapes.items():

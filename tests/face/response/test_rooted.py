@@ -102,6 +102,7 @@ def test_what_is_on_the_skull_stays_unless_the_head_turns(shared_head: Callable)
     assert np.linalg.norm(face.pose(frame).positions[lashes] - head.vertices[lashes], axis=1).min() > 2.0 * MM
 
 
+@pytest.mark.slow
 def test_long_hair_makes_no_neck_and_is_not_read(shared_head: Callable) -> None:
     """How the head is turned is told by the head."""
     head = shared_head("makehuman")

@@ -33,6 +33,7 @@ def test_the_reserved_heads_are_no_heads_of_the_other_sets(heads: SharedHeads) -
         assert np.quantile(apart, 0.9) > 2e-3, (head.name, other.name)
 
 
+@pytest.mark.slow
 def test_their_points_lie_on_their_skin(heads: SharedHeads) -> None:
     for head in heads.reserved():
         for name in ("3.7", "8.3", "9.3"):
@@ -62,6 +63,7 @@ def test_what_is_buried_under_hair_is_no_point(heads: SharedHeads) -> None:
         assert np.linalg.norm(place - head.points[name]) < 2e-3, name
 
 
+@pytest.mark.slow
 def test_a_decimated_head_keeps_its_shape(heads: SharedHeads) -> None:
     head = heads.shared("makehuman")
     fewer = decimated(head, 1000)

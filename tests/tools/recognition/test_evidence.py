@@ -168,6 +168,7 @@ def _sides(scans: ModuleType, shared: Path) -> tuple[np.ndarray, np.ndarray]:
     return across > 0.005, across < -0.005
 
 
+@pytest.mark.slow
 def test_samples_have_a_strongest_frame(shared: Path) -> None:
     found = {each.name: each for each in samples.read_samples(shared / "samples" / "fap")}
     anger = found["xface_anger.fap"]

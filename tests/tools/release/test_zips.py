@@ -45,6 +45,7 @@ def test_what_blender_refuses_is_not_built(
     assert not list(tmp_path.glob("*.zip"))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("small_zip")
 def test_a_zip_that_the_extension_site_does_not_take_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -193,6 +193,7 @@ def test_smiling_eyes_are_not_torn_open() -> None:
     assert plan.reason(19) != "as asked"
 
 
+@pytest.mark.slow
 def test_requests_within_range_are_met(face: Face) -> None:
     """Those of the 25 profiles that lie within the anatomical range, as a share of the request or of 100 units."""
     errors = []
