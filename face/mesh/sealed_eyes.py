@@ -9,11 +9,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse.csgraph import connected_components
+from scipy.sparse.csgraph import connected_components, dijkstra
 
 from ...arrays import Floats, Ints
 from ...errors import ModelError
 from ...physics import mesh
+from ...physics.mesh import Sparse
 from ...polygons import PolygonTable
 from ..figures import Pair, Share, read_figures
 from .eye_parts import EYES, between, covers
@@ -30,6 +31,8 @@ class SealedFigures:
     radius: Pair
     roundness: Share
     ahead: Share
+    beside: Share
+    rim: Share
 
 
 SEALED = read_figures("parts.sealed_eye", SealedFigures)
@@ -63,7 +66,7 @@ def add_sealed_eyes(
             inner = _between(positions, skin, opening, nearest["9.3"])
         except ModelError:
             continue  # said where the face's skin is built
-        eye = _round(positions, skin, inner, np.array([points[name] for name in EYES[part]]))
+        eye = _round(positions, skin, graph, inner, np.array([points[name] for name in EYES[part]]))
         parts[eye] = int(part)
 
 
@@ -78,8 +81,11 @@ def _between(positions: Floats, skin: PolygonTable, opening: Opening, nose: int)
     return np.setdiff1d(own[np.isin(piece[own], piece[held])], opening.loop)
 
 
-def _round(positions: Floats, skin: PolygonTable, inner: Ints, lids: Floats) -> Ints:
-    """Those of some vertices that are one round eye between lids (4, 3); none where there is none."""
+def _round(positions: Floats, skin: PolygonTable, graph: Sparse, inner: Ints, lids: Floats) -> Ints:
+    """Those of some vertices that are one round eye between lids (4, 3); none where there is none.
+
+    `graph` (V, V) has the lengths of the skin's edges.
+    """
     none = np.zeros(0, dtype=np.int64)
     if len(inner) < MEASURABLE:
         return none
@@ -91,6 +97,8 @@ def _round(positions: Floats, skin: PolygonTable, inner: Ints, lids: Floats) -> 
         return none
     if np.median(off) > SEALED.roundness * radius or positions[front, 2] < centre[2] + SEALED.ahead * radius:
         return none
+    if not _has_rims(positions, graph, inner, centre, radius):
+        return none  # a shut lid
     ball = np.zeros(len(positions), dtype=bool)
     ball[inner[off < SEALED.roundness * radius]] = True
     own = skin.kept(skin.within(ball))
@@ -101,3 +109,11 @@ def _round(positions: Floats, skin: PolygonTable, inner: Ints, lids: Floats) -> 
     if not covers(positions, own, between(lids)[:1]).all():
         return none  # the lining of lids round a hole
     return np.asarray(eye[piece[eye] == piece[front]], dtype=np.int64)
+
+
+def _has_rims(positions: Floats, graph: Sparse, inner: Ints, centre: Floats, radius: float) -> bool:
+    """Whether the skin beside an eye stands out of its ball, as lids do; a shut lid goes on as the ball does."""
+    far = dijkstra(graph, directed=False, indices=inner, min_only=True, limit=SEALED.beside * radius)
+    beside = np.setdiff1d(np.flatnonzero(np.isfinite(far)), inner)
+    out = np.linalg.norm(positions[beside] - centre, axis=1) - radius
+    return len(beside) > 0 and bool(np.median(out) > SEALED.rim * radius)

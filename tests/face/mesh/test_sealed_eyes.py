@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from risorius.api import Face, Part
+from risorius.api import Face, Part, find_points, read_mesh
 from risorius.face.default_head import HeadMesh
 
 RINGS = (0.12, 0.35, 0.6, 0.85)
@@ -64,6 +65,15 @@ def test_the_lining_of_lids_round_a_hole_and_a_flat_filling_are_skin(
 ) -> None:
     head = shared_head(name)
     assert (Face.from_arrays(head.vertices, head.polygons, head.points).parts == Part.SKIN).all()
+
+
+@pytest.mark.slow
+def test_shut_lids_are_no_eyes(shared: Path) -> None:
+    """A scan with its lids shut: they bulge over the balls, and go on as these do beyond their margins."""
+    head = read_mesh(shared / "heads" / "others" / "leeperrysmith" / "leeperrysmith.obj")
+    found = find_points(head.vertices, head.polygons)
+    own = Face.from_arrays(head.vertices, head.polygons, found.positions)
+    assert not np.isin(own.parts, (Part.EYEBALL_L, Part.EYEBALL_R)).any()
 
 
 @pytest.mark.slow
