@@ -10,6 +10,7 @@ posture         from a plan to amounts, and where they bring the outer skin
 assembly        from the outer skin to all vertices
 measure         FAPs and features read off a deformed face
 unmet           what is asked of a face and does not show
+preparation     what a first pose needs, stage by stage
 requests        the FAPs, drives and emotions that a caller gives, checked
 anatomy         one face prepared for motion; builds all that the rooms hold
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -10,33 +10,22 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Floats, Ints
 from ..mpeg4 import Cue, Liveliness
-from ..physics import mesh
 from ..physics.tissue import Tissue
-from ..progress import Progress, Work, part_of, run
+from ..progress import Progress, Work, run
 from .anatomy import Anatomy
 from .bodies.eyeball import EyeballPlace
 from .drive.over_time import cue_plans, stream_plans
-from .drive.request import Drive, EmotionShares, Request, silent_faps
+from .drive.request import Drive, EmotionShares
 from .measure import features, measure
 from .mechanism import Mechanism, named
-from .mesh.checks import (
-    checked_axes,
-    checked_parts,
-    checked_polygons,
-    checked_vertices,
-    known_parts,
-    with_pupils,
-)
-from .mesh.face_mesh import COPY, FaceMesh
-from .mesh.fap_units import Fapu, fapu
-from .mesh.head_frame import head_frame_of
-from .mesh.parts import Part, Told
-from .mesh.points import FeaturePoints, PointSource, bind_points, check_sides
-from .mesh.weld import weld_steps
+from .mesh.building import face_mesh_steps
+from .mesh.checks import checked_polygons, checked_vertices
+from .mesh.fap_units import Fapu
+from .mesh.points import FeaturePoints, PointSource
 from .muscles.placement import PlacedMuscle
 from .pose import Pose, Poser, Sketcher
+from .preparation import preparation
 from .requests import checked_drive, checked_emotions, checked_request, checked_stream
-from .response.relaxation import Memory
 from .simulate import Clip, Simulation
 from .unmet import unmet
 
@@ -110,26 +99,7 @@ class Face:
         yield Progress(0.0, "Checking the mesh")
         array = checked_vertices(vertices)
         faces = checked_polygons(polygons, len(array))
-        yield Progress(0.0, "Checking the mesh")
-        seams = yield from part_of(weld_steps(array, faces), 0.0, 0.5)
-        yield Progress(0.5, "Placing the feature points")
-        sources, triangles = seams.of_leads(with_pupils(points, array)), mesh.fans(seams.polygons)[0]
-        told = checked_parts(parts, len(array))
-        bound = bind_points(sources, array, triangles, np.isin(told, (Part.SKIN, Told.ANYTHING)))
-        positions = bound.positions()
-        head_frame = head_frame_of(positions, None if axes is None else checked_axes(axes))
-        landmarks = {name: head_frame.to_head(position) for name, position in positions.items()}
-        check_sides(landmarks)
-        units = fapu(positions, head_frame.axes)
-        head = head_frame.to_head(array)
-        yield Progress(0.5, "Telling skin, eyes and teeth apart")
-        given = known_parts(told, head, seams.polygons, landmarks, bound)
-        yield Progress(0.5, "Placing the feature points")
-        if (told < 0).any():
-            bound = bind_points(sources, array, triangles, given == Part.SKIN)
-        given[seams.copies] = COPY
-        face_mesh = FaceMesh(head, seams.polygons, given, bound, landmarks, head_frame, units, seams)
-        return cls(array, faces, Anatomy(face_mesh))
+        return cls(array, faces, Anatomy((yield from face_mesh_steps(array, faces, points, parts, axes))))
 
     def without(self, *mechanisms: str | Mechanism) -> Face:
         """The same face with some mechanisms left out, to show what each is worth.
@@ -315,26 +285,7 @@ class Face:
         >>> [step.text for step in api.default_face().prepare()][0]
         'Preparing the skin'
         """
-        anatomy, poser = self.anatomy, self._poser
-        stages: tuple[tuple[str, Callable[[], object]], ...] = (
-            ("Preparing the skin", lambda: anatomy.given_skin),
-            ("Preparing the skin", lambda: (anatomy.skin, anatomy.muscles)),
-            ("Preparing the skin", lambda: (anatomy.carry, anatomy.skin.normals)),
-            ("Computing what each muscle does", lambda: anatomy.sheet.factor),
-            ("Computing what each muscle does", lambda: anatomy.pulls),
-            ("Computing what each muscle does", lambda: anatomy.actuators),
-            ("Relating muscles to FAPs", lambda: anatomy.inverse),
-            ("Preparing contact of lips and lids", lambda: anatomy.eyeballs),
-            ("Preparing contact of lips and lids", lambda: anatomy.contact),
-            ("Preparing what follows the skin", lambda: anatomy.inner_skin),
-            ("Preparing what follows the skin", lambda: anatomy.rooted_parts),
-            ("Placing folds", lambda: anatomy.given_skin.normals),
-            ("Placing folds", lambda: poser.assembly.folds),
-            ("Solving the skin", lambda: poser.sketch(Request(silent_faps()), Memory())),
-        )
-        for number, (text, stage) in enumerate(stages):
-            yield Progress(number / len(stages), text)
-            stage()
+        return preparation(self.anatomy, self._poser)
 
     def sketcher(self) -> Sketcher:
         """Quick poses for a live preview; see `Sketcher`.

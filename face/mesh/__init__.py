@@ -1,7 +1,7 @@
 """What is given of a face, before anything moves: its mesh, feature points and parts, in head space.
 
 checks                    vertices, polygons, parts and axes of a caller, checked
-face_mesh                 all of it, checked and turned into head space
+face_mesh, building       all of it, turned into head space; made step by step
 weld                      which vertices at one place are one
 head_frame                where the head is, which way it looks
 fap_units                 its FAP units

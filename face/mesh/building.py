@@ -1,0 +1,47 @@
+"""The mesh of a face made from what is given, step by step: welded, its points bound, its parts told."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arrays import Floats
+from ...physics.mesh import fans
+from ...polygons import PolygonTable
+from ...progress import Progress, Work, part_of
+from .checks import checked_axes, checked_parts, known_parts, with_pupils
+from .face_mesh import COPY, FaceMesh
+from .fap_units import fapu
+from .head_frame import head_frame_of
+from .parts import Part, Told
+from .points import PointSource, bind_points, check_sides
+from .weld import weld_steps
+
+
+def face_mesh_steps(
+    vertices: Floats,
+    polygons: PolygonTable,
+    points: Mapping[str, PointSource],
+    parts: ArrayLike | None,
+    axes: ArrayLike | None,
+) -> Work[FaceMesh]:
+    """The mesh of a face; parameters and errors as for `Face.from_arrays`, vertices and polygons checked."""
+    seams = yield from part_of(weld_steps(vertices, polygons), 0.0, 0.5)
+    yield Progress(0.5, "Placing the feature points")
+    sources, triangles = seams.of_leads(with_pupils(points, vertices)), fans(seams.polygons)[0]
+    told = checked_parts(parts, len(vertices))
+    bound = bind_points(sources, vertices, triangles, np.isin(told, (Part.SKIN, Told.ANYTHING)))
+    positions = bound.positions()
+    head_frame = head_frame_of(positions, None if axes is None else checked_axes(axes))
+    landmarks = {name: head_frame.to_head(position) for name, position in positions.items()}
+    check_sides(landmarks)
+    units, head = fapu(positions, head_frame.axes), head_frame.to_head(vertices)
+    yield Progress(0.5, "Telling skin, eyes and teeth apart")
+    given = known_parts(told, head, seams.polygons, landmarks, bound)
+    yield Progress(0.5, "Placing the feature points")
+    if (told < 0).any():
+        bound = bind_points(sources, vertices, triangles, given == Part.SKIN)
+    given[seams.copies] = COPY
+    return FaceMesh(head, seams.polygons, given, bound, landmarks, head_frame, units, seams)
