@@ -40,6 +40,9 @@ from .face.products.animation_table_files import read_animation_tables, write_an
 from .face.products.animation_tables import AnimationTable, AnimationTables, TableError
 from .face.products.blendshapes import arkit_shapes
 from .face.products.creases import Creases
+from .face.retarget.controls import Controls
+from .face.retarget.retargeting import Retargeted, retarget
+from .face.retarget.shortfall import Shortfall
 from .face.simulate import Clip
 from .face.tracked.formats import READABLE as READABLE_STREAMS
 from .face.tracked.formats import WRITABLE as WRITABLE_STREAMS
@@ -122,6 +125,7 @@ __all__ = [
     "CaptureShape",
     "Clip",
     "Contractible",
+    "Controls",
     "Creases",
     "Cue",
     "Decoded",
@@ -150,7 +154,9 @@ __all__ = [
     "Progress",
     "Ramp",
     "Recording",
+    "Retargeted",
     "Rule",
+    "Shortfall",
     "StreamFormat",
     "TableError",
     "Timing",
@@ -196,6 +202,7 @@ __all__ = [
     "recognise_over_time",
     "recognise_topology",
     "recognise_words",
+    "retarget",
     "save_topology",
     "sequence",
     "shown_strength",

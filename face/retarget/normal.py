@@ -1,0 +1,94 @@
+"""A motion and the effects of controls as normal equations of least squares.
+
+Each control is scaled to move the skin by one metre root mean square per value 1, so that a penalty means the same for
+all of them; a control that moves no skin, an eye's, is scaled by what it does to points and eyeballs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Floats
+from .sight import Sight
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What is seen of displacements: of controls (K rows), or of a motion's frames (T rows).
+
+    Attributes
+    ----------
+    skin : (., 3n) outer skin. points : (., m) what FAPs and gaze are read from. Both in head space, metres.
+    """
+
+    skin: Floats
+    points: Floats
+
+
+def seen(sight: Sight, displacements: Iterable[Floats]) -> Seen:
+    """What is seen of displacements (V, 3) in head space, one after another."""
+    skin, points = [], []
+    for moved in displacements:
+        skin.append(sight.of_skin(moved))
+        points.append(sight.of_points(moved))
+    return Seen(np.array(skin), np.array(points))
+
+
+@dataclass(frozen=True, eq=False)
+class Wishes:
+    """A motion as the controls see it.
+
+    Attributes
+    ----------
+    skin : (T, K) inner products of the motion's skin with that of each control. points : (T, m) its points.
+    size : (T,) squared length of the motion's skin.
+    """
+
+    skin: Floats
+    points: Floats
+    size: Floats
+
+
+def wishes(sight: Sight, controls: Seen, displacements: Iterable[Floats]) -> Wishes:
+    """A motion, frame by frame, none of which is kept."""
+    skin, points, size = [], [], []
+    for moved in displacements:
+        flat = sight.of_skin(moved)
+        skin.append(controls.skin @ flat)
+        points.append(sight.of_points(moved))
+        size.append(float(flat @ flat))
+    return Wishes(np.array(skin), np.array(points), np.array(size))
+
+
+@dataclass(frozen=True, eq=False)
+class Normal:
+    """Least squares over skin and points: the w with the least ``w @ matrix @ w / 2 - right @ w``.
+
+    Attributes
+    ----------
+    matrix : (K, K) with ones on its diagonal. right : (T, K).
+    scale : (K,) w = scale * value of a control.
+    """
+
+    matrix: Floats
+    right: Floats
+    scale: Floats
+
+
+def normal_equations(controls: Seen, asked: Wishes, emphasis: float, weights: Floats) -> Normal:
+    """The normal equations in which points count `emphasis` times as much as all skin.
+
+    Parameters
+    ----------
+    weights : (m,) how much each point counts beside the others.
+    """
+    vertices = max(controls.skin.shape[1] // 3, 1)
+    weight = emphasis * vertices * weights / max(float(weights.sum()), 1.0)
+    plain = controls.skin @ controls.skin.T + (weight * controls.points) @ controls.points.T
+    scale = np.sqrt(np.diagonal(plain))
+    scale = np.where(scale > 0.0, scale, 1.0)
+    right = asked.skin + (weight * asked.points) @ controls.points.T
+    return Normal(plain / np.outer(scale, scale), right / scale, scale)

@@ -1,0 +1,276 @@
+"""A motion of the muscles as values of the controls that a rig already has.
+
+What is nearest over the outer skin alone often misses what FAPs measure: lips that should part, a gaze. So feature
+points count more, as far as the skin's motion is shown hardly less well for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arrays import Bools, Floats
+from ...errors import ModelError, ParameterError
+from ...mpeg4 import FAP_COUNT
+from ..face import Face
+from .bounded import bounded_over_time
+from .controls import Controls
+from .mirrored import mirrored_pairs
+from .normal import Normal, Seen, Wishes, normal_equations, seen, wishes
+from .shortfall import Shortfall, shortfalls
+from .sight import sight_of
+
+#: How many times as much as all skin feature points may count.
+EMPHASES = (0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4)
+#: A FAP that is requested counts as much as this many others.
+REQUESTED = 3.0
+#: So much less of the skin's motion may be explained for the points' sake, as a share of all of it.
+YIELD = 0.016
+#: What a control costs, as a share of what its whole range does: those that fight each other are not both on.
+SPARING = 0.0015
+#: Weight of second differences over time, at 25 frames per second, where a motion is to be smooth.
+SMOOTH = 1.0
+USUAL_RATE = 25.0
+#: Frames that the emphasis is chosen on, at most.
+SAMPLE = 60
+#: Controls do the same where the cosine between their effects is at least this.
+SAME = 0.9995
+#: A head is at rest where half its skull moves less than this, metres of head space.
+STEADY = 1e-5
+#: Controls that carry less than this share of a motion are not worth naming.
+CARRYING = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Retargeted:
+    """A motion on the controls of a rig.
+
+    Attributes
+    ----------
+    names : of the K controls that were used.
+    values : (T, K) of them, 0 at rest.
+    asked, shown : (T, 68) FAPs of the motion and of what the controls show of it, FAP units; NaN where the face has no
+        such point. Not those of head and eyeballs.
+    moved, off : (T,) root mean square over the outer skin of the motion and of its distance from what is shown, metres.
+    head_turns : (T, 3) FAPs 48-50 of the motion, which no control of the face shows.
+    carriers : name -> share of the motion that goes through a control, the largest first.
+    missing : FAPs that fall short.
+    still, same : names of controls that do nothing; of those that do what another does -> that other. Neither is used.
+    """
+
+    names: tuple[str, ...]
+    values: Floats
+    asked: Floats
+    shown: Floats
+    moved: Floats
+    off: Floats
+    head_turns: Floats
+    carriers: dict[str, float]
+    missing: Sequence[Shortfall]
+    still: tuple[str, ...]
+    same: dict[str, str]
+
+    @property
+    def explained(self) -> float:
+        """Share of the motion of the outer skin that is shown: 1 - |off|^2 / |moved|^2; 1 where nothing moves."""
+        size = float((self.moved**2).sum())
+        return 1.0 if size == 0.0 else 1.0 - float((self.off**2).sum()) / size
+
+
+def retarget(
+    face: Face,
+    controls: Controls,
+    motion: Iterable[Floats],
+    *,
+    fps: float = 25.0,
+    requested: ArrayLike | None = None,
+    symmetric: bool = False,
+    smooth: float = 1.0,
+) -> Retargeted:
+    """The values of controls that bring a face nearest to a motion.
+
+    Parameters
+    ----------
+    motion : positions (V, 3) of the face, frame by frame; taken one by one. A turn of the head is set aside.
+    fps : frames per second.
+    requested : (..., 68) FAPs behind the motion, NaN where silent, if they are known: these count most.
+    symmetric : controls that are each other's mirror image get one value.
+    smooth : how smooth values are over time: 0 leaves each frame to itself, 1 is usual.
+
+    Raises
+    ------
+    ModelError : no control does anything to this face.
+    ParameterError : effects of another mesh, or a motion without frames.
+
+    Examples
+    --------
+    >>> face = api.default_face()
+    >>> smile = face.pose(api.expression("joy").frame()).positions
+    >>> controls = api.Controls(("smile",), (smile - face.vertices)[None], np.zeros(1), np.ones(1))
+    >>> found = api.retarget(face, controls, [face.vertices, smile])
+    >>> bool(found.explained > 0.95)
+    True
+    """
+    return Retargeting(face, controls, symmetric=symmetric).values(motion, fps=fps, requested=requested, smooth=smooth)
+
+
+class Retargeting:
+    """One face and the controls of its rig, ready for motions."""
+
+    def __init__(self, face: Face, controls: Controls, *, symmetric: bool = False) -> None:
+        """Prepare the controls; parameters and errors as for `retarget`."""
+        if controls.effects.shape[1] != len(face.vertices):
+            expected = f"must be of the face's {len(face.vertices)} vertices"
+            raise ParameterError("effects", expected, controls.effects.shape)
+        self.face, self.frame = face, face.anatomy.mesh.head_frame
+        self.sight = sight_of(face.anatomy)
+        still = controls.still(face.scale)
+        self.still = tuple(name for name, idle in zip(controls.names, still, strict=True) if idle)
+        if still.all():
+            raise ModelError("none of the controls moves the face: choose controls that do, and unlock them")
+        moving = controls.select(~still)
+        does = self._seen(moving)
+        self.same = _doubles(moving.names, does)
+        kept = np.array([name not in self.same for name in moving.names], dtype=bool)
+        self.controls, self.does = moving.select(kept), Seen(does.skin[kept], does.points[kept])
+        self.ties = self._ties() if symmetric else np.eye(len(self.controls))
+
+    def _seen(self, controls: Controls) -> Seen:
+        """What each control does, in head space."""
+        turn = self.frame.axes.T / self.frame.scale
+        return seen(self.sight, (effect @ turn for effect in controls.effects))
+
+    def _ties(self) -> Floats:
+        """(J, K) which controls have one value."""
+        resting = self.face.anatomy.mesh.positions[self.sight.skin]
+        pairs = mirrored_pairs(resting, self.does.skin)
+        ties = np.eye(len(self.controls))
+        for left, right in pairs:
+            ties[left, right] = 1.0
+        return np.delete(ties, [right for _, right in pairs], axis=0)
+
+    def values(
+        self, motion: Iterable[Floats], *, fps: float = 25.0, requested: ArrayLike | None = None, smooth: float = 1.0
+    ) -> Retargeted:
+        """The controls' values for a motion; see `retarget`."""
+        turns: list[Floats] = []
+        asked = wishes(self.sight, self.does, self._stilled(motion, turns))
+        if len(asked.size) == 0:
+            raise ParameterError("motion", "must have at least one frame", 0)
+        tied = Seen(self.ties @ self.does.skin, self.ties @ self.does.points)
+        wish = Wishes(asked.skin @ self.ties.T, asked.points, asked.size)
+        found = self._solve(tied, wish, self._weights(requested), smooth * SMOOTH * (fps / USUAL_RATE) ** 4) @ self.ties
+        return self._result(asked, found, np.array(turns))
+
+    def _weights(self, requested: ArrayLike | None) -> Floats:
+        """(m,) how much each of the points counts."""
+        weights = np.ones(self.does.points.shape[1])
+        if requested is not None:
+            silent = np.isnan(np.asarray(requested, dtype=np.float64).reshape(-1, FAP_COUNT))
+            known: Bools = np.asarray(~silent.all(axis=0))
+            weights[: len(self.sight.numbers)][known[self.sight.numbers - 1]] = REQUESTED
+        return weights
+
+    def _stilled(self, motion: Iterable[Floats], turns: list[Floats]) -> Iterator[Floats]:
+        """Displacements (V, 3) in head space, the head's turn taken out and noted."""
+        anatomy = self.face.anatomy
+        rest, turn = anatomy.mesh.positions, anatomy.head_turn
+        for positions in motion:
+            head = self.frame.to_head(np.asarray(positions, dtype=np.float64))
+            faps: dict[int, float] = {}
+            if turn.is_readable and np.median(np.abs(head[turn.skull] - rest[turn.skull])) > STEADY:
+                head, faps = turn.undo(head, rest)
+            turns.append(np.array([faps.get(number, 0.0) for number in (48, 49, 50)]))
+            yield head - rest
+
+    def _solve(self, does: Seen, asked: Wishes, weights: Floats, smooth: float) -> Floats:
+        """(T, J) values, with as much emphasis on points as the skin allows."""
+        low, high = self._limits
+        some = np.unique(np.linspace(0, len(asked.size) - 1, SAMPLE).astype(np.int64))
+        sample = Wishes(asked.skin[some], asked.points[some], asked.size[some])
+        square = does.skin @ does.skin.T
+        plain = normal_equations(does, sample, 0.0 if square.any() else 1.0, weights)
+        best = self._least(plain, low, high, 0.0, spare=False)
+        bound = _left(square, sample, best) + YIELD * float(sample.size.sum())
+        chosen = EMPHASES[0]
+        for emphasis in EMPHASES:
+            tried = self._least(normal_equations(does, sample, emphasis, weights), low, high, 0.0)
+            if _left(square, sample, tried) > bound:
+                break
+            chosen = emphasis
+        return self._least(normal_equations(does, asked, chosen, weights), low, high, smooth)
+
+    @cached_property
+    def _limits(self) -> tuple[Floats, Floats]:
+        """(J,) the limits of values that controls share."""
+        reach = np.where(self.ties > 0.0, 1.0, np.nan)
+        return np.nanmax(reach * self.controls.low, axis=1), np.nanmin(reach * self.controls.high, axis=1)
+
+    def _least(self, normal: Normal, low: Floats, high: Floats, smooth: float, *, spare: bool = True) -> Floats:
+        """(T, J) values by least squares."""
+        reach = normal.scale * np.maximum(high, -low)
+        cost = SPARING * reach if spare else np.zeros(len(reach))
+        return (
+            bounded_over_time(normal.matrix, normal.right, low * normal.scale, high * normal.scale, cost, smooth)
+            / normal.scale
+        )
+
+    def _result(self, asked: Wishes, values: Floats, turns: Floats) -> Retargeted:
+        """What is told of values (T, K)."""
+        square, count = self.does.skin @ self.does.skin.T, len(self.sight.skin)
+        left = asked.size - 2.0 * (values * asked.skin).sum(axis=1) + np.einsum("tj,jk,tk->t", values, square, values)
+        to_face = self.frame.scale / np.sqrt(max(count, 1))
+        sought, shown = self._faps(asked.points), self._faps(values @ self.does.points)
+        through = np.abs(values).sum(axis=0) * np.sqrt(np.diagonal(square))
+        shares = through / max(float(through.sum()), 1e-300)
+        order = [i for i in np.argsort(-shares) if shares[i] >= CARRYING]
+        return Retargeted(
+            names=tuple(self.controls.names),
+            values=values,
+            asked=sought,
+            shown=shown,
+            moved=np.sqrt(asked.size) * to_face,
+            off=np.sqrt(np.maximum(left, 0.0)) * to_face,
+            head_turns=turns,
+            carriers={self.controls.names[i]: float(shares[i]) for i in order},
+            missing=shortfalls(sought, shown, self._units),
+            still=self.still,
+            same=self.same,
+        )
+
+    def _faps(self, points: Floats) -> Floats:
+        """(T, 68) FAPs of what is seen of points (T, m)."""
+        faps = np.full((len(points), FAP_COUNT), np.nan)
+        numbers = self.sight.numbers
+        faps[:, numbers - 1] = points[:, : len(numbers)] / self.sight.units
+        return faps
+
+    @cached_property
+    def _units(self) -> Floats:
+        """(68,) metres per FAP unit."""
+        units = np.full(FAP_COUNT, np.nan)
+        units[self.sight.numbers - 1] = self.sight.units
+        return units
+
+
+def _doubles(names: Sequence[str], does: Seen) -> dict[str, str]:
+    """Controls that do what another before them does -> that other."""
+    both = np.hstack([does.skin, does.points])
+    unit = both / np.maximum(np.linalg.norm(both, axis=1, keepdims=True), 1e-300)
+    alike = np.abs(unit @ unit.T) >= SAME
+    found: dict[str, str] = {}
+    for later in range(len(names)):
+        first = next((one for one in range(later) if alike[one, later] and names[one] not in found), None)
+        if first is not None:
+            found[names[later]] = names[first]
+    return found
+
+
+def _left(square: Floats, asked: Wishes, values: Floats) -> float:
+    """Squared distance from the motion's skin, over all frames, by values (T, K)."""
+    shown = float(np.einsum("tj,jk,tk->", values, square, values))
+    return float(asked.size.sum()) - 2.0 * float((values * asked.skin).sum()) + shown
