@@ -41,7 +41,7 @@ from .face.products.animation_tables import AnimationTable, AnimationTables, Tab
 from .face.products.blendshapes import arkit_shapes
 from .face.products.creases import Creases
 from .face.retarget.controls import Controls
-from .face.retarget.retargeting import Retargeted, retarget
+from .face.retarget.retargeting import Retargeted, Retargeting, Take, retarget
 from .face.retarget.shortfall import Shortfall
 from .face.simulate import Clip
 from .face.tracked.formats import READABLE as READABLE_STREAMS
@@ -155,10 +155,12 @@ __all__ = [
     "Ramp",
     "Recording",
     "Retargeted",
+    "Retargeting",
     "Rule",
     "Shortfall",
     "StreamFormat",
     "TableError",
+    "Take",
     "Timing",
     "Told",
     "Topology",

@@ -81,6 +81,11 @@ class Piece:
         positions: Floats = meshes.basis_vertices(self.obj.data) + self._change(displacements)
         return positions
 
+    def shown(self, change: Floats) -> Floats:
+        """(V, 3) in the joined arrays' metres what a change of this mesh before modifiers shows."""
+        turned = change if self.posed is None else np.einsum("vij,vj->vi", self.posed.slopes, change)
+        return np.asarray(turned @ self.to_metres[:3, :3].T)
+
     def _change(self, displacements: Floats) -> Floats:
         """(V, 3) joined displacements (all vertices, 3) in metres as those of this mesh before modifiers."""
         shown = np.asarray(displacements[self.slice] @ np.linalg.inv(self.to_metres[:3, :3]).T)

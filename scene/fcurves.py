@@ -19,10 +19,15 @@ SMALL = 1e-6
 
 def key_curves(action: Action) -> FCurves:
     """The F-curves of an action for shape keys; room for them is made where there is none."""
+    return curves_for(action, "KEY")
+
+
+def curves_for(action: Action, id_type: str) -> FCurves:
+    """The F-curves of an action for datablocks of a type ("KEY", "OBJECT"); room is made where there is none."""
     if not hasattr(action, "slots"):
-        action.id_root = "KEY"
+        action.id_root = id_type
         return action.fcurves
-    slot = key_slot(action)
+    slot = slot_for(action, id_type)
     layer = action.layers[0] if action.layers else action.layers.new("Layer")
     strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
     return strip.channelbag(slot, ensure=True).fcurves
@@ -30,12 +35,17 @@ def key_curves(action: Action) -> FCurves:
 
 def key_slot(action: Action) -> Slot | None:
     """The action's slot for shape keys, made where there is none; None where Blender has no slots."""
+    return slot_for(action, "KEY")
+
+
+def slot_for(action: Action, id_type: str) -> Slot | None:
+    """The action's slot for datablocks of a type, made where there is none; None where Blender has no slots."""
     if not hasattr(action, "slots"):
         return None
     for slot in action.slots:
-        if slot.target_id_type in {"KEY", "UNSPECIFIED"}:
+        if slot.target_id_type in {id_type, "UNSPECIFIED"}:
             return slot
-    return action.slots.new(id_type="KEY", name="Face")
+    return action.slots.new(id_type=id_type, name="Face")
 
 
 def played_curves(animation: AnimData) -> FCurves | None:
@@ -50,12 +60,12 @@ def played_curves(animation: AnimData) -> FCurves | None:
     return next((bag.fcurves for bag in bags if bag is not None), None)
 
 
-def curves_of(action: Action, data_path: str) -> list[FCurve]:
+def curves_of(action: Action, data_path: str, index: int = 0) -> list[FCurve]:
     """The F-curves of an action, in any slot of it, for one thing; the action stays as it is."""
     if not hasattr(action, "slots"):
-        found = [action.fcurves.find(data_path)]
+        found = [action.fcurves.find(data_path, index=index)]
     else:
-        found = [bag.fcurves.find(data_path) for strip in _strips(action) for bag in strip.channelbags]
+        found = [bag.fcurves.find(data_path, index=index) for strip in _strips(action) for bag in strip.channelbags]
     return [curve for curve in found if curve is not None]
 
 

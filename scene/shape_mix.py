@@ -102,9 +102,14 @@ def mixed_vertices(mesh: Mesh, values: Mapping[str, float]) -> Floats:
         key = keys.key_blocks.get(name)
         if key is None:
             continue
-        change = read_floats(key.data, "co", 3) - read_floats(key.relative_key.data, "co", 3)
-        mixed += value * (change if not key.vertex_group else _weights(mesh, key.vertex_group)[:, None] * change)
+        mixed += value * key_change(mesh, key)
     return mixed
+
+
+def key_change(mesh: Mesh, key: ShapeKey) -> Floats:
+    """(V, 3) what a shape key adds at value 1, as Blender mixes it, in the mesh's own coordinates."""
+    change = read_floats(key.data, "co", 3) - read_floats(key.relative_key.data, "co", 3)
+    return change if not key.vertex_group else _weights(mesh, key.vertex_group)[:, None] * change
 
 
 def _showing(mesh: Mesh) -> Iterator[ShapeKey]:

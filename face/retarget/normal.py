@@ -52,17 +52,6 @@ class Wishes:
     size: Floats
 
 
-def wishes(sight: Sight, controls: Seen, displacements: Iterable[Floats]) -> Wishes:
-    """A motion, frame by frame, none of which is kept."""
-    skin, points, size = [], [], []
-    for moved in displacements:
-        flat = sight.of_skin(moved)
-        skin.append(controls.skin @ flat)
-        points.append(sight.of_points(moved))
-        size.append(float(flat @ flat))
-    return Wishes(np.array(skin), np.array(points), np.array(size))
-
-
 @dataclass(frozen=True, eq=False)
 class Normal:
     """Least squares over skin and points: the w with the least ``w @ matrix @ w / 2 - right @ w``.

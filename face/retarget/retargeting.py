@@ -6,7 +6,7 @@ points count more, as far as the skin's motion is shown hardly less well for it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -17,10 +17,11 @@ from ...arrays import Bools, Floats
 from ...errors import ModelError, ParameterError
 from ...mpeg4 import FAP_COUNT
 from ..face import Face
+from ..unmet import unmet
 from .bounded import bounded_over_time
 from .controls import Controls
 from .mirrored import mirrored_pairs
-from .normal import Normal, Seen, Wishes, normal_equations, seen, wishes
+from .normal import Normal, Seen, Wishes, normal_equations, seen
 from .shortfall import Shortfall, shortfalls
 from .sight import sight_of
 
@@ -41,6 +42,8 @@ SAMPLE = 60
 SAME = 0.9995
 #: A head is at rest where half its skull moves less than this, metres of head space.
 STEADY = 1e-5
+#: Why a FAP does not show although the face could show it.
+NO_CONTROL = "no control that can be used shows it"
 #: Controls that carry less than this share of a motion are not worth naming.
 CARRYING = 0.05
 
@@ -58,7 +61,7 @@ class Retargeted:
     moved, off : (T,) root mean square over the outer skin of the motion and of its distance from what is shown, metres.
     head_turns : (T, 3) FAPs 48-50 of the motion, which no control of the face shows.
     carriers : name -> share of the motion that goes through a control, the largest first.
-    missing : FAPs that fall short.
+    missing : FAPs that fall short. unmet : FAP number -> why, of FAPs that are requested and of which nothing shows.
     still, same : names of controls that do nothing; of those that do what another does -> that other. Neither is used.
     """
 
@@ -71,6 +74,7 @@ class Retargeted:
     head_turns: Floats
     carriers: dict[str, float]
     missing: Sequence[Shortfall]
+    unmet: dict[int, str]
     still: tuple[str, ...]
     same: dict[str, str]
 
@@ -115,7 +119,40 @@ def retarget(
     >>> bool(found.explained > 0.95)
     True
     """
-    return Retargeting(face, controls, symmetric=symmetric).values(motion, fps=fps, requested=requested, smooth=smooth)
+    retargeting = Retargeting(face, controls, symmetric=symmetric)
+    take = retargeting.take()
+    for positions in motion:
+        take.add(positions)
+    return retargeting.values(take, fps=fps, requested=requested, smooth=smooth)
+
+
+class Take:
+    """A motion as the controls of a face see it; its frames are not kept."""
+
+    def __init__(self, seen_by: Retargeting) -> None:
+        self._by = seen_by
+        self._skin: list[Floats] = []
+        self._points: list[Floats] = []
+        self._size: list[float] = []
+        self.turns: list[Floats] = []
+
+    def add(self, positions: ArrayLike) -> None:
+        """Another frame: positions (V, 3) of the face. A turn of the head is set aside and noted in `turns`."""
+        by = self._by
+        rest, turn = by.face.anatomy.mesh.positions, by.face.anatomy.head_turn
+        head = by.frame.to_head(np.asarray(positions, dtype=np.float64))
+        faps: dict[int, float] = {}
+        if turn.is_readable and np.median(np.abs(head[turn.skull] - rest[turn.skull])) > STEADY:
+            head, faps = turn.undo(head, rest)
+        self.turns.append(np.array([faps.get(number, 0.0) for number in (48, 49, 50)]))
+        flat = by.sight.of_skin(head - rest)
+        self._skin.append(by.does.skin @ flat)
+        self._points.append(by.sight.of_points(head - rest))
+        self._size.append(float(flat @ flat))
+
+    def wishes(self) -> Wishes:
+        """What the frames so far ask of the controls."""
+        return Wishes(np.array(self._skin), np.array(self._points), np.array(self._size))
 
 
 class Retargeting:
@@ -154,17 +191,21 @@ class Retargeting:
         return np.delete(ties, [right for _, right in pairs], axis=0)
 
     def values(
-        self, motion: Iterable[Floats], *, fps: float = 25.0, requested: ArrayLike | None = None, smooth: float = 1.0
+        self, take: Take, *, fps: float = 25.0, requested: ArrayLike | None = None, smooth: float = 1.0
     ) -> Retargeted:
         """The controls' values for a motion; see `retarget`."""
-        turns: list[Floats] = []
-        asked = wishes(self.sight, self.does, self._stilled(motion, turns))
-        if len(asked.size) == 0:
+        if not take.turns:
             raise ParameterError("motion", "must have at least one frame", 0)
+        asked = take.wishes()
         tied = Seen(self.ties @ self.does.skin, self.ties @ self.does.points)
         wish = Wishes(asked.skin @ self.ties.T, asked.points, asked.size)
-        found = self._solve(tied, wish, self._weights(requested), smooth * SMOOTH * (fps / USUAL_RATE) ** 4) @ self.ties
-        return self._result(asked, found, np.array(turns))
+        smoothing = smooth * SMOOTH * (fps / USUAL_RATE) ** 4
+        found = self._solve(tied, wish, self._weights(requested), smoothing) @ self.ties
+        return self._result(asked, found, np.array(take.turns), requested)
+
+    def take(self) -> Take:
+        """A motion to be added frame by frame."""
+        return Take(self)
 
     def _weights(self, requested: ArrayLike | None) -> Floats:
         """(m,) how much each of the points counts."""
@@ -174,18 +215,6 @@ class Retargeting:
             known: Bools = np.asarray(~silent.all(axis=0))
             weights[: len(self.sight.numbers)][known[self.sight.numbers - 1]] = REQUESTED
         return weights
-
-    def _stilled(self, motion: Iterable[Floats], turns: list[Floats]) -> Iterator[Floats]:
-        """Displacements (V, 3) in head space, the head's turn taken out and noted."""
-        anatomy = self.face.anatomy
-        rest, turn = anatomy.mesh.positions, anatomy.head_turn
-        for positions in motion:
-            head = self.frame.to_head(np.asarray(positions, dtype=np.float64))
-            faps: dict[int, float] = {}
-            if turn.is_readable and np.median(np.abs(head[turn.skull] - rest[turn.skull])) > STEADY:
-                head, faps = turn.undo(head, rest)
-            turns.append(np.array([faps.get(number, 0.0) for number in (48, 49, 50)]))
-            yield head - rest
 
     def _solve(self, does: Seen, asked: Wishes, weights: Floats, smooth: float) -> Floats:
         """(T, J) values, with as much emphasis on points as the skin allows."""
@@ -219,7 +248,7 @@ class Retargeting:
             / normal.scale
         )
 
-    def _result(self, asked: Wishes, values: Floats, turns: Floats) -> Retargeted:
+    def _result(self, asked: Wishes, values: Floats, turns: Floats, requested: ArrayLike | None) -> Retargeted:
         """What is told of values (T, K)."""
         square, count = self.does.skin @ self.does.skin.T, len(self.sight.skin)
         left = asked.size - 2.0 * (values * asked.skin).sum(axis=1) + np.einsum("tj,jk,tk->t", values, square, values)
@@ -238,9 +267,18 @@ class Retargeting:
             head_turns=turns,
             carriers={self.controls.names[i]: float(shares[i]) for i in order},
             missing=shortfalls(sought, shown, self._units),
+            unmet=self._unmet(requested, shown),
             still=self.still,
             same=self.same,
         )
+
+    def _unmet(self, requested: ArrayLike | None, shown: Floats) -> dict[int, str]:
+        """FAP number -> why, of FAPs that are requested and of which nothing shows."""
+        if requested is None:
+            return {}
+        asked = np.asarray(requested, dtype=np.float64).reshape(-1, FAP_COUNT).copy()
+        asked[:, np.isnan(self._units)] = np.nan
+        return unmet(self.face.anatomy, asked, shown, dict.fromkeys(range(1, FAP_COUNT + 1), NO_CONTROL))
 
     def _faps(self, points: Floats) -> Floats:
         """(T, 68) FAPs of what is seen of points (T, m)."""

@@ -27,7 +27,7 @@ from .timing import ClipTiming, scene_fps
 from .writing import Written, write_baked
 
 if TYPE_CHECKING:
-    from ...api import EmotionShares
+    from ...api import EmotionShares, Retargeted
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +42,7 @@ class BakeResult:
     frame_range : first and last frame.
     achieved : (68,) FAPs measured on an expression; None for a motion.
     remarks : what the user should know.
+    followed : how far the controls of a rig follow, where the bake went onto these.
     """
 
     clip: str
@@ -51,6 +52,7 @@ class BakeResult:
     frame_range: tuple[float, float]
     achieved: Floats | None = None
     remarks: tuple[str, ...] = ()
+    followed: Retargeted | None = None
 
 
 def bake_expression(

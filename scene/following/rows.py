@@ -46,9 +46,7 @@ class Row:
 def followers_of(rows: Iterable[Row], *, make_single_user: bool = False) -> tuple[Companion, ...]:
     """The objects that follow a face. What was found by itself and cannot be written to is left out."""
     return tuple(
-        Companion(row.obj, PARTS[row.follows])
-        for row in rows
-        if row.refused(make_single_user=make_single_user) is None
+        Companion(row.obj, PARTS[row.follows]) for row in rows if row.refused(make_single_user=make_single_user) is None
     )
 
 

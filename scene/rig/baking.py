@@ -1,0 +1,199 @@
+"""Baking onto a rig: a pose or a motion of the muscles as keyframes of the controls that a character already has.
+
+Everything is computed before anything is written, so an error or a cancelled bake leaves the scene as it was. No key is
+added and none is changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from ...arrays import Floats
+from ...progress import Progress, Work, part_of
+from ..bake.baking import BakeResult
+from ..bake.motion import Motion
+from ..bake.remarks import sewn_remarks, unmet_remarks
+from ..bake.target import Target
+from ..bake.timing import ClipTiming, scene_fps
+from ..faces import FaceSource, face_steps, read_face
+from .clips import Keyframes, refuse_unkeyable, write_rig_clip
+from .rig import Rig
+
+if TYPE_CHECKING:
+    from ...api import EmotionShares, Face, Retargeted
+
+#: Finds the controls of a face, bit by bit.
+FindRig: TypeAlias = Callable[[FaceSource], Work[Rig]]
+
+#: Names and FAPs that a remark lists.
+LISTED = 4
+
+
+@dataclass(frozen=True)
+class Onto:
+    """How a clip is put onto a rig.
+
+    Attributes
+    ----------
+    symmetric : controls that are each other's mirror image get one value.
+    smooth : how smooth values are over time; 0 leaves each frame to itself, 1 is usual.
+    above : on top of what plays already, to be taken off again; else as keyframes in the actions that play now.
+    """
+
+    symmetric: bool = False
+    smooth: float = 1.0
+    above: bool = True
+
+
+def bake_expression_onto(
+    target: Target,
+    faps: Floats,
+    find_rig: FindRig,
+    *,
+    clip: str,
+    timing: ClipTiming,
+    onto: Onto = Onto(),
+    peak: float = 1.0,
+    drive: str = "natural",
+    emotion: EmotionShares | None = None,
+    contractions: Mapping[str, float] | None = None,
+) -> Work[BakeResult]:
+    """Bake one expression onto the controls of a rig, with keyframes along onset, apex and offset.
+
+    Parameters
+    ----------
+    find_rig : `key_rig`, or that of bones, as work.
+    others : as for `bake.bake_expression`.
+
+    Raises
+    ------
+    SceneError, ModelError, SolverError : nothing has been changed then.
+    """
+    from ... import api
+
+    source, face, rig = yield from _prepared(target, find_rig)
+    yield Progress(0.85, f"Solving the skin for {clip}")
+    pose = face.pose(faps, drive=drive, emotion=emotion, contractions=contractions)
+    yield Progress(0.95, "Relating the face to the controls")
+    retargeting = api.Retargeting(face, rig.controls(), symmetric=onto.symmetric)
+    take = retargeting.take()
+    take.add(pose.positions)
+    found = retargeting.values(take, requested=faps)
+    curve = timing.curve(peak)
+    values = {channel: moved[0] * curve.values for channel, moved in rig.channel_values(found).items()}
+    keyframes = Keyframes(curve.frames, values)
+    return _write(source, rig, clip, keyframes, onto, found, (*unmet_remarks(pose.unmet, clip), *_about(source, face)))
+
+
+def bake_motion_onto(
+    target: Target,
+    motion: Motion,
+    find_rig: FindRig,
+    *,
+    clip: str,
+    start: float = 1.0,
+    fps: float | None = None,
+    onto: Onto = Onto(),
+    drive: str = "natural",
+) -> Work[BakeResult]:
+    """Simulate a motion and bake it onto the controls of a rig; parameters as for `bake.bake_motion`.
+
+    Raises
+    ------
+    SceneError, ModelError, SolverError : nothing has been changed then.
+    """
+    from ... import api
+
+    rate = fps if fps is not None else scene_fps()
+    count = motion.frame_count(rate)
+    source, face, rig = yield from _prepared(target, find_rig)
+    retargeting = api.Retargeting(face, rig.controls(), symmetric=onto.symmetric)
+    take = retargeting.take()
+    for index, positions in enumerate(motion.positions(face, rate, drive)):
+        take.add(positions)
+        yield Progress(0.5 + 0.4 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
+    yield Progress(0.9, "Relating the motion to the controls")
+    found = retargeting.values(take, fps=rate, requested=motion.asked, smooth=onto.smooth)
+    keyframes = Keyframes(start + np.arange(count, dtype=np.float64), rig.channel_values(found), linear=True)
+    return _write(source, rig, clip, keyframes, onto, found, _about(source, face))
+
+
+def _prepared(target: Target, find_rig: FindRig) -> Work[tuple[FaceSource, Face, Rig]]:
+    """The face, ready for poses, and the controls of its rig."""
+    yield Progress(0.0, "Reading the face")
+    source = read_face(target.obj, companions=target.companions)
+    yield Progress(0.05, "Placing the muscles")
+    face = yield from part_of(face_steps(source), 0.05, 0.1)
+    yield Progress(0.1, "Looking at the controls")
+    rig = yield from part_of(find_rig(source), 0.1, 0.3)
+    refuse_unkeyable(place.owner for entry in rig.entries for place in entry.channel.places)
+    yield from part_of(face.prepare(), 0.3, 0.5)
+    return source, face, rig
+
+
+def _about(source: FaceSource, face: Face) -> tuple[str, ...]:
+    """What the user should know about the face."""
+    return tuple(sewn_remarks(source.head.name, face.sewn))
+
+
+def _write(
+    source: FaceSource,
+    rig: Rig,
+    clip: str,
+    keyframes: Keyframes,
+    onto: Onto,
+    found: Retargeted,
+    said: tuple[str, ...],
+) -> BakeResult:
+    """Key a clip and tell of it."""
+    written = write_rig_clip(source.head, clip, keyframes, above=onto.above)
+    used = tuple(channel.name for channel, moved in keyframes.values.items() if np.abs(moved).max() > 0.0)
+    frames = (float(keyframes.frames[0]), float(keyframes.frames[-1]))
+    apex = int(np.argmax(found.moved))
+    return BakeResult(
+        clip,
+        ", ".join(action.name for action in written.actions),
+        used,
+        float(found.off.max(initial=0.0)),
+        frames,
+        found.shown[apex],
+        (*rig_remarks(clip, rig, found), *written.remarks, *said),
+        found,
+    )
+
+
+def rig_remarks(clip: str, rig: Rig, found: Retargeted) -> tuple[str, ...]:
+    """How far the controls of a rig follow, what they miss, and what was left alone."""
+    from ... import api
+
+    apex = int(np.argmax(found.moved))
+    millimetres = 1000.0 * float(found.off[apex])
+    said = [
+        f"{clip}: the controls show {found.explained:.0%} of the motion, {millimetres:.1f} mm off at its peak, "
+        f"most of it with {_listed(list(found.carriers))}"
+    ]
+    if found.missing:
+        said.append(f"{clip}: too little of {_listed([short.line for short in found.missing])}")
+    said += [f"{clip}: {line}" for line in api.unmet_lines(found.unmet)]
+    if np.abs(found.head_turns).max(initial=0.0) > 0.0:
+        said.append(f"{clip}: the head's turn is not on these controls")
+    for reason in dict.fromkeys(rig.left_alone.values()):
+        names = [name for name, why in rig.left_alone.items() if why == reason]
+        said.append(f"left alone: {_listed(names)}: {reason}")
+    if found.still:
+        said.append(f"not used, because they do not move the face: {_listed(list(found.still))}")
+    if found.same:
+        said.append(
+            f"not used, because another does the same: {_listed([f'{a} ({b})' for a, b in found.same.items()])}"
+        )
+    return tuple(said)
+
+
+def _listed(names: list[str]) -> str:
+    """The first of some names, and how many more."""
+    more = len(names) - LISTED
+    return ", ".join(names[:LISTED]) + (f" and {more} more" if more > 0 else "")

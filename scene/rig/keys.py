@@ -1,0 +1,108 @@
+"""The shape keys of a face as controls: what each does is measured on the meshes, never guessed from its name."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...arrays import Floats
+from ...progress import Progress, Work
+from ..blender_types import Key, ShapeKey
+from ..faces import FaceSource, Piece
+from ..fcurves import SMALL, played_curves
+from ..shape_mix import data_path, key_change, own_keys, resting_values
+from .channels import Channel, Place
+from .rig import Control, Rig
+
+
+def key_rig(source: FaceSource) -> Work[Rig]:
+    """The shape keys that the objects of a face have; keys of one name on several objects are one control.
+
+    Keys that are muted, locked, driven or part of the resting face are left alone, and so are Risorius' own.
+    """
+    entries: list[Control] = []
+    effects: list[Floats] = []
+    left_alone: dict[str, str] = {}
+    names = _names(source)
+    for number, name in enumerate(names):
+        yield Progress(number / len(names), f"Measuring {name}")
+        members = [(piece, keys.key_blocks[name]) for piece, keys in _keyed(source) if name in keys.key_blocks]
+        free = [(piece, key) for piece, key in members if not is_driven(piece, key)]
+        why = _reason(*members[0]) if free else "is driven"
+        if why is None and free[0][0] is not members[0][0]:
+            why = "is driven on one object of the face and not on another"
+        if why is not None:
+            left_alone[name] = why
+            continue
+        channel = _channel(name, free)
+        entries.append(Control(channel))
+        effects.append(_effect(source, members))
+    return Rig(source, tuple(entries), np.array(effects).reshape(-1, *source.vertices.shape), left_alone)
+
+
+def _keyed(source: FaceSource) -> list[tuple[Piece, Key]]:
+    """The pieces that have relative shape keys."""
+    every = [(piece, piece.obj.data.shape_keys) for piece in source.pieces]
+    return [(piece, keys) for piece, keys in every if keys is not None and keys.use_relative]
+
+
+def _names(source: FaceSource) -> list[str]:
+    """Names of the user's keys, the head's first, each once."""
+    names: dict[str, None] = {}
+    for _, keys in _keyed(source):
+        own = set(own_keys(keys).names)
+        names.update(dict.fromkeys(k.name for k in keys.key_blocks if k != keys.reference_key and k.name not in own))
+    return list(names)
+
+
+def is_driven(piece: Piece, key: ShapeKey) -> bool:
+    """Whether a driver gives a key its value."""
+    keys = piece.obj.data.shape_keys
+    animation = None if keys is None else keys.animation_data
+    return animation is not None and any(curve.data_path == data_path(key.name) for curve in animation.drivers)
+
+
+def _reason(piece: Piece, key: ShapeKey) -> str | None:
+    """Why a key is left alone; None where it can be used."""
+    if key.mute:
+        return "is muted: turn it on in the list of shape keys"
+    if getattr(key, "lock_shape", False):
+        return "is locked: unlock it in the list of shape keys"
+    if is_locked(piece, key):
+        return "its F-curve is locked: unlock it in the Graph Editor"
+    if abs(resting_values(piece.obj.data).get(key.name, 0.0)) > SMALL:
+        return "is part of the resting face: set it to 0 to use it"
+    if not key.slider_max - max(key.slider_min, 0.0) > SMALL and not key.slider_min < -SMALL:
+        return "has no room in its slider's range: raise Range Max"
+    return None
+
+
+def is_locked(piece: Piece, key: ShapeKey) -> bool:
+    """Whether the user has locked the F-curve that animates a key."""
+    keys = piece.obj.data.shape_keys
+    animation = None if keys is None else keys.animation_data
+    curves = None if animation is None else played_curves(animation)
+    curve = None if curves is None else curves.find(data_path(key.name))
+    return curve is not None and curve.lock
+
+
+def _channel(name: str, members: list[tuple[Piece, ShapeKey]]) -> Channel:
+    """The channel of a key, and of those of its name on other objects, within the range that all of them have."""
+    places = [Place(_datablock(piece), data_path(name)) for piece, _ in members]
+    low = max(min(key.slider_min, 0.0) for _, key in members)
+    high = min(max(key.slider_max, 0.0) for _, key in members)
+    return Channel(name, places[0], low, high, twins=tuple(places[1:]))
+
+
+def _datablock(piece: Piece) -> Key:
+    """The shape keys of a piece that has some."""
+    keys = piece.obj.data.shape_keys
+    assert keys is not None
+    return keys
+
+
+def _effect(source: FaceSource, members: list[tuple[Piece, ShapeKey]]) -> Floats:
+    """(V, 3) what keys of one name do to the joined vertices, metres."""
+    effect = np.zeros_like(source.vertices)
+    for piece, key in members:
+        effect[piece.slice] = piece.shown(key_change(piece.obj.data, key))
+    return effect

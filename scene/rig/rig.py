@@ -1,0 +1,81 @@
+"""The controls of a rig, what each does to the face, and what is left alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...arrays import Floats
+from ...errors import SceneError
+from ..faces import FaceSource
+from .channels import Channel
+
+if TYPE_CHECKING:
+    from ...api import Controls, Retargeted
+
+
+@dataclass(frozen=True)
+class Control:
+    """One way in which a channel goes from its rest: up or down (`sign` 1 or -1), or both ways alike (0).
+
+    A channel whose two ways do different things, such as a slider from frown to smile, is two controls.
+    """
+
+    channel: Channel
+    sign: int = 0
+
+    @property
+    def name(self) -> str:
+        """The channel's name, and which way."""
+        return self.channel.name + {0: "", 1: " +", -1: " -"}[self.sign]
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Least and greatest value of the control, 0 at rest."""
+        down, up = self.channel.low - self.channel.resting, self.channel.high - self.channel.resting
+        return {0: (down, up), 1: (0.0, up), -1: (0.0, -down)}[self.sign]
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """Controls of one face.
+
+    Attributes
+    ----------
+    source : the face, as it is at rest.
+    entries : its K controls. effects : (K, V, 3) what a value of 1 does to the joined vertices of the face, metres.
+    left_alone : name -> why, of what could have been a control.
+    """
+
+    source: FaceSource
+    entries: tuple[Control, ...]
+    effects: Floats
+    left_alone: Mapping[str, str] = field(default_factory=dict)
+
+    def controls(self) -> Controls:
+        """As `api.retarget` takes them.
+
+        Raises
+        ------
+        SceneError : there are none; says why and what to do.
+        """
+        from ... import api
+
+        if not self.entries:
+            why = "; ".join(f"{name}: {reason}" for name, reason in self.left_alone.items())
+            problem = f"has no controls that can be used: {why or 'add shape keys, or bake to New Keys'}"
+            raise SceneError(self.source.head.name, problem)
+        limits = np.array([entry.limits for entry in self.entries])
+        return api.Controls(tuple(e.name for e in self.entries), self.effects, limits[:, 0], limits[:, 1])
+
+    def channel_values(self, found: Retargeted) -> dict[Channel, Floats]:
+        """Channel -> (T,) how far from rest it goes, of all channels that were used."""
+        by_name = {entry.name: entry for entry in self.entries}
+        moved: dict[Channel, Floats] = {}
+        for name, values in zip(found.names, found.values.T, strict=True):
+            entry = by_name[name]
+            moved[entry.channel] = moved.get(entry.channel, 0.0) + (values if entry.sign >= 0 else -values)
+        return moved
