@@ -22,6 +22,7 @@ materials             materials and worlds with nodes
 gltf                  a face with its clips as glTF
 points                feature points on objects: found, kept, bound, shown
 bake                  shape keys, actions and strips
+rig                   the controls that a character already has, measured and keyed
 blendshape_keys       shape keys that engines know by name
 live                  previews and readings while the user works
 cut                   sewn lips cut open
