@@ -59,10 +59,9 @@ class Keyframes(Growing[Keyframe], Protocol):
 
 
 class FCurve(Protocol):
-    """One animated figure; `array_index` counts where it is one of several, as of a location."""
+    """One animated figure."""
 
     data_path: str
-    array_index: int
     lock: bool
     keyframe_points: Keyframes
 
