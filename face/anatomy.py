@@ -113,8 +113,7 @@ class Anatomy:
         openings = {"mouth": find_opening(graph, nearest, LIP_UPPER, LIP_LOWER)}
         openings |= {side: find_opening(graph, nearest, *LIDS[side]) for side in "lr"}
         outside = outer_faces(polygons, list(openings.values()), nearest["9.3"])
-        ways = mesh.adjacency(face_mesh.positions, polygons)
-        sewn = sewn_openings(ways, nearest, face_mesh.landmarks)
+        sewn = sewn_openings(face_mesh.positions, polygons, nearest, face_mesh.landmarks)
         web = np.zeros(len(polygons), dtype=bool)
         for name in sorted(sewn):
             own, openings[name] = web_of(face_mesh.positions, polygons, outside, openings[name])

@@ -9,7 +9,8 @@ points, own_lip           feature points bound to the mesh
 fap_rows                  which point each FAP reads, along which direction, in which unit
 parts, segmentation,      which vertex is skin, eyeball, tooth or tongue, and how that is told
   eye_parts, sealed_eyes,
-  mouth_parts, sphere
+  lid_ball, mouth_parts,
+  sphere
 told                      objects that hold both eyes or both rows of teeth, told apart
 openings, sewn            where lips and lids end; where they are one surface
 reach                     which skin a face can move

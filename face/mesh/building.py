@@ -6,9 +6,11 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.spatial import cKDTree
 
 from ...arrays import Floats
-from ...physics.mesh import fans
+from ...errors import ModelError
+from ...physics.mesh import Polygons, fans
 from ...polygons import PolygonTable
 from ...progress import Progress, Work, part_of
 from .checks import checked_axes, checked_parts, known_parts, with_pupils
@@ -17,7 +19,8 @@ from .fap_units import fapu
 from .head_frame import head_frame_of
 from .parts import Part, Told
 from .points import PointSource, bind_points, check_sides
-from .weld import weld_steps
+from .sewn import sewn_openings
+from .weld import weld, weld_steps
 
 
 def face_mesh_steps(
@@ -45,3 +48,16 @@ def face_mesh_steps(
         bound = bind_points(sources, vertices, triangles, given == Part.SKIN)
     given[seams.copies] = COPY
     return FaceMesh(head, seams.polygons, given, bound, landmarks, head_frame, units, seams)
+
+
+def sewn_among(vertices: Floats, polygons: Polygons, places: Mapping[str, Floats]) -> frozenset[str]:
+    """Which openings of a mesh (V, 3) are sewn, by its feature points' places (3,): `Face.sewn` without a face."""
+    try:
+        frame = head_frame_of({name: np.asarray(place) for name, place in with_pupils(places, vertices).items()})
+    except ModelError:
+        return frozenset()  # said where the face is made
+    points = {name: frame.to_head(place) for name, place in places.items()}
+    positions, seams = frame.to_head(vertices), weld(vertices, polygons)
+    used = np.unique(seams.polygons.loops)
+    _, near = cKDTree(positions[used]).query(np.array(list(points.values())))
+    return sewn_openings(positions, seams.polygons, dict(zip(points, used[near].tolist(), strict=True)), points)

@@ -14,15 +14,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components, dijkstra
-from scipy.spatial import cKDTree
 
 from ...arrays import Bools, Floats, Ints
+from ...errors import ModelError
 from ...physics import mesh
-from ...physics.mesh import Polygons, Sparse
+from ...physics.mesh import Sparse
 from ...polygons import PolygonTable
 from ..figures import Share, read_figures
-from .openings import Opening
-from .weld import weld
+from .lid_ball import lid_ball
+from .openings import LIDS, Opening
 
 
 @dataclass(frozen=True)
@@ -43,39 +43,51 @@ ACROSS = {
 }
 
 
-def sewn_openings(graph: Sparse, nearest: Mapping[str, int], points: Mapping[str, Floats]) -> frozenset[str]:
+def sewn_openings(
+    positions: Floats, skin: PolygonTable, nearest: Mapping[str, int], points: Mapping[str, Floats]
+) -> frozenset[str]:
     """Which of "mouth", "l" and "r" (the eyes) are sewn: the lips as they are, lids only where they are shut.
 
     An eye that is open and one surface with its lids is not sewn: its lids close over it.
 
     Parameters
     ----------
-    graph : (V, V) lengths along the skin, with diagonals.
+    positions : (V, 3) head space, metres. skin : its polygons.
     nearest : feature point -> vertex. points : feature point -> (3,) in head space.
     """
-    found = set()
-    for name, points_across in ACROSS.items():
-        if any(point not in nearest for point in points_across):
-            continue
-        upper, lower, *corners = (nearest[point] for point in points_across)
-        far = dijkstra(graph, directed=False, indices=np.array([upper, lower]))
-        straight, around = far[0, lower], min(far[0, corner] + far[1, corner] for corner in corners)
-        if straight > SEWN.straight * around:
-            continue
-        above, below, *ends = (points[point] for point in points_across)
-        if name == "mouth" or np.linalg.norm(above - below) < SEWN.shut * np.linalg.norm(ends[0] - ends[1]):
-            found.add(name)
-    return frozenset(found)
+    ways = mesh.adjacency(positions, skin)
+    known = [name for name, across in ACROSS.items() if all(point in nearest for point in across)]
+    whole = [name for name in known if _leads_across(ways, nearest, name)]
+    eyes = [name for name in whole if name in LIDS]
+    edges = mesh.adjacency(positions, skin, diagonals=False) if eyes else ways
+    return frozenset(whole) - {side for side in eyes if not _is_shut(positions, skin, edges, nearest, points, side)}
 
 
-def sewn_among(vertices: Floats, polygons: Polygons, places: Mapping[str, Floats]) -> frozenset[str]:
-    """Which openings of a mesh (V, 3) are sewn, by its feature points' places (3,): `Face.sewn` without a face."""
-    seams = weld(vertices, polygons)
-    graph = mesh.adjacency(vertices, seams.polygons)
-    names = sorted({name for across in ACROSS.values() for name in across} & set(places))
-    used = np.unique(seams.leads)
-    nearest = used[cKDTree(vertices[used]).query(np.array([places[name] for name in names]))[1]] if names else used[:0]
-    return sewn_openings(graph, dict(zip(names, nearest.tolist(), strict=True)), places)
+def _leads_across(ways: Sparse, nearest: Mapping[str, int], name: str) -> bool:
+    """Whether the way along the skin from one lip or lid to the other leads straight across."""
+    upper, lower, *corners = (nearest[point] for point in ACROSS[name])
+    far = dijkstra(ways, directed=False, indices=np.array([upper, lower]))
+    around = min(far[0, corner] + far[1, corner] for corner in corners)
+    return bool(far[0, lower] <= SEWN.straight * around)
+
+
+def _is_shut(
+    positions: Floats,
+    skin: PolygonTable,
+    edges: Sparse,
+    nearest: Mapping[str, int],
+    points: Mapping[str, Floats],
+    side: str,
+) -> bool:
+    """Whether lids that are one surface are shut: they all but meet, or one bulges over the eye without a rim."""
+    above, below, *ends = (points[point] for point in ACROSS[side])
+    if np.linalg.norm(above - below) < SEWN.shut * np.linalg.norm(ends[0] - ends[1]):
+        return True
+    try:
+        ball = lid_ball(positions, skin, edges, nearest, points, side)
+    except ModelError:
+        return False  # said where the face's skin is built
+    return ball is not None and ball.is_lid
 
 
 def web_of(positions: Floats, polygons: PolygonTable, outside: Bools, opening: Opening) -> tuple[Bools, Opening]:

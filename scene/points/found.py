@@ -78,7 +78,7 @@ def seek_points(
     """
     from ... import api
     from ...face.fit.clicks import click_place
-    from ...face.mesh.sewn import sewn_among
+    from ...face.mesh.building import sewn_among
 
     yield Progress(0.0, "Reading the mesh")
     refuse_unreadable(obj)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ....arrays import Floats
+from ....arrays import Floats, Ints
 from .cloud import Surface, nearest, sample
 from .rims import Neighbourhood
 
@@ -36,6 +36,9 @@ CORNER_END = 2e-3
 LEVEL, LEVEL_REACH, LIP_POINTS = 1.0e-3, 5e-3, 12_000
 #: A mouth whose inside reaches no deeper than this is no opening but a crease, or filled with skin; metres.
 SHALLOW = 6e-3
+#: A rim round an area below this share of its width's square, with no more than this behind it, metres, is no eye's:
+#: it is the fold of an upper lid over an eye that is one surface with it.
+FOLD, FOLD_DEPTH = 0.06, 2e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,13 +157,20 @@ def _candidates(
                 continue
             dense = _dense(places)
             misfit = float(nearest(cKDTree(dense), expected.margin)[0].mean() + 0.7 * nearest(tree, dense)[0].mean())
-            if misfit > FARTHEST[kind]:
+            if misfit > FARTHEST[kind] or (kind == "eye" and _is_fold(near, line)):
                 continue
             misfit += _unlikeness(places, expected.margin) if kind == "eye" else 0.0
             margin = _split(places, expected.margin, misfit + (UNUSUAL if number else 0.0))
             if margin is not None and (kind == "eye" or near.depth_behind(line) > SHALLOW):
                 found.append(margin)
     return found
+
+
+def _is_fold(near: Neighbourhood, line: Ints) -> bool:
+    """Whether a closed line of vertices is a fold of one surface; behind lids that are all but shut lies an eye."""
+    places = near.vertices[line]
+    is_thin = abs(_area(places)) < FOLD * float(np.ptp(places[:, 0])) ** 2
+    return is_thin and near.depth_behind(line) < FOLD_DEPTH
 
 
 def _unlikeness(line: Floats, expected: Floats) -> float:

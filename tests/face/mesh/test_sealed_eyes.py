@@ -10,19 +10,20 @@ import numpy as np
 import pytest
 from risorius.api import Face, Part, find_points, read_mesh
 from risorius.face.default_head import HeadMesh
+from risorius.face.mesh.building import sewn_among
 
 RINGS = (0.12, 0.35, 0.6, 0.85)
 
 
-def sealed(head: HeadMesh, face: Face, bulge: float = 1.0) -> tuple[Face, dict[str, np.ndarray]]:
+def sealed(head: HeadMesh, face: Face, bulge: float = 1.0, flush: bool = False) -> tuple[Face, dict[str, np.ndarray]]:
     """The default head without eyeballs and sockets, its lids closed by parts of balls; the vertices of these.
 
-    `bulge` -1: the same parts of balls, hollow as sockets are.
+    `bulge` -1: the same parts of balls, hollow as sockets are. `flush`: the skin round them lies on the balls too.
     """
     skin = face.anatomy.given_skin
     kept = np.isin(np.arange(len(head.vertices)), skin.index)
     polygons = [tuple(p) for p in head.polygons if kept[list(p)].all()]
-    vertices, eyes = [head.vertices], {}
+    vertices, eyes = [head.vertices.copy()], {}
     count = len(head.vertices)
     for side, part in (("l", Part.EYEBALL_L), ("r", Part.EYEBALL_R)):
         own = head.vertices[head.parts == part]
@@ -30,10 +31,15 @@ def sealed(head: HeadMesh, face: Face, bulge: float = 1.0) -> tuple[Face, dict[s
         upper, lower = skin.index[skin.eyes[side].upper], skin.index[skin.eyes[side].lower]
         loop = [*upper.tolist(), *lower[1:-1].tolist()]
         radius = float(np.linalg.norm(head.vertices[loop] - centre, axis=1).min()) - 0.3e-3
+        if flush:
+            away = head.vertices - centre
+            far = np.linalg.norm(away, axis=1)
+            on = np.isin(np.arange(len(far)), skin.index) & (far < 1.35 * radius) & (away[:, 1] < 0.0)
+            vertices[0][on] = centre + radius * away[on] / far[on, None]
         pole = own[own[:, 1].argmin()] if bulge > 0 else centre + np.array([0.0, radius, 0.0])
         rings, before = [], loop
         for share in RINGS:
-            way = (1.0 - share) * (head.vertices[loop] - centre) + share * (pole - centre)
+            way = (1.0 - share) * (vertices[0][loop] - centre) + share * (pole - centre)
             rings.append(centre + radius * way / np.linalg.norm(way, axis=1, keepdims=True))
             ring = [count + k for k in range(len(loop))]
             turned = [(before[k - 1], before[k], ring[k], ring[k - 1]) for k in range(len(loop))]
@@ -42,7 +48,7 @@ def sealed(head: HeadMesh, face: Face, bulge: float = 1.0) -> tuple[Face, dict[s
         polygons.append(tuple(before))
         eyes[side] = np.arange(count - len(RINGS) * len(loop), count)
         vertices += rings
-    places = {n: head.vertices[p] if isinstance(p, int) else p for n, p in head.points.items() if n[0] not in "67"}
+    places = {n: vertices[0][p] if isinstance(p, int) else p for n, p in head.points.items() if n[0] not in "67"}
     return Face.from_arrays(np.concatenate(vertices), polygons, places), eyes
 
 
@@ -74,6 +80,29 @@ def test_shut_lids_are_no_eyes(shared: Path) -> None:
     found = find_points(head.vertices, head.polygons)
     own = Face.from_arrays(head.vertices, head.polygons, found.positions)
     assert not np.isin(own.parts, (Part.EYEBALL_L, Part.EYEBALL_R)).any()
+    assert own.sewn >= {"l", "r"}
+    assert sewn_among(head.vertices, head.polygons, found.positions) == own.sewn
+
+
+def test_a_lid_that_bulges_over_the_eye_is_shut_wherever_its_points_lie(head: HeadMesh, face: Face) -> None:
+    """Points placed by proportion, a third of the eye's width apart, on skin that goes on as the ball does."""
+    own, _ = sealed(head, face, flush=True)
+    assert own.sewn == {"l", "r"}
+    assert not np.isin(own.parts, (Part.EYEBALL_L, Part.EYEBALL_R)).any()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [0, 1, 3])
+def test_the_fold_of_an_upper_lid_is_not_taken_for_the_eye(shared: Path, number: int) -> None:
+    """Eyes that are open and one surface with their lids, whose points lay within a fold 2 mm high."""
+    head = read_mesh(shared / "heads" / "others" / "mhr" / f"subject{number}_head.obj")
+    found = find_points(head.vertices, head.polygons)
+    own = Face.from_arrays(head.vertices, head.polygons, found.positions)
+    assert not own.sewn & {"l", "r"}
+    for upper, lower, inner, outer in (("3.1", "3.3", "3.11", "3.7"), ("3.2", "3.4", "3.8", "3.12")):
+        places = {name: own.points[name].position for name in (upper, lower, inner, outer)}
+        assert 0.026 < np.linalg.norm(places[inner] - places[outer]) < 0.034
+        assert 0.006 < np.linalg.norm(places[upper] - places[lower]) < 0.014
 
 
 @pytest.mark.slow
