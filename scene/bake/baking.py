@@ -6,7 +6,7 @@ Everything is computed before anything is written, so an error or a cancelled ba
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,6 +43,8 @@ class BakeResult:
     achieved : (68,) FAPs measured on an expression; None for a motion.
     remarks : what the user should know.
     followed : how far the controls of a rig follow, where the bake went onto these.
+    peaks : name of a control of that rig -> the value farthest from its rest, of those that move.
+    left_alone : name -> why, of what could have been a control.
     """
 
     clip: str
@@ -53,6 +55,8 @@ class BakeResult:
     achieved: Floats | None = None
     remarks: tuple[str, ...] = ()
     followed: Retargeted | None = None
+    peaks: Mapping[str, float] = field(default_factory=dict)
+    left_alone: Mapping[str, str] = field(default_factory=dict)
 
 
 def bake_expression(

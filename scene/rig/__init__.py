@@ -1,6 +1,6 @@
 """A character's own controls, its shape keys and bones: what they do to its face, and clips keyed on them.
 
-baking       the way in: one expression or a motion onto the controls of a rig
+baking       the way in: expressions or a motion onto the controls of a rig
 rig          controls, what each does to the face, and what is left alone
 channels     one number that can be keyed; its limits, its value at rest
 keys         the shape keys of a face as controls, measured on its meshes
@@ -8,9 +8,9 @@ clips        the keyframes of a clip as actions of all that a rig keys
 layers       how such a clip plays: on top of what plays already, and taken off again
 """
 
-from .baking import bake_expression_onto, bake_motion_onto
+from .baking import bake_expression_onto, bake_expressions_onto, bake_motion_onto
 from .clips import remove_rig_clips
 from .keys import key_rig
 from .rig import Rig
 
-__all__ = ["Rig", "bake_expression_onto", "bake_motion_onto", "key_rig", "remove_rig_clips"]
+__all__ = ["Rig", "bake_expression_onto", "bake_expressions_onto", "bake_motion_onto", "key_rig", "remove_rig_clips"]

@@ -6,7 +6,7 @@ added and none is changed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -49,6 +49,21 @@ class Onto:
     above: bool = True
 
 
+@dataclass(frozen=True, eq=False)
+class Expression:
+    """One expression to be baked: FAPs (68,), NaN where it is silent, and when it happens.
+
+    `clip`, `timing`, `peak`, `emotion` and `contractions` are as for `bake.bake_expression`.
+    """
+
+    clip: str
+    faps: Floats
+    timing: ClipTiming
+    peak: float = 1.0
+    emotion: EmotionShares | None = None
+    contractions: Mapping[str, float] | None = None
+
+
 def bake_expression_onto(
     target: Target,
     faps: Floats,
@@ -73,20 +88,39 @@ def bake_expression_onto(
     ------
     SceneError, ModelError, SolverError : nothing has been changed then.
     """
+    expression = Expression(clip, faps, timing, peak, emotion, contractions)
+    (result,) = yield from bake_expressions_onto(target, [expression], find_rig, onto=onto, drive=drive)
+    return result
+
+
+def bake_expressions_onto(
+    target: Target, expressions: Sequence[Expression], find_rig: FindRig, *, onto: Onto = Onto(), drive: str = "natural"
+) -> Work[list[BakeResult]]:
+    """Bake several expressions, a clip each; the rig is looked at once, and all are computed before any is written.
+
+    Raises
+    ------
+    SceneError, ModelError, SolverError : nothing has been changed then.
+    """
     from ... import api
 
     source, face, rig = yield from _prepared(target, find_rig)
-    yield Progress(0.85, f"Solving the skin for {clip}")
-    pose = face.pose(faps, drive=drive, emotion=emotion, contractions=contractions)
-    yield Progress(0.95, "Relating the face to the controls")
     retargeting = api.Retargeting(face, rig.controls(), symmetric=onto.symmetric)
-    take = retargeting.take()
-    take.add(pose.positions)
-    found = retargeting.values(take, requested=faps)
-    curve = timing.curve(peak)
-    values = {channel: moved[0] * curve.values for channel, moved in rig.channel_values(found).items()}
-    keyframes = Keyframes(curve.frames, values)
-    return _write(source, rig, clip, keyframes, onto, found, (*unmet_remarks(pose.unmet, clip), *_about(source, face)))
+    solved: list[tuple[Expression, Retargeted, Mapping[int, str]]] = []
+    for index, each in enumerate(expressions):
+        yield Progress(0.7 + 0.3 * index / len(expressions), f"Solving the skin for {each.clip}")
+        pose = face.pose(each.faps, drive=drive, emotion=each.emotion, contractions=each.contractions)
+        take = retargeting.take()
+        take.add(pose.positions)
+        solved.append((each, retargeting.values(take, requested=each.faps), pose.unmet))
+    yield Progress(1.0, "Writing keyframes")
+    results = []
+    for each, found, missed in solved:
+        curve = each.timing.curve(each.peak)
+        values = {channel: moved[0] * curve.values for channel, moved in rig.channel_values(found).items()}
+        said = (*unmet_remarks(missed, each.clip), *_about(source, face))
+        results.append(_write(source, rig, each.clip, Keyframes(curve.frames, values), onto, found, said))
+    return results
 
 
 def bake_motion_onto(
@@ -115,7 +149,7 @@ def bake_motion_onto(
     take = retargeting.take()
     for index, positions in enumerate(motion.positions(face, rate, drive)):
         take.add(positions)
-        yield Progress(0.5 + 0.4 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
+        yield Progress(0.7 + 0.2 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
     yield Progress(0.9, "Relating the motion to the controls")
     found = retargeting.values(take, fps=rate, requested=motion.asked, smooth=onto.smooth)
     keyframes = Keyframes(start + np.arange(count, dtype=np.float64), rig.channel_values(found), linear=True)
@@ -131,7 +165,7 @@ def _prepared(target: Target, find_rig: FindRig) -> Work[tuple[FaceSource, Face,
     yield Progress(0.1, "Looking at the controls")
     rig = yield from part_of(find_rig(source), 0.1, 0.3)
     refuse_unkeyable(place.owner for entry in rig.entries for place in entry.channel.places)
-    yield from part_of(face.prepare(), 0.3, 0.5)
+    yield from part_of(face.prepare(), 0.3, 0.7)
     return source, face, rig
 
 
@@ -152,6 +186,7 @@ def _write(
     """Key a clip and tell of it."""
     written = write_rig_clip(source.head, clip, keyframes, above=onto.above)
     used = tuple(channel.name for channel, moved in keyframes.values.items() if np.abs(moved).max() > 0.0)
+    peaks = {channel.name: channel.resting + _farthest(moved) for channel, moved in keyframes.values.items()}
     frames = (float(keyframes.frames[0]), float(keyframes.frames[-1]))
     apex = int(np.argmax(found.moved))
     return BakeResult(
@@ -163,7 +198,14 @@ def _write(
         found.shown[apex],
         (*rig_remarks(clip, rig, found), *written.remarks, *said),
         found,
+        {name: peaks[name] for name in used},
+        dict(rig.left_alone),
     )
+
+
+def _farthest(moved: Floats) -> float:
+    """Of values (N,) that count from rest, the one farthest from it."""
+    return float(moved[np.argmax(np.abs(moved))])
 
 
 def rig_remarks(clip: str, rig: Rig, found: Retargeted) -> tuple[str, ...]:
