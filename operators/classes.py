@@ -14,7 +14,7 @@ from .bake.props import RISORIUS_PG_bake
 from .emotion.ops import RISORIUS_OT_reset_activation
 from .emotion.panel import RISORIUS_PT_emotion
 from .emotion.props import RISORIUS_PG_emotion
-from .face.lips import RISORIUS_OT_cut_lips
+from .face.lips import RISORIUS_OT_cut_lips, RISORIUS_OT_line_mouth
 from .face.ops import RISORIUS_OT_add_head, RISORIUS_OT_forget_points, RISORIUS_OT_import_points
 from .face.panel import RISORIUS_PT_main
 from .face.props import RISORIUS_PG_face
@@ -156,6 +156,7 @@ OPERATORS = (
     RISORIUS_OT_bake_again,
     RISORIUS_OT_clear,
     RISORIUS_OT_cut_lips,
+    RISORIUS_OT_line_mouth,
     RISORIUS_OT_bake_six,
     RISORIUS_OT_save_preset,
     RISORIUS_OT_load_preset,

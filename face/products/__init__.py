@@ -4,6 +4,6 @@ animation_tables, animation_table_building,   Face Animation Tables, for players
   animation_table_files
 blendshapes                                   shape keys that engines and trackers know by name
 creases, crease_places, crease_table          where squeezed skin wrinkles, for renderers
-lip_seam                                      where sewn lips are to be cut open
+lip_seam, mouth_room                          where sewn lips are to be cut open; mouths without an inside
 muscle_lines, trajectories                    muscles as lines; paths of the skin
 """

@@ -14,22 +14,9 @@ from ...errors import ModelError
 from ...physics import mesh
 from ...physics.elastic import Factor, diagonal_matrix
 from ..face import Face
-from ..figures import Length, Share, read_figures
 from ..mesh.openings import Opening, find_opening
 from ..skin.outer import OuterSkin
-
-
-@dataclass(frozen=True)
-class BagFigures:
-    """Of the mouth bag behind lips that are cut open (presets/anatomy/mouth_bag.toml)."""
-
-    lining: Length
-    depth: Length
-    height: Length
-    narrowing: Share
-
-
-BAG = read_figures("mouth_bag.bag", BagFigures)
+from .mouth_room import MouthRoom, mouth_room
 
 #: Outer contours of the lips, from corner to corner and back.
 UPPER, LOWER = ("8.3", "8.5", "8.1", "8.6", "8.4"), ("8.4", "8.8", "8.2", "8.7", "8.3")
@@ -53,21 +40,12 @@ class LipSeam:
     Attributes
     ----------
     above : (V,) how far along the skin each vertex of the lips lies above the seam, negative below; NaN elsewhere.
-    ends : (2, 3) where it ends, left and right.
-    up, inwards : (3,) unit vectors. lining, depth, height : of the bag behind it: how far the lips' inner skin
-        reaches, how deep it is, and how high to either side.
-    narrowing : how much narrower it is at its end, a share.
+    room : behind it.
     doubled : how many vertices of the lips are copies of others, which a cut would have to part, too.
     """
 
     above: Floats
-    ends: Floats
-    up: Floats
-    inwards: Floats
-    lining: float
-    depth: float
-    height: float
-    narrowing: float
+    room: MouthRoom
     doubled: int
 
 
@@ -88,17 +66,8 @@ def lip_seam(face: Face) -> LipSeam:
     above[skin.index] = _above(skin) * placed.scale
     seams = face.anatomy.mesh.seams
     doubled = int(np.isfinite(above[seams.leads[seams.copies]]).sum())
-    return LipSeam(
-        above,
-        ends=placed.to_face(np.array([skin.points["2.4"], skin.points["2.5"]])),
-        up=placed.axes[1],
-        inwards=-placed.axes[2],
-        lining=placed.scale * BAG.lining,
-        depth=placed.scale * BAG.depth,
-        height=placed.scale * BAG.height,
-        narrowing=BAG.narrowing,
-        doubled=doubled,
-    )
+    ends = placed.to_face(np.array([skin.points["2.4"], skin.points["2.5"]]))
+    return LipSeam(above, mouth_room(face, ends), doubled)
 
 
 def _above(skin: OuterSkin) -> Floats:

@@ -1,8 +1,9 @@
-"""Lips and lids without an opening: the hint in the panel, and the button that cuts sewn lips open."""
+"""Lips and lids without an opening, mouths without an inside: the hint in the panel, and the buttons that mend them."""
 
 from __future__ import annotations
 
 from ...scene import refusals
+from ...scene.cut.lining import line_mouth
 from ...scene.cut.lips import cut_lips
 from ...scene.points.kept import KeptPoints, has_points, mesh_counts
 from ..active import active_object
@@ -23,10 +24,7 @@ vertex groups and shape keys stay. Bake again afterwards"""
     @classmethod
     def refusal(cls, context: Context) -> str | None:
         """Only where there are feature points, on a mesh that may be changed."""
-        obj = context.object
-        if obj is not None and not has_points(obj):
-            return f"{obj.name}: has no feature points yet: find the face, click them, or import them"
-        return refusals.reason(obj)
+        return _refusal(context)
 
     def run(self, context: Context) -> str:
         """Cut them."""
@@ -34,6 +32,35 @@ vertex groups and shape keys stay. Bake again afterwards"""
         parted = cut_lips(obj)
         live.ask(obj)
         return f"{obj.name}: lips cut open along {parted} vertices; bake again to open the mouth"
+
+
+class RISORIUS_OT_line_mouth(RisoriusOperator, Operator):
+    """Add a dark mouth behind lips that have no inside, so that nothing shows through when they open. Materials, \
+UV maps, vertex groups and shape keys stay. Bake again afterwards"""
+
+    bl_idname = "risorius.line_mouth"
+    bl_label = "Add Mouth Lining"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def refusal(cls, context: Context) -> str | None:
+        """As for lips that are cut."""
+        return _refusal(context)
+
+    def run(self, context: Context) -> str:
+        """Add it."""
+        obj = active_object(context)
+        count = line_mouth(obj)
+        live.ask(obj)
+        return f"{obj.name}: mouth lined along {count} vertices; bake again to move it"
+
+
+def _refusal(context: Context) -> str | None:
+    """Why the mouth of the active object cannot be changed."""
+    obj = context.object
+    if obj is not None and not has_points(obj):
+        return f"{obj.name}: has no feature points yet: find the face, click them, or import them"
+    return refusals.reason(obj)
 
 
 def draw_sewn(layout: UILayout, obj: Object, kept: KeptPoints) -> None:

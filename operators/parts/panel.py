@@ -6,7 +6,7 @@ from ...scene.mesh import read_parts
 from ..active import active_object
 from ..blender_classes import Panel
 from ..blender_types import Context
-from ..face.lips import RISORIUS_OT_cut_lips
+from ..face.lips import RISORIUS_OT_cut_lips, RISORIUS_OT_line_mouth
 from ..sidebar import MeshSidebar
 from .ops import RISORIUS_OT_find_parts, RISORIUS_OT_forget_parts, RISORIUS_OT_set_part
 
@@ -19,7 +19,7 @@ class RISORIUS_PT_parts(MeshSidebar, Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
-        """Tell them, show them, correct them, cut lips that have no opening."""
+        """Tell them, show them, correct them, cut lips that have no opening, line mouths without an inside."""
         layout, obj = self.layout, active_object(context)
         chosen = context.window_manager.risorius.parts
         row = layout.row(align=True)
@@ -33,3 +33,4 @@ class RISORIUS_PT_parts(MeshSidebar, Panel):
         column.prop(chosen, "part", text="")
         column.operator(RISORIUS_OT_set_part.bl_idname, icon="CHECKMARK")
         layout.operator(RISORIUS_OT_cut_lips.bl_idname, icon="MOD_EDGESPLIT")
+        layout.operator(RISORIUS_OT_line_mouth.bl_idname, icon="MESH_CAPSULE")

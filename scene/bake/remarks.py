@@ -51,6 +51,8 @@ def sewn_remarks(name: str, sewn: frozenset[str]) -> list[str]:
 
 def remarks(obj: Object, face: Face | None = None) -> tuple[str, ...]:
     """What an animator should know about a bake on this object that is nevertheless fine."""
+    from ...face.products.mouth_room import mouth_border
+
     found = []
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     if evaluated.type == "MESH" and len(evaluated.data.vertices) != len(obj.data.vertices):
@@ -62,6 +64,8 @@ def remarks(obj: Object, face: Face | None = None) -> tuple[str, ...]:
             found.append(f"{obj.name}: was edited; its feature points moved to the nearest surface{lost}: check them")
     if face is not None:
         found += sewn_remarks(obj.name, face.sewn)
+        if mouth_border(face) is not None:
+            found.append(f"{obj.name}: its mouth has no inside, what is behind shows through it; use Add Mouth Lining")
     found += shown_remarks(obj)
     if obj.show_only_shape_key:
         found.append(f"{obj.name}: Shape Key Lock shows one key only; turn it off to see the animation")

@@ -1,17 +1,20 @@
-"""The mouth bag behind lips that were cut open: their lining, then rings that lead into the dark."""
+"""The mouth bag behind lips: their lining, then rings that lead into the dark."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from ...arrays import Floats
 from ..blender_types import EditCorner, EditMesh, EditVertex
 from .seam import Cut
+
+if TYPE_CHECKING:
+    from ...face.products.mouth_room import MouthRoom
 
 Places: TypeAlias = "Callable[[EditVertex], Floats]"
 """Where a vertex lies at rest, (3,)."""
@@ -22,7 +25,7 @@ RINGS = ((0.35, 0.8, 0.3), (0.75, 1.0, 0.7), (0.95, 0.6, 1.0))
 
 @dataclass(frozen=True, eq=False)
 class BagShape:
-    """Of a bag, in the mesh's own coordinates; see `face.products.lip_seam.LipSeam`."""
+    """Of a bag, in the mesh's own coordinates; see `face.products.mouth_room.MouthRoom`."""
 
     ends: Floats
     up: Floats
@@ -57,10 +60,32 @@ def add_bag(edit: EditMesh, cut: Cut, shape: BagShape, at: Places, dark: int) ->
             around = [(outer[after], after), (outer[place], place), (inner[place], place), (inner[after], after)]
             _face(edit, around if backwards else around[::-1], corners, None if number == 0 else dark)
     last = rings[-1]
-    for place in range(1, len(cut.upper)):  # the end is closed by a strip between both sides
-        four = [place, place - 1, (count - place + 1) % count, count - place]
+    above, below = list(range(len(cut.upper))), [0, *range(count - 1, len(cut.upper) - 1, -1), len(cut.upper) - 1]
+    steps = max(len(above), len(below)) - 1
+    for step in range(1, steps + 1):  # the end is closed by a strip between both sides
+        (a, before_a), (b, before_b) = (
+            [k * (len(side) - 1) // steps for k in (step, step - 1)] for side in (above, below)
+        )
+        four = [above[a], above[before_a], below[before_b], below[b]]
         around = [(last[number], number) for number in four]
-        _face(edit, around if backwards else around[::-1], corners, dark)
+        if len(set(four)) > 2:
+            _face(edit, around if backwards else around[::-1], corners, dark)
+
+
+def bag_shape(room: MouthRoom, to_metres: Floats) -> tuple[BagShape, float]:
+    """A room as a bag's shape in the coordinates of a mesh whose (4, 4) matrix is given, and its units to the metre."""
+    back = np.linalg.inv(to_metres[:3, :3])
+    size = float(np.cbrt(abs(np.linalg.det(back))))
+    up, inwards = (back @ each / np.linalg.norm(back @ each) for each in (room.up, room.inwards))
+    return BagShape(
+        ends=room.ends @ back.T,
+        up=up,
+        inwards=inwards,
+        lining=size * room.lining,
+        depth=size * room.depth,
+        height=size * room.height,
+        narrowing=room.narrowing,
+    ), size
 
 
 def _way(place: Floats, sign: float, shape: BagShape, share: tuple[float, float, float]) -> Floats:

@@ -24,7 +24,7 @@ from ..points.bound import bind, followed, places, table_of
 from ..points.kept import KeptPoints, read_kept, write_kept
 from ..refusals import refuse_unwritable
 from ..shape_mix import resting_values
-from .bag import BagShape, Places, add_bag
+from .bag import BagShape, Places, add_bag, bag_shape
 from .seam import Cut, Line, cut_open
 
 #: The dark behind cut lips: its name, colour and roughness.
@@ -52,17 +52,17 @@ def cut_lips(obj: Object) -> int:
     edit: EditMesh = bmesh.new()
     try:
         edit.from_mesh(obj.data)
-        at = _at_rest(edit, obj.data)
+        at = at_rest(edit, obj.data)
         cut = _cut(obj, edit, above, shape, at)
-        add_bag(edit, cut, shape, at, _dark_slot(obj.data))
+        add_bag(edit, cut, shape, at, dark_slot(obj.data))
         edit.verts.index_update()
         held = _held(cut, shape, at, places(before, meshes.rest_vertices(obj.data)))
         edit.to_mesh(obj.data)
     finally:
         edit.free()
-    _add_dark(obj.data)
+    add_dark(obj.data)
     obj.data.update()
-    _keep(obj, before, table, held)
+    keep(obj, before, table, held)
     return len(cut.upper) - 2
 
 
@@ -81,22 +81,11 @@ def _seam_of(obj: Object) -> tuple[Floats, BagShape]:
             f"has {seam.doubled} doubled vertices at the mouth: merge them first "
             "(Edit Mode, Mesh > Merge > By Distance)",
         )
-    back = np.linalg.inv(source.pieces[0].to_metres[:3, :3])
-    size = float(np.cbrt(abs(np.linalg.det(back))))
-    up, inwards = (back @ each / np.linalg.norm(back @ each) for each in (seam.up, seam.inwards))
-    shape = BagShape(
-        ends=seam.ends @ back.T,
-        up=up,
-        inwards=inwards,
-        lining=size * seam.lining,
-        depth=size * seam.depth,
-        height=size * seam.height,
-        narrowing=seam.narrowing,
-    )
+    shape, size = bag_shape(seam.room, source.pieces[0].to_metres)
     return seam.above * size, shape
 
 
-def _at_rest(edit: EditMesh, mesh: Mesh) -> Places:
+def at_rest(edit: EditMesh, mesh: Mesh) -> Places:
     """Where vertices lie at rest, as the user's shape keys make them."""
     keys, layers = mesh.shape_keys, edit.verts.layers.shape
     if keys is None:
@@ -136,15 +125,15 @@ def _held(cut: Cut, shape: BagShape, at: Places, points: Mapping[str, Floats]) -
     return held
 
 
-def _dark_slot(mesh: Mesh) -> int:
+def dark_slot(mesh: Mesh) -> int:
     """The slot that the dark has, or is to have; skin without a material keeps an empty first one."""
     names = [material.name if material is not None else "" for material in mesh.materials]
     return names.index(DARK) if DARK in names else max(len(names), 1)
 
 
-def _add_dark(mesh: Mesh) -> None:
+def add_dark(mesh: Mesh) -> None:
     """Give a mesh the dark material, where it has not got it."""
-    slot = _dark_slot(mesh)
+    slot = dark_slot(mesh)
     if slot < len(mesh.materials):
         return
     if len(mesh.materials) == 0:
@@ -153,7 +142,7 @@ def _add_dark(mesh: Mesh) -> None:
     mesh.materials.append(dark or new_material(DARK, DARK_COLOUR, roughness=DARK_ROUGHNESS))
 
 
-def _keep(obj: Object, before: KeptPoints, table: PointTable, held: Mapping[str, int]) -> None:
+def keep(obj: Object, before: KeptPoints, table: PointTable, held: Mapping[str, int]) -> None:
     """Keep the feature points with the mesh as it is now; those of the inner lips on its new edges."""
     origins = {name: point.origin for name, point in before.points.items()}
     confidence = {name: point.confidence for name, point in before.points.items()}

@@ -35,7 +35,7 @@ def test_it_runs_along_the_weld(sewn: tuple[Any, np.ndarray]) -> None:
         lip = np.linalg.norm(head.vertices - head.points[name], axis=1).argmin()
         assert side * seam.above[lip] > 3e-3
     assert seam.doubled == 0
-    np.testing.assert_allclose(seam.ends[0] * [-1, 1, 1], seam.ends[1], atol=1e-4)
+    np.testing.assert_allclose(seam.room.ends[0] * [-1, 1, 1], seam.room.ends[1], atol=1e-4)
 
 
 @pytest.mark.parametrize("size", [0.01, 100.0])
@@ -46,8 +46,8 @@ def test_a_face_of_any_size_and_pose_has_the_same(sewn: tuple[Any, np.ndarray], 
     first: LipSeam = lip_seam(Face.from_arrays(head.vertices, head.polygons, head.points))
     other: LipSeam = lip_seam(Face.from_arrays(head.vertices @ turn.T, head.polygons, points))
     np.testing.assert_allclose(other.above / size, first.above, atol=2e-5)
-    assert other.depth == pytest.approx(size * first.depth, rel=1e-3)
-    np.testing.assert_allclose(other.up, turn @ first.up / size, atol=1e-6)
+    assert other.room.depth == pytest.approx(size * first.room.depth, rel=1e-3)
+    np.testing.assert_allclose(other.room.up, turn @ first.room.up / size, atol=1e-6)
 
 
 def test_open_lips_have_none(face: Face) -> None:
