@@ -1,8 +1,8 @@
 """The mix of a mesh's shape keys that shows at rest: the user's own keys at their present values.
 
 Many characters are what their shape keys make of them: modelling targets, morphs, corrective keys. Their present mix is
-the face at rest. Keys that Risorius has written are no part of it, and neither are keys whose keyframes change: those
-are a motion.
+the face at rest. Keys that Risorius has written are no part of it, and neither are keys whose keyframes change or that
+a clip of ours keys: those are a motion.
 """
 
 from __future__ import annotations
@@ -24,6 +24,8 @@ from .fcurves import SMALL, changes, curves_of
 Resting: TypeAlias = Callable[[Mesh], Mapping[str, float]]
 
 RECORD = "risorius"
+#: What an action is known by that is a clip on the user's own keys and bones: the head that it belongs to.
+RIG_TAG = "risorius_rig_head"
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,9 @@ def data_path(key_name: str) -> str:
 
 def resting_values(mesh: Mesh) -> dict[str, float]:
     """Name -> value of the user's shape keys that make the resting face what it is; in the order of the keys."""
-    return {key.name: key.value for key in _showing(mesh) if not _is_moving(mesh.shape_keys, key)}
+    keys = mesh.shape_keys
+    still = (key for key in _showing(mesh) if not any(_moved_by(keys, key, ours=ours) for ours in (True, False)))
+    return {key.name: key.value for key in still}
 
 
 def resting_without(names: Iterable[str]) -> Resting:
@@ -86,8 +90,8 @@ def settle_drivers(objects: Iterable[Object]) -> None:
 
 
 def moving_keys(mesh: Mesh) -> tuple[str, ...]:
-    """Names of the user's shape keys that show now and whose keyframes change: their motion adds to what is baked."""
-    return tuple(key.name for key in _showing(mesh) if _is_moving(mesh.shape_keys, key))
+    """Names of the user's shape keys that show now and that the user's keyframes move: that adds to what is baked."""
+    return tuple(key.name for key in _showing(mesh) if _moved_by(mesh.shape_keys, key, ours=False))
 
 
 def mixed_vertices(mesh: Mesh, values: Mapping[str, float]) -> Floats:
@@ -137,12 +141,13 @@ def _weights(mesh: Mesh, group: str) -> Floats:
     return weights
 
 
-def _is_moving(keys: Key | None, key: ShapeKey) -> bool:
-    """Whether keyframes move a shape key's value."""
+def _moved_by(keys: Key | None, key: ShapeKey, *, ours: bool) -> bool:
+    """Whether clips of ours key a shape key's value, or keyframes of the user's own change it."""
     if keys is None or keys.animation_data is None:
         return False
     path = data_path(key.name)
-    return any(changes(curve) for action in _actions(keys) for curve in curves_of(action, path))
+    curves = (curve for action in _actions(keys) if (RIG_TAG in action) == ours for curve in curves_of(action, path))
+    return any(ours or changes(curve) for curve in curves)
 
 
 def _actions(keys: Key) -> list[Action]:

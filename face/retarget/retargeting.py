@@ -84,6 +84,11 @@ class Retargeted:
         size = float((self.moved**2).sum())
         return 1.0 if size == 0.0 else 1.0 - float((self.off**2).sum()) / size
 
+    @property
+    def off_at_peak(self) -> float:
+        """`off` at the step at which most moves, metres."""
+        return float(self.off[np.argmax(self.moved)])
+
 
 def retarget(
     face: Face,

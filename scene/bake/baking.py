@@ -41,7 +41,7 @@ class BakeResult:
     error : largest distance of any vertex from the computed motion, metres.
     frame_range : first and last frame.
     achieved : (68,) FAPs measured on an expression; None for a motion.
-    remarks : what the user should know.
+    remarks : what the user should know and may want to do something about. told : what is merely worth knowing.
     followed : how far the controls of a rig follow, where the bake went onto these.
     peaks : name of a control of that rig -> the value farthest from its rest, of those that move.
     left_alone : name -> why, of what could have been a control.
@@ -54,6 +54,7 @@ class BakeResult:
     frame_range: tuple[float, float]
     achieved: Floats | None = None
     remarks: tuple[str, ...] = ()
+    told: tuple[str, ...] = ()
     followed: Retargeted | None = None
     peaks: Mapping[str, float] = field(default_factory=dict)
     left_alone: Mapping[str, str] = field(default_factory=dict)

@@ -92,6 +92,16 @@ def take_off(animation: AnimData, actions: Iterable[Action]) -> None:
             animation.nla_tracks.remove(track)
 
 
+def plays(keys: Key | None, action: Action) -> bool:
+    """Whether a shape key datablock plays a clip, alone or as a strip."""
+    animation = keys.animation_data if keys is not None else None
+    if animation is None:
+        return False
+    return animation.action == action or any(
+        strip.action == action for track in animation.nla_tracks if not track.mute for strip in track.strips
+    )
+
+
 def played_frames(keys: Key | None) -> tuple[int, int] | None:
     """First and last frame of all clips that a shape key datablock plays; None where it plays none."""
     animation = keys.animation_data if keys is not None else None

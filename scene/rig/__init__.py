@@ -6,6 +6,8 @@ channels     one number that can be keyed; its limits, its value at rest
 keys         the shape keys of a face as controls, measured on its meshes
 clips        the keyframes of a clip as actions of all that a rig keys
 layers       how such a clip plays: on top of what plays already, and taken off again
+kept         what is kept with a clip: what its bake has noted, and how far the rig follows
+beside       clips on the rig and clips of new shape keys at the same frames, which add up
 """
 
 from .baking import bake_expression_onto, bake_expressions_onto, bake_motion_onto

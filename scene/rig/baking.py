@@ -8,19 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
 from ...arrays import Floats
 from ...progress import Progress, Work, part_of
+from ..bake.action import Curve
 from ..bake.baking import BakeResult
 from ..bake.motion import Motion
+from ..bake.notes import Note, write_note
 from ..bake.remarks import sewn_remarks, unmet_remarks
 from ..bake.target import Target
 from ..bake.timing import ClipTiming, scene_fps
 from ..faces import FaceSource, face_steps, read_face
-from .clips import Keyframes, refuse_unkeyable, write_rig_clip
+from .clips import Keyframes, overlap, refuse_unkeyable, remove_rig_clips, write_rig_clip
+from .kept import Followed, keep
 from .rig import Rig
 
 if TYPE_CHECKING:
@@ -49,19 +52,28 @@ class Onto:
     above: bool = True
 
 
+class Timed(Protocol):
+    """When an expression shows, and how much of it."""
+
+    def curve(self, peak: float) -> Curve:
+        """Its keyframes; `peak` where it is full."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class Expression:
     """One expression to be baked: FAPs (68,), NaN where it is silent, and when it happens.
 
-    `clip`, `timing`, `peak`, `emotion` and `contractions` are as for `bake.bake_expression`.
+    `clip`, `peak`, `emotion`, `contractions` and `note` are as for `bake.bake_expression`.
     """
 
     clip: str
     faps: Floats
-    timing: ClipTiming
+    timing: Timed
     peak: float = 1.0
     emotion: EmotionShares | None = None
     contractions: Mapping[str, float] | None = None
+    note: Note | None = None
 
 
 def bake_expression_onto(
@@ -76,6 +88,7 @@ def bake_expression_onto(
     drive: str = "natural",
     emotion: EmotionShares | None = None,
     contractions: Mapping[str, float] | None = None,
+    note: Note | None = None,
 ) -> Work[BakeResult]:
     """Bake one expression onto the controls of a rig, with keyframes along onset, apex and offset.
 
@@ -88,7 +101,7 @@ def bake_expression_onto(
     ------
     SceneError, ModelError, SolverError : nothing has been changed then.
     """
-    expression = Expression(clip, faps, timing, peak, emotion, contractions)
+    expression = Expression(clip, faps, timing, peak, emotion, contractions, note)
     (result,) = yield from bake_expressions_onto(target, [expression], find_rig, onto=onto, drive=drive)
     return result
 
@@ -97,6 +110,8 @@ def bake_expressions_onto(
     target: Target, expressions: Sequence[Expression], find_rig: FindRig, *, onto: Onto = Onto(), drive: str = "natural"
 ) -> Work[list[BakeResult]]:
     """Bake several expressions, a clip each; the rig is looked at once, and all are computed before any is written.
+
+    Those that share frames add up.
 
     Raises
     ------
@@ -114,12 +129,15 @@ def bake_expressions_onto(
         take.add(pose.positions)
         solved.append((each, retargeting.values(take, requested=each.faps), pose.unmet))
     yield Progress(1.0, "Writing keyframes")
-    results = []
+    remove_rig_clips(source.head, [each.clip for each in expressions])
+    results: list[BakeResult] = []
     for each, found, missed in solved:
         curve = each.timing.curve(each.peak)
         values = {channel: moved[0] * curve.values for channel, moved in rig.channel_values(found).items()}
         said = (*unmet_remarks(missed, each.clip), *_about(source, face))
-        results.append(_write(source, rig, each.clip, Keyframes(curve.frames, values), onto, found, said))
+        keyframes = Keyframes(curve.frames, values, curve.linear)
+        adding = any(overlap(result.frame_range, keyframes.span) for result in results)
+        results.append(_write(source, rig, each.clip, keyframes, onto, found, said, note=each.note, adding=adding))
     return results
 
 
@@ -133,6 +151,7 @@ def bake_motion_onto(
     fps: float | None = None,
     onto: Onto = Onto(),
     drive: str = "natural",
+    note: Note | None = None,
 ) -> Work[BakeResult]:
     """Simulate a motion and bake it onto the controls of a rig; parameters as for `bake.bake_motion`.
 
@@ -153,7 +172,7 @@ def bake_motion_onto(
     yield Progress(0.9, "Relating the motion to the controls")
     found = retargeting.values(take, fps=rate, requested=motion.asked, smooth=onto.smooth)
     keyframes = Keyframes(start + np.arange(count, dtype=np.float64), rig.channel_values(found), linear=True)
-    return _write(source, rig, clip, keyframes, onto, found, _about(source, face))
+    return _write(source, rig, clip, keyframes, onto, found, _about(source, face), note=note)
 
 
 def _prepared(target: Target, find_rig: FindRig) -> Work[tuple[FaceSource, Face, Rig]]:
@@ -182,21 +201,28 @@ def _write(
     onto: Onto,
     found: Retargeted,
     said: tuple[str, ...],
+    *,
+    note: Note | None,
+    adding: bool = False,
 ) -> BakeResult:
     """Key a clip and tell of it."""
-    written = write_rig_clip(source.head, clip, keyframes, above=onto.above)
+    written = write_rig_clip(source.head, clip, keyframes, above=onto.above, adding=adding)
+    keep(written.actions, Followed.of(found))
+    if note is not None:
+        for action in written.actions:
+            write_note(action, note)
     used = tuple(channel.name for channel, moved in keyframes.values.items() if np.abs(moved).max() > 0.0)
     peaks = {channel.name: channel.resting + _farthest(moved) for channel, moved in keyframes.values.items()}
-    frames = (float(keyframes.frames[0]), float(keyframes.frames[-1]))
     apex = int(np.argmax(found.moved))
     return BakeResult(
         clip,
         ", ".join(action.name for action in written.actions),
         used,
         float(found.off.max(initial=0.0)),
-        frames,
+        keyframes.span,
         found.shown[apex],
         (*rig_remarks(clip, rig, found), *written.remarks, *said),
+        rig_tales(clip, found),
         found,
         {name: peaks[name] for name in used},
         dict(rig.left_alone),
@@ -208,16 +234,26 @@ def _farthest(moved: Floats) -> float:
     return float(moved[np.argmax(np.abs(moved))])
 
 
+def rig_tales(clip: str, found: Retargeted) -> tuple[str, ...]:
+    """How far the controls of a rig follow, and which of them were of no use."""
+    told = [
+        f"{clip}: the controls show {found.explained:.0%} of the motion, {1000.0 * found.off_at_peak:.1f} mm off at its"
+        f" peak, most of it with {_listed(list(found.carriers))}"
+    ]
+    if found.still:
+        told.append(f"not used, because they do not move the face: {_listed(list(found.still))}")
+    if found.same:
+        told.append(
+            f"not used, because another does the same: {_listed([f'{a} ({b})' for a, b in found.same.items()])}"
+        )
+    return tuple(told)
+
+
 def rig_remarks(clip: str, rig: Rig, found: Retargeted) -> tuple[str, ...]:
-    """How far the controls of a rig follow, what they miss, and what was left alone."""
+    """What the controls of a rig miss, and what was left alone."""
     from ... import api
 
-    apex = int(np.argmax(found.moved))
-    millimetres = 1000.0 * float(found.off[apex])
-    said = [
-        f"{clip}: the controls show {found.explained:.0%} of the motion, {millimetres:.1f} mm off at its peak, "
-        f"most of it with {_listed(list(found.carriers))}"
-    ]
+    said: list[str] = []
     if found.missing:
         said.append(f"{clip}: too little of {_listed([short.line for short in found.missing])}")
     said += [f"{clip}: {line}" for line in api.unmet_lines(found.unmet)]
@@ -226,12 +262,6 @@ def rig_remarks(clip: str, rig: Rig, found: Retargeted) -> tuple[str, ...]:
     for reason in dict.fromkeys(rig.left_alone.values()):
         names = [name for name, why in rig.left_alone.items() if why == reason]
         said.append(f"left alone: {_listed(names)}: {reason}")
-    if found.still:
-        said.append(f"not used, because they do not move the face: {_listed(list(found.still))}")
-    if found.same:
-        said.append(
-            f"not used, because another does the same: {_listed([f'{a} ({b})' for a, b in found.same.items()])}"
-        )
     return tuple(said)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 
 from ..blender_types import Datablock
@@ -14,6 +15,30 @@ class Place:
     owner: Datablock
     path: str
     index: int = -1
+
+    def set(self, value: float) -> None:
+        """Give it a value; a place that is gone is passed over."""
+        whole, name = _parted(self.path)
+        try:
+            holder = self.owner.path_resolve(whole) if whole else self.owner
+            if self.index >= 0:
+                getattr(holder, name)[self.index] = value
+            elif name.startswith("["):
+                holder[json.loads(name[1:-1])] = value
+            else:
+                setattr(holder, name, value)
+        except (ValueError, KeyError, AttributeError, IndexError):
+            return
+        self.owner.update_tag()
+
+
+def _parted(path: str) -> tuple[str, str]:
+    """A path as that of what holds the number, and the number's own name there: an attribute, or ["a property"]."""
+    if path.endswith('"]'):
+        start = path.rindex('["')
+        return path[:start], path[start:]
+    whole, _, name = path.rpartition(".")
+    return whole, name
 
 
 @dataclass(frozen=True)

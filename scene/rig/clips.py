@@ -16,9 +16,10 @@ from ...arrays import Bools, Floats
 from ...errors import SceneError
 from ..blender_types import Action, Datablock, Object
 from ..fcurves import add_keyframes, curves_for, played_curves
+from ..shape_mix import RIG_TAG
 from . import layers
 from .channels import Channel, Place
-from .layers import CLIP_TAG, HEAD_TAG
+from .layers import CLIP_TAG
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +29,11 @@ class Keyframes:
     frames: Floats
     values: Mapping[Channel, Floats]
     linear: bool = False
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last frame."""
+        return float(self.frames[0]), float(self.frames[-1])
 
 
 @dataclass(frozen=True)
@@ -54,12 +60,15 @@ def refuse_unkeyable(owners: Iterable[Datablock]) -> None:
             raise SceneError(owner.name, "is in NLA tweak mode: leave it first (Tab in the NLA editor)")
 
 
-def write_rig_clip(head: Object, clip: str, keyframes: Keyframes, *, above: bool = True) -> WrittenClip:
+def write_rig_clip(
+    head: Object, clip: str, keyframes: Keyframes, *, above: bool = True, adding: bool = False
+) -> WrittenClip:
     """Key a clip, in place of the one of this name; nothing can fail from here on.
 
     Parameters
     ----------
     above : on top of what plays already (`layers`); else as keyframes in the actions that play now.
+    adding : what it shares frames with of our own is added to, not hidden.
     """
     by_owner = _by_owner(keyframes.values)
     remove_rig_clips(head, [clip])
@@ -69,12 +78,13 @@ def write_rig_clip(head: Object, clip: str, keyframes: Keyframes, *, above: bool
             said += _write_into_action(owner, keyframes, places)
             continue
         action = bpy.data.actions.new(f"{head.name} {clip}" if len(by_owner) == 1 else f"{owner.name} {clip}")
-        action[HEAD_TAG], action[CLIP_TAG] = head, clip
+        action[RIG_TAG], action[CLIP_TAG] = head, clip
         action.use_fake_user = True
-        layer = layers.layer_for(owner, places)
+        layers.note_rest(action, places)
+        layer = layers.layer_for(owner, places, adding=adding)
         for place, channel in places:
             write_place(action, owner, place, layer.written(place, channel, keyframes.values[channel]), keyframes)
-        first, last = float(keyframes.frames[0]), float(keyframes.frames[-1])
+        first, last = keyframes.span
         action.use_frame_range = True
         action.frame_start, action.frame_end = first, max(last, first + 1.0)
         said += layers.play(owner, action, layer)
@@ -87,7 +97,7 @@ def _write_into_action(owner: Datablock, keyframes: Keyframes, places: Sequence[
     animation = owner.animation_data
     curves = None if animation is None else played_curves(animation)
     assert curves is not None
-    first, last = float(keyframes.frames[0]), float(keyframes.frames[-1])
+    first, last = keyframes.span
     for place, channel in places:
         index = max(place.index, 0)
         curve = curves.find(place.path, index=index) or curves.new(place.path, index=index)
@@ -100,6 +110,11 @@ def _write_into_action(owner: Datablock, keyframes: Keyframes, places: Sequence[
             point.interpolation = "LINEAR" if keyframes.linear else "BEZIER"
         curve.update()
     return [f"{owner.name}: keyframes were written into its action"]
+
+
+def overlap(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """Whether two spans share frames."""
+    return one[0] < other[1] and other[0] < one[1]
 
 
 def _by_owner(values: Mapping[Channel, Floats]) -> list[tuple[Datablock, list[tuple[Place, Channel]]]]:
@@ -139,7 +154,7 @@ def rig_clips(head: Object) -> dict[str, list[Action]]:
     """Clip -> its actions, of all clips on the rig of a head."""
     found: dict[str, list[Action]] = {}
     for action in bpy.data.actions:
-        if action.library is None and action.get(HEAD_TAG) == head:
+        if action.library is None and action.get(RIG_TAG) == head:
             found.setdefault(str(action.get(CLIP_TAG)), []).append(action)
     return found
 

@@ -7,6 +7,7 @@ same numbers would hide it, so that action becomes a strip below; taking the cli
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -15,12 +16,15 @@ import bpy
 from ...arrays import Floats
 from ..blender_types import Action, AnimData, Datablock, NlaTrack
 from ..fcurves import curves_of, is_empty, slot_for
+from ..shape_mix import RIG_TAG
 from .channels import Channel, Place
 
-#: What an action of ours is known by: the head, and its clip's name.
-HEAD_TAG, CLIP_TAG = "risorius_rig_head", "risorius_rig_clip"
+#: The name of a clip, on its actions.
+CLIP_TAG = "risorius_rig_clip"
 #: Our tracks are known by this name; Blender numbers tracks of one name.
 TRACK_NAME = "Risorius Layer"
+#: A property of an action: where what it keys is at rest.
+REST = "risorius_rig_rest"
 #: A property of a datablock: the action that became a strip below a clip.
 PUSHED = "risorius_pushed_down"
 
@@ -29,11 +33,12 @@ PUSHED = "risorius_pushed_down"
 class Layer:
     """How the keyframes of one datablock are meant: added to what is below (`combined`), or as they are.
 
-    `animated` : (path, index) that something below keys.
+    `animated` : (path, index) that something below keys. `hidden` : the action that plays now would hide the clip.
     """
 
     combined: bool
     animated: frozenset[tuple[str, int]] = frozenset()
+    hidden: bool = False
 
     def written(self, place: Place, channel: Channel, moved: Floats) -> Floats:
         """(N,) values of keyframes, from values that count from rest."""
@@ -41,14 +46,19 @@ class Layer:
         return moved if below else channel.resting + moved
 
 
-def layer_for(owner: Datablock, places: Sequence[tuple[Place, Channel]]) -> Layer:
-    """How a clip is to be laid over what a datablock plays."""
-    actions = [action for action in _user_actions(owner) if not is_empty(action)]
+def layer_for(owner: Datablock, places: Sequence[tuple[Place, Channel]], *, adding: bool = False) -> Layer:
+    """How a clip is to be laid over what a datablock plays; `adding` : it adds to another clip of ours, too."""
     numbers = [(place.path, max(place.index, 0)) for place, _ in places]
-    keyed = frozenset(
-        (path, index) for path, index in numbers if any(curves_of(action, path, index) for action in actions)
-    )
-    return Layer(bool(keyed), keyed)
+    keyed = _keyed(_user_actions(owner), numbers)
+    current = user_action(owner)
+    hidden = current is not None and bool(_keyed([current], numbers))
+    return Layer(adding or bool(keyed), frozenset(numbers) if adding else keyed, hidden)
+
+
+def _keyed(actions: Sequence[Action], numbers: Sequence[tuple[str, int]]) -> frozenset[tuple[str, int]]:
+    """Those of some (path, index) that actions key."""
+    full = [action for action in actions if not is_empty(action)]
+    return frozenset((path, index) for path, index in numbers if any(curves_of(a, path, index) for a in full))
 
 
 def _user_actions(owner: Datablock) -> list[Action]:
@@ -60,6 +70,15 @@ def _user_actions(owner: Datablock) -> list[Action]:
     return [action for action in (animation.action, *strips) if action is not None and not _is_ours(action)]
 
 
+def _own_actions(owner: Datablock) -> list[Action]:
+    """Our clips that play on a datablock."""
+    animation = owner.animation_data
+    if animation is None:
+        return []
+    strips = [strip.action for track in animation.nla_tracks if is_own(track) for strip in track.strips]
+    return [action for action in (animation.action, *strips) if action is not None and _is_ours(action)]
+
+
 def user_action(owner: Datablock) -> Action | None:
     """The user's action that a datablock plays now."""
     animation = owner.animation_data
@@ -69,7 +88,7 @@ def user_action(owner: Datablock) -> Action | None:
 
 def _is_ours(action: Action) -> bool:
     """Whether an action is a clip on a rig."""
-    return HEAD_TAG in action
+    return RIG_TAG in action
 
 
 def is_own(track: NlaTrack) -> bool:
@@ -92,7 +111,7 @@ def play(owner: Datablock, action: Action, layer: Layer) -> list[str]:
         if hasattr(animation, "action_slot"):
             animation.action_slot = slot_for(action, owner.id_type)
         return said
-    if current is not None and (layer.combined or _is_ours(current)):
+    if current is not None and (layer.hidden or _is_ours(current)):
         _push_down(owner, animation, current)
         if not _is_ours(current):
             said.append(f"{owner.name}: the action {current.name} plays as an NLA strip, with the clip on top of it")
@@ -102,13 +121,24 @@ def play(owner: Datablock, action: Action, layer: Layer) -> list[str]:
         strip.action_slot = slot_for(action, owner.id_type)
     strip.frame_start = action.frame_start
     strip.blend_type = "COMBINE" if layer.combined else "REPLACE"
-    strip.extrapolation = "NOTHING" if len(track.strips) > 1 else "HOLD"
+    _hold_ends(animation)
     if not animation.use_nla:
         said.append(f"the NLA tracks of {owner.name} are turned off, so the clip does not play: turn them on")
     solo = next((track.name for track in animation.nla_tracks if track.is_solo and not is_own(track)), None)
     if solo is not None:
         said.append(f"the NLA track {solo} is solo, so the clip does not play: turn its star off in the NLA editor")
     return said
+
+
+def _hold_ends(animation: AnimData) -> None:
+    """Let the lowest of our tracks hold the ends of its clips, which are at rest; those above it would hide it there.
+
+    A strip that said nothing outside its frames would leave the face as the last frame shown had it.
+    """
+    for number, track in enumerate(track for track in animation.nla_tracks if is_own(track)):
+        strips = sorted(track.strips, key=lambda strip: strip.frame_start)
+        for place, strip in enumerate(strips):
+            strip.extrapolation = "NOTHING" if number else "HOLD_FORWARD" if place else "HOLD"
 
 
 def _free_track(animation: AnimData, action: Action) -> NlaTrack:
@@ -138,7 +168,10 @@ def _push_down(owner: Datablock, animation: AnimData, action: Action) -> None:
 
 
 def take_off(action: Action) -> None:
-    """Stop a clip from playing, everywhere; what was pushed down for it plays as before once no clip is left."""
+    """Stop a clip from playing, everywhere; what was pushed down for it plays as before once no clip is left.
+
+    What nothing animates any more goes back to rest.
+    """
     for owner in _players(action):
         animation = owner.animation_data
         if animation is None:
@@ -150,8 +183,23 @@ def take_off(action: Action) -> None:
                 track.strips.remove(strip)
             if not track.strips:
                 animation.nla_tracks.remove(track)
+        _hold_ends(animation)
         if not any(is_own(track) for track in animation.nla_tracks):
             _pull_up(owner, animation)
+        _settle(owner, action)
+
+
+def note_rest(action: Action, places: Sequence[tuple[Place, Channel]]) -> None:
+    """Note on an action where what it keys is at rest."""
+    action[REST] = json.dumps([(place.path, place.index, channel.resting) for place, channel in places])
+
+
+def _settle(owner: Datablock, action: Action) -> None:
+    """Put back to rest what a clip has keyed and nothing animates any more."""
+    others = [*_user_actions(owner), *_own_actions(owner)]
+    for path, index, resting in json.loads(str(action.get(REST, "[]"))):
+        if not _keyed(others, [(path, max(index, 0))]):
+            Place(owner, path, index).set(resting)
 
 
 def _players(action: Action) -> list[Datablock]:
