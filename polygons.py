@@ -59,6 +59,8 @@ class PolygonTable(Sequence[Ints]):
     @cached_property
     def by_size(self) -> tuple[tuple[Ints, Ints], ...]:
         """For each number of corners n: polygon numbers (F_n,), corner indices (F_n, n)."""
+        if len(self) and self.sizes.min() == self.sizes.max():  # most meshes: nothing to gather
+            return ((np.arange(len(self)), self.loops.reshape(len(self), -1)),)
         gathered = []
         for size in np.unique(self.sizes):
             faces = np.flatnonzero(self.sizes == size)

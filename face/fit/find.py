@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Floats, Ints
 from ...errors import ModelError, ParameterError
-from ...physics.mesh import Polygons, corners, triangulate
+from ...physics.mesh import Polygons, corners, triangulate, vertex_normals
 from ...progress import Progress, Work, part_of, run
 from ..mesh.checks import checked_polygons, checked_vertices
 from .bending.carry import RIM_POINTS, carry
@@ -27,9 +27,10 @@ from .clicks import (
 )
 from .doubt import DOUBTFUL, DOUBTFUL_SCORE
 from .locating.align import align
+from .locating.boxes import HEAD_BOX, box_cloud
 from .locating.crooked import Start, better_start, starting_bend
 from .locating.head_pose import HeadPose
-from .locating.locate import HEAD, HEAD_BOX, Located, box_cloud, locate, looks_backwards, scored
+from .locating.locate import HEAD, Located, locate, looks_backwards, scored
 from .surface.cloud import Surface
 from .surface.paint import Paint
 from .template.template import FitTemplate, fit_template
@@ -135,7 +136,7 @@ def find_points_steps(
     known = recognise_topology(len(places), faces, load_topologies() if topologies is None else topologies)
     if known is not None:
         return _known_points(known, places, clicked)
-    surface = _welded(places, faces)
+    surface = yield from part_of(_welded(places, faces), 0.0, 0.02)
     if len(clicked) >= FEWEST:
         start = Start(_located_by_clicks(surface, clicked, template), None)
     else:
@@ -166,7 +167,7 @@ def locate_points(vertices: ArrayLike, polygons: Polygons, *, refuse: bool = Tru
     ModelError : where nothing is found; with `refuse` also what does not look like a face.
     """
     places = checked_vertices(vertices)
-    surface = _welded(places, _checked_faces(polygons, len(places)))
+    surface = run(_welded(places, _checked_faces(polygons, len(places))))
     located = better_start(run(locate(surface, refuse=refuse))).place
     template = located.template
     positions = located.pose.to_mesh(template.read(template.skin.vertices))
@@ -193,7 +194,7 @@ def _known_points(known: Topology, vertices: Floats, clicked: Mapping[str, Float
     return FoundPoints(positions, dict.fromkeys(positions, 1.0), 0.0, known.name)
 
 
-def _welded(vertices: Floats, polygons: Polygons) -> Surface:
+def _welded(vertices: Floats, polygons: Polygons) -> Work[Surface]:
     """The surface with vertices of one place made one, and triangles without area left out."""
     size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
     if not size > 0.0:
@@ -201,12 +202,14 @@ def _welded(vertices: Floats, polygons: Polygons) -> Surface:
     cells = np.round((vertices - vertices.min(axis=0)) / (SAME_PLACE * size)).astype(np.int64)
     keys = (cells << np.array([2 * CELL_BITS, CELL_BITS, 0])).sum(axis=1)  # sorts several times faster than rows
     _, first, same = np.unique(keys, return_index=True, return_inverse=True)
+    yield Progress(0.3, "Reading the mesh")
     triangles: Ints = first[same][triangulate(polygons)]
     a, b, c = triangles.T
     triangles = triangles[(a != b) & (b != c) & (c != a)]
     if len(triangles) == 0:
         raise ModelError("no face found: the mesh has no area; feature points need a surface")
-    return Surface.from_polygons(vertices, triangles)
+    yield Progress(0.5, "Reading the mesh")
+    return Surface(vertices, triangles, vertex_normals(vertices, triangles))
 
 
 def _located_by_clicks(surface: Surface, clicked: Mapping[str, Floats], template: FitTemplate) -> Located:

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ....arrays import Bools, Floats, Ints
+from ..locating.boxes import HEAD_BOX, box_cloud, in_box
 from ..locating.head_pose import HeadPose
-from ..locating.locate import HEAD_BOX, box_cloud, in_box
 from ..surface.cloud import Cloud, Surface, first_hits
 from ..surface.pieces import skin_pieces
 

@@ -11,9 +11,10 @@ from scipy.spatial.transform import Rotation
 from ....arrays import Floats
 from ..template.picture import picture
 from ..template.template import FitTemplate
+from .boxes import Box, box_cloud
 from .flow import Flow, Pass, find_flow
 from .head_pose import HeadPose
-from .locate import Box, Located, box_cloud
+from .locate import Located
 
 #: Faces that score better than this lie well already.
 CROOKED_SCORE = 0.95

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 
-from ....arrays import Bools, Floats
 from ....errors import ModelError
 from ....progress import Progress, Work, part_of
 from ..surface.cloud import Cloud, Surface, sample
+from ..surface.skeleton import net_of
 from ..surface.symmetry import symmetry_planes
 from ..template.open_mouth import open_template
 from ..template.template import FitTemplate
 from .align import align
+from .boxes import FACE_BOX, HEAD_BOX, box_cloud, lies_in_box
 from .head_pose import HeadPose
 from .regions import guesses_at_ends
 from .score import RELIEF_LIMIT, SCORE_LIMIT, FaceScore, face_score
@@ -23,9 +23,6 @@ from .search import Guess, best_guesses, search_plane
 
 #: Points spread over the whole mesh; over the head alone; over the face alone; and those that symmetry is sought with.
 WHOLE, HEAD, FACE, SYMMETRY = 100_000, 40_000, 40_000, 2_000
-#: Boxes round the template's origin, metres: least and greatest x, y, z.
-HEAD_BOX = ((-0.12, -0.185, -0.175), (0.12, 0.135, 0.175))
-FACE_BOX = ((-0.068, -0.185, -0.09), (0.068, 0.0, 0.076))
 #: Guesses that are aligned, and those of them that are aligned twice.
 ALIGNED, FINALISTS = 10, 3
 #: Guesses that are aligned of each end of a mesh; from this score on no further end is looked at.
@@ -37,10 +34,6 @@ GOOD_SCORE, HOPELESS_SCORE, JAW_DEGREES, OPEN_COST = 0.55, 2.6, (7.0, 14.0, 21.0
 FRONT, FOREMOST = (0.05, 0.07), 0.4
 #: Poses nearer than a centimetre and about 20 degrees (trace of the turn between them) are one.
 SAME_PLACE, SAME_TRACE = 0.01, 2.88
-#: Of more triangles than this, none is so large that it crosses a box with no corner inside.
-MANY = 100_000
-#: Least and greatest x, y, z round the template's origin, metres.
-Box: TypeAlias = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 @dataclass(frozen=True)
@@ -72,14 +65,14 @@ def locate(surface: Surface, *, refuse: bool = True) -> Work[Located]:
     cloud = sample(surface, WHOLE)
     if len(cloud) == 0:
         raise ModelError("no face found: the mesh has no area; feature points need a surface")
+    yield Progress(0.0, "Finding planes of symmetry")
     guesses = yield from part_of(_guesses_of_whole(surface, cloud), 0.0, 0.55)
     place = yield from part_of(_best_place(surface, cloud, guesses[:ALIGNED]), 0.55, 0.7)
     if place is None or not place.score.is_face:
         turned = yield from part_of(_place_at_ends(surface, cloud), 0.7, 0.95)
         place = min((other for other in (place, turned) if other), key=lambda other: other.score.value, default=None)
     if place is not None and GOOD_SCORE < place.score.value < HOPELESS_SCORE:
-        yield Progress(0.95, "Checking for an open mouth")
-        place = _opened(place)
+        place = yield from part_of(_opened(place), 0.95, 1.0)
     return accepted(place, refuse=refuse)
 
 
@@ -102,16 +95,19 @@ def _best_place(surface: Surface, cloud: Cloud, guesses: Sequence[Guess]) -> Wor
         yield Progress(0.8 * number / len(guesses), "Finding the size of the face")
         found.append(_aligned(surface, cloud, guess.pose))
     found.sort(key=lambda place: place.score.value)
-    yield Progress(0.8, "Comparing the best places")
-    best = [aligned_again(place.surface, place.pose) for place in _distinct(found)[:FINALISTS]]
+    best: list[Located] = []
+    for number, place in enumerate(_distinct(found)[:FINALISTS]):
+        yield Progress(0.8 + 0.2 * number / FINALISTS, "Comparing the best places")
+        best.append(aligned_again(place.surface, place.pose))
     return min(best, key=lambda place: place.score.value, default=None)
 
 
 def _place_at_ends(surface: Surface, cloud: Cloud) -> Work[Located | None]:
     """The place at an end of the mesh that looks most like a face; the first that surely is one."""
     best: Located | None = None
-    for number, guesses in enumerate(guesses_at_ends(surface)):
-        done, then = number / (number + 2), (number + 1) / (number + 3)
+    net = yield from part_of(net_of(surface), 0.0, 0.1)
+    for number, guesses in enumerate(guesses_at_ends(surface, net)):
+        done, then = (0.1 + 0.9 * count / (count + 2) for count in (number, number + 1))
         yield Progress(done, "Searching for a turned head")
         place = yield from part_of(_best_place(surface, cloud, guesses[:ALIGNED_AT_END]), done, then)
         best = min((other for other in (best, place) if other), key=lambda other: other.score.value, default=None)
@@ -120,9 +116,12 @@ def _place_at_ends(surface: Surface, cloud: Cloud) -> Work[Located | None]:
     return best
 
 
-def _opened(place: Located) -> Located:
+def _opened(place: Located) -> Work[Located]:
     """The place with an open mouth, where that looks more like a face."""
-    opened = [aligned_again(place.surface, place.pose, degrees) for degrees in JAW_DEGREES]
+    opened: list[Located] = []
+    for number, degrees in enumerate(JAW_DEGREES):
+        yield Progress(number / len(JAW_DEGREES), "Checking for an open mouth")
+        opened.append(aligned_again(place.surface, place.pose, degrees))
     best = min(opened, key=lambda other: other.score.value)
     return best if best.score.value + OPEN_COST < place.score.value else place
 
@@ -158,32 +157,6 @@ def aligned_again(surface: Surface, pose: HeadPose, jaw_degrees: float = 0.0) ->
 def scored(surface: Surface, pose: HeadPose, template: FitTemplate) -> FaceScore:
     """How much what lies at a pose looks like a face."""
     return face_score(pose.to_template(box_cloud(surface, pose, FACE_BOX, FACE).positions), template)
-
-
-def in_box(surface: Surface, pose: HeadPose, box: Box) -> Bools:
-    """(T,) which triangles touch a box round the head."""
-    if len(surface.triangles) > MANY:
-        a, b, c = surface.triangles.T
-        inside = lies_in_box(surface.vertices, pose, box)
-        return np.asarray(inside[a] | inside[b] | inside[c], dtype=np.bool_)
-    corners = pose.with_one_scale().to_template(surface.vertices)[surface.triangles]
-    touches: Bools = ((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)
-    return touches
-
-
-def box_cloud(surface: Surface, pose: HeadPose, box: Box, count: int) -> Cloud:
-    """Points spread over what lies in a box round the head."""
-    chosen = in_box(surface, pose, box)
-    cloud = sample(surface.part(chosen), count)
-    whole = Cloud(cloud.positions, cloud.normals, np.flatnonzero(chosen)[cloud.triangles])
-    return whole.take(lies_in_box(cloud.positions, pose, box))
-
-
-def lies_in_box(positions: Floats, pose: HeadPose, box: Box) -> Bools:
-    """Which positions (N, 3) of the mesh lie in a box round the head."""
-    local = pose.with_one_scale().to_template(positions)
-    x, y, z = ((local >= np.array(box[0])) & (local <= np.array(box[1]))).T
-    return np.asarray(x & y & z, dtype=np.bool_)
 
 
 def _aligned(surface: Surface, cloud: Cloud, guess: HeadPose) -> Located:

@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....arrays import Bools, Floats, Ints
-from ..surface.cloud import Surface, sample
-from ..surface.skeleton import Net, net_of
+from ..surface.cloud import Cloud, Surface, sample, sample_shelves
+from ..surface.shelves import MANY, Shelves
+from ..surface.skeleton import Net
 from ..surface.symmetry import symmetry_planes
 from .search import Guess, best_guesses, search_plane
 
@@ -48,16 +49,26 @@ class End:
     bulk: float
 
 
-def guesses_at_ends(surface: Surface) -> Iterator[list[Guess]]:
-    """The best guesses in ever further regions at the ends of a mesh, the likeliest first."""
-    net = net_of(surface)
+def guesses_at_ends(surface: Surface, net: Net) -> Iterator[list[Guess]]:
+    """The best guesses in ever further regions at the ends of a mesh with its net, the likeliest first."""
     size = float(np.sqrt(net.area.sum()))
     found = ends(net)[:ENDS]
     regions = [end.away < reach * size for reach in REACHES for end in found if end.bulk >= BULKY * found[0].bulk]
     small = [chosen for chosen in regions if net.area[chosen].sum() <= LARGEST_SHARE * size**2]
+    shelves = by_node(surface, net) if len(surface.triangles) > MANY else None
     for chosen in small[:REGIONS]:
-        guesses = _guesses_in(surface.part(_touched(surface, net, chosen)))
+        if shelves is not None:
+            cloud = sample_shelves(surface, shelves, chosen, REGION)
+            guesses = _guesses_about(cloud, float(shelves.areas[chosen].sum()))
+        else:
+            part = surface.part(_touched(surface, net, chosen))
+            guesses = _guesses_about(sample(part, REGION), float(part.twice_areas.sum() / 2.0))
         yield best_guesses([guess for guess in guesses if guess.cost < HOPELESS])
+
+
+def by_node(surface: Surface, net: Net) -> Shelves:
+    """The triangles of a dense surface on a shelf for each node of its net, that of their first corner."""
+    return Shelves.of(net.node[surface.triangles[:, 0]], len(net.places), surface.twice_areas / 2.0)
 
 
 def _touched(surface: Surface, net: Net, chosen: Bools) -> Bools:
@@ -65,12 +76,10 @@ def _touched(surface: Surface, net: Net, chosen: Bools) -> Bools:
     return np.asarray(chosen[net.node][surface.triangles].any(axis=1), dtype=np.bool_)
 
 
-def _guesses_in(part: Surface) -> list[Guess]:
-    """The best guesses in a part of the mesh, about its own planes of symmetry."""
-    cloud = sample(part, REGION)
+def _guesses_about(cloud: Cloud, area: float) -> list[Guess]:
+    """The best guesses in a part of the mesh, seen by a cloud and of some area, about its own planes of symmetry."""
     if len(cloud) == 0:
         return []
-    area = float(part.twice_areas.sum() / 2.0)
     diagonal = float(np.linalg.norm(np.ptp(cloud.positions, axis=0)))
     planes = symmetry_planes(cloud.positions[::SYMMETRY_STRIDE], refined=REFINED)[:PLANES]
     return [guess for plane in planes for guess in search_plane(cloud, area, diagonal, plane, lengths=LENGTHS)]

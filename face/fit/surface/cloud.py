@@ -10,9 +10,12 @@ from scipy.spatial import cKDTree
 
 from ....arrays import Bools, Floats, Ints
 from ....physics.mesh import Polygons, triangulate, vertex_normals
+from .shelves import Cells, Shelves
 
 #: A normal with less than this length has no direction.
 _TINY = 1e-30
+#: So many triangles at a time fit a processor's cache.
+_AT_ONCE = 1 << 15
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,11 +46,24 @@ class Surface:
     @cached_property
     def twice_areas(self) -> Floats:
         """(T,) areas of the triangles, doubled."""
-        return np.asarray(np.linalg.norm(self.cross(), axis=1), dtype=np.float64)
+        areas = np.empty(len(self.triangles))
+        for start in range(0, len(areas), _AT_ONCE):
+            some = slice(start, start + _AT_ONCE)
+            areas[some] = np.linalg.norm(Surface(self.vertices, self.triangles[some], self.normals).cross(), axis=1)
+        return areas
+
+    @cached_property
+    def cells(self) -> Cells:
+        """The triangles on shelves by place; worth it for many triangles."""
+        return Cells.of(self.vertices, self.triangles, self.twice_areas / 2.0)
 
     def flipped(self) -> Surface:
         """The same surface, inside out."""
-        return Surface(self.vertices, self.triangles[:, ::-1].copy(), -self.normals)
+        flipped = Surface(self.vertices, self.triangles[:, ::-1], -self.normals)
+        for name in ("twice_areas", "cells"):  # many guesses look at one dense mesh from behind
+            if name in self.__dict__:
+                flipped.__dict__[name] = self.__dict__[name]
+        return flipped
 
     def part(self, chosen: Bools) -> Surface:
         """The surface of the chosen (T,) triangles, with the same vertices."""
@@ -90,15 +106,26 @@ def sample(surface: Surface, count: int, seed: int = 0) -> Cloud:
     random = np.random.default_rng(seed)
     places = (np.arange(count) + random.random(count)) * (total / count)
     chosen = np.minimum(np.searchsorted(np.cumsum(areas), places), len(areas) - 1)
-    u, v = random.random(count), random.random(count)
+    return _points_on(surface, chosen.astype(np.int64), random)
+
+
+def sample_shelves(surface: Surface, shelves: Shelves, chosen: Bools, count: int, seed: int = 0) -> Cloud:
+    """Points spread over what lies on some shelves (S,), as `sample` spreads them."""
+    random = np.random.default_rng(seed)
+    return _points_on(surface, shelves.drawn(chosen, count, random), random)
+
+
+def _points_on(surface: Surface, chosen: Ints, random: np.random.Generator) -> Cloud:
+    """A point anywhere on each of some triangles (N,)."""
+    u, v = random.random(len(chosen)), random.random(len(chosen))
     outside = u + v > 1.0
     u, v = np.where(outside, 1.0 - u, u), np.where(outside, 1.0 - v, v)
-    weights = np.column_stack([1.0 - u - v, u, v])[:, :, None]
-    corners = surface.triangles[chosen]
-    positions = (weights * surface.vertices[corners]).sum(axis=1)
-    normals = (weights * surface.normals[corners]).sum(axis=1)
+    positions, normals = np.zeros((len(chosen), 3)), np.zeros((len(chosen), 3))
+    for weight, corner in zip((1.0 - u - v, u, v), surface.triangles[chosen].T, strict=True):
+        positions += weight[:, None] * surface.vertices[corner]
+        normals += weight[:, None] * surface.normals[corner]
     normals /= np.maximum(np.linalg.norm(normals, axis=1), _TINY)[:, None]
-    return Cloud(positions, normals, chosen.astype(np.int64))
+    return Cloud(positions, normals, chosen)
 
 
 def first_hits(depth: Floats, across: Floats, up: Floats, *, pixel: float, tolerance: float) -> Bools:

@@ -10,6 +10,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import cKDTree
 
 from ....arrays import Floats, Ints
+from ....progress import Progress, Work
 from .cloud import Surface, nearest
 
 #: Cells of the net over the root of the surface's area.
@@ -40,24 +41,52 @@ class Net:
         return np.asarray(dijkstra(self.graph, directed=False, indices=nodes, limit=within), dtype=np.float64)
 
 
-def net_of(surface: Surface) -> Net:
+def net_of(surface: Surface) -> Work[Net]:
     """The net of a surface; its pieces hang together where they are nearest to each other."""
-    used, corners = np.unique(surface.triangles, return_inverse=True)
-    corners = corners.reshape(-1, 3)
+    yield Progress(0.0, "Finding the ends of the mesh")
+    used, corners = _numbered(surface)
     places, area = surface.vertices[used], surface.twice_areas / 2.0
-    sides = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
     cell = np.floor(places / (CELL * np.sqrt(area.sum()))).astype(np.int64)
-    within = (cell[sides[:, 0]] == cell[sides[:, 1]]).all(axis=1)
-    count, node = connected_components(_links(sides[within], np.ones(int(within.sum())), len(used)), directed=False)
+    yield Progress(0.3, "Finding the ends of the mesh")
+    sides, node = _nodes(corners, cell)
+    yield Progress(0.8, "Finding the ends of the mesh")
+    count = int(node.max()) + 1
     share = np.bincount(node, minlength=count)
     middles = np.column_stack([np.bincount(node, places[:, k]) / share for k in range(3)])
     areas = np.asarray(np.bincount(node[corners].ravel(), np.repeat(area / 3.0, 3), minlength=count), dtype=np.float64)
-    ends = np.unique(np.sort(node[sides[~within]], axis=1), axis=0)
+    keys = np.unique(np.sort(node[sides], axis=1) @ np.array([count, 1]))
+    ends = np.column_stack([keys // count, keys % count])
     ends = _tied(middles, areas, ends[ends[:, 0] != ends[:, 1]])
     lengths = np.linalg.norm(middles[ends[:, 0]] - middles[ends[:, 1]], axis=1)
     every = np.full(len(surface.vertices), -1, dtype=np.int64)
     every[used] = node
     return Net(middles, areas, _links(ends, np.maximum(lengths, np.finfo(float).tiny), count), every)
+
+
+def _numbered(surface: Surface) -> tuple[Ints, Ints]:
+    """(U,) vertices that triangles use; (T, 3) triangles with those numbered one after another."""
+    in_use = np.zeros(len(surface.vertices), dtype=bool)
+    in_use[surface.triangles] = True
+    return np.flatnonzero(in_use), (np.cumsum(in_use) - 1)[surface.triangles]
+
+
+def _nodes(corners: Ints, cell: Ints) -> tuple[Ints, Ints]:
+    """(E, 2) sides of triangles (T, 3) between two cells; (U,) the node of each vertex: what hangs together in a cell.
+
+    Triangles that lie in one cell join their corners as they are: of a dense mesh these are nearly all.
+    """
+    low = cell.min(axis=0)
+    extent = cell.max(axis=0) - low + 1
+    number = ((cell - low) @ np.array([extent[1] * extent[2], extent[2], 1]))[corners]
+    whole = (number[:, 0] == number[:, 1]) & (number[:, 1] == number[:, 2])
+    split = corners[~whole]
+    sides = np.concatenate([split[:, [0, 1]], split[:, [1, 2]], split[:, [2, 0]]])
+    within = np.concatenate([number[~whole, k] == number[~whole, (k + 1) % 3] for k in range(3)])
+    members = np.concatenate([corners[whole].ravel(), sides[within].ravel()]).astype(np.int32)
+    sizes = np.repeat([0, 3, 2], [len(cell), int(whole.sum()), int(within.sum())])
+    starts = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
+    joined = sparse.csr_array((np.ones(len(members)), members, starts), shape=(len(sizes), len(sizes)))
+    return sides[~within], connected_components(joined, directed=False)[1][: len(cell)].astype(np.int64)
 
 
 def _links(ends: Ints, lengths: Floats, count: int) -> sparse.csr_array:

@@ -15,6 +15,7 @@ from risorius.face.fit.locating.regions import End, ends, guesses_at_ends
 from risorius.face.fit.locating.search import Guess
 from risorius.face.fit.surface.cloud import Surface
 from risorius.face.fit.surface.skeleton import Net, net_of
+from risorius.progress import run
 from scipy.spatial.transform import Rotation
 
 #: How far below the chin the neck begins to turn, metres, and how far the head is turned, tilted and leant, degrees.
@@ -59,7 +60,7 @@ def places_of(found: list[End], net: Net) -> np.ndarray:
 
 
 def test_ends_are_the_tips_of_a_star() -> None:
-    net = net_of(star())
+    net = run(net_of(star()))
     found = ends(net)
     away = np.linalg.norm(places_of(found, net)[:, None] - TIPS, axis=2)
     assert len(found) == len(TIPS)
@@ -67,7 +68,7 @@ def test_ends_are_the_tips_of_a_star() -> None:
 
 
 def test_the_bulkiest_end_comes_first() -> None:
-    net = net_of(star())
+    net = run(net_of(star()))
     found = places_of(ends(net), net)
     away = np.linalg.norm(found[:, None] - TIPS, axis=2)
     assert away.argmin(axis=1).tolist() == [0, 2, 1]
@@ -77,7 +78,7 @@ def test_a_limb_that_bends_back_is_an_end_still() -> None:
     turn = np.linspace(0.0, 1.6 * np.pi, 60)
     hook = np.column_stack([np.sin(turn), 1.0 - np.cos(turn), 0.1 * turn])
     straight = np.linspace(0.0, 1.0, 40)[:, None] * np.array([-4.0, 0.0, 0.0])
-    net = net_of(joined([tube(hook, 0.1), tube(straight, 0.1)]))
+    net = run(net_of(joined([tube(hook, 0.1), tube(straight, 0.1)])))
     away = np.linalg.norm(places_of(ends(net), net)[:, None] - np.array([hook[-1], straight[-1]]), axis=2)
     assert np.linalg.norm(hook[-1]) < 0.7 * np.linalg.norm(hook, axis=1).max()
     assert away.min(axis=0).max() < 0.25
@@ -86,7 +87,7 @@ def test_a_limb_that_bends_back_is_an_end_still() -> None:
 def test_pieces_hang_together_where_they_are_nearest() -> None:
     shares = np.linspace(0.0, 1.0, 40)[:, None]
     first, second = shares * np.array([1.0, 0.0, 0.0]), shares * np.array([1.0, 0.0, 0.0]) + (1.2, 0.0, 0.0)
-    net = net_of(joined([tube(first, 0.1), tube(second, 0.1)]))
+    net = run(net_of(joined([tube(first, 0.1), tube(second, 0.1)])))
     start, end = (int(net.places[:, 0].argmin()), int(net.places[:, 0].argmax()))
     assert 2.1 < net.along(np.array([start]))[0, end] < 2.6
 
@@ -99,7 +100,8 @@ def test_a_refusal_looks_at_few_places(monkeypatch: pytest.MonkeyPatch) -> None:
         return []
 
     monkeypatch.setattr(regions, "search_plane", counted)
-    regions_seen = list(guesses_at_ends(Surface.from_polygons(*shapes.hand())))
+    hand = Surface.from_polygons(*shapes.hand())
+    regions_seen = list(guesses_at_ends(hand, run(net_of(hand))))
     assert 0 < len(regions_seen) <= regions.REGIONS
     assert len(planes) <= regions.REGIONS * regions.PLANES
 
