@@ -93,6 +93,12 @@ class PolygonTable(Sequence[Ints]):
         inside: Bools = np.logical_and.reduceat(marked[self.loops], self.starts)
         return inside
 
+    def touching(self, marked: Bools) -> Bools:
+        """(F,) which polygons have a corner among the marked vertices (V,)."""
+        touched = np.zeros(len(self), dtype=bool)
+        touched[self.owners[marked[self.loops]]] = True
+        return touched
+
     def kept(self, wanted: Bools) -> PolygonTable:
         """Those of some polygons (F,)."""
         return PolygonTable(self.loops[np.repeat(wanted, self.sizes)], self.sizes[wanted])

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator
-from typing import NamedTuple, Self, TypeAlias, TypeVar
+from typing import Any, Generic, NamedTuple, Self, TypeAlias, TypeVar, overload
 
 from .errors import ParameterError
 
@@ -77,3 +77,37 @@ def part_of(work: Work[T], start: float, end: float) -> Work[T]:
         except GeneratorExit:
             work.close()
             raise
+
+
+class stepwise(Generic[T]):
+    """A property that is worked out once, when first asked for: all at once, or bit by bit by `worked_out`.
+
+    It decorates a method that is a `Work`.
+    """
+
+    def __init__(self, method: Callable[[Any], Work[T]]) -> None:
+        self._method, self._name, self.__doc__ = method, method.__name__, method.__doc__
+
+    @overload
+    def __get__(self, owner: None, kind: type) -> Self: ...
+    @overload
+    def __get__(self, owner: object, kind: type) -> T: ...
+    def __get__(self, owner: object | None, kind: type) -> Self | T:
+        # What has been worked out stands in the object's own dictionary, which Python looks at first.
+        return self if owner is None else run(self.steps(owner))
+
+    def steps(self, owner: object) -> Work[T]:
+        """Work it out for an object and keep it."""
+        vars(owner)[self._name] = result = yield from self._method(owner)
+        return result
+
+
+def worked_out(owner: object, name: str) -> Work[None]:
+    """Work out a property of an object, where that has not been done, bit by bit where it is `stepwise`."""
+    if name in vars(owner):
+        return
+    found = getattr(type(owner), name)
+    if isinstance(found, stepwise):
+        yield from found.steps(owner)
+    else:
+        getattr(owner, name)

@@ -11,10 +11,10 @@ from ..arrays import Bools, Ints
 from ..errors import ModelError
 from ..mpeg4 import FAPS
 from ..physics import mesh
-from ..physics.elastic import laplacian
 from ..physics.mesh import Sparse
 from ..polygons import PolygonTable
-from .bodies.contact import Contact, build_contact
+from ..progress import Progress, Work, stepwise, worked_out
+from .bodies.contact import Contact, contact_steps
 from .bodies.eyeball import Eyeball, build_eyeball
 from .bodies.head_turn import HeadTurn, build_head_turn
 from .bodies.tongue import Tongue, build_tongue
@@ -35,7 +35,7 @@ from .muscles.placement import PlacedMuscle, place_muscles
 from .muscles.table import muscles_of
 from .response.actuators import Actuators
 from .response.followers import InnerSkin
-from .response.pulls import Pulls, pulls_of
+from .response.pulls import Pulls, pulls_steps
 from .response.relaxation import Relaxation
 from .response.rooted import RootedParts
 from .response.sheet import ElasticSheet
@@ -103,17 +103,35 @@ class Anatomy:
         """Vertices of skin that no face moves."""
         return np.setdiff1d(self._whole_skin.loops, self._skin_polygons.loops)
 
+    @stepwise
+    def _openings(self) -> Work[dict[str, Opening]]:
+        """Mouth and eyes ("l", "r") as the feature points tell, between the mesh's vertices."""
+        yield from worked_out(self, "_skin_polygons")
+        yield Progress(0.1, "Preparing the skin")
+        graph = mesh.adjacency(self.mesh.positions, self._skin_polygons, diagonals=False)
+        found = {}
+        for name, arcs in (("mouth", (LIP_UPPER, LIP_LOWER)), *LIDS.items()):
+            yield Progress(0.2 + 0.2 * len(found), "Preparing the skin")
+            found[name] = find_opening(graph, self.mesh.points.nearest, *arcs)
+        return found
+
     @cached_property
-    def given_skin(self) -> OuterSkin:
+    def _sewn(self) -> frozenset[str]:
+        """Which openings are sewn."""
+        return sewn_openings(
+            self.mesh.positions, self._skin_polygons, self.mesh.points.nearest, self.mesh.landmarks
+        )
+
+    @stepwise
+    def given_skin(self) -> Work[OuterSkin]:
         """The outer skin with the mesh's own vertices."""
-        face_mesh = self.mesh
-        polygons = self._skin_polygons
-        graph = mesh.adjacency(face_mesh.positions, polygons, diagonals=False)
-        nearest = face_mesh.points.nearest
-        openings = {"mouth": find_opening(graph, nearest, LIP_UPPER, LIP_LOWER)}
-        openings |= {side: find_opening(graph, nearest, *LIDS[side]) for side in "lr"}
-        outside = outer_faces(polygons, list(openings.values()), nearest["9.3"])
-        sewn = sewn_openings(face_mesh.positions, polygons, nearest, face_mesh.landmarks)
+        yield from worked_out(self, "_openings")
+        yield Progress(0.8, "Preparing the skin")
+        yield from worked_out(self, "_sewn")
+        yield Progress(0.9, "Preparing the skin")
+        face_mesh, polygons, sewn = self.mesh, self._skin_polygons, self._sewn
+        openings = dict(self._openings)
+        outside = outer_faces(polygons, list(openings.values()), face_mesh.points.nearest["9.3"])
         web = np.zeros(len(polygons), dtype=bool)
         for name in sorted(sewn):
             own, openings[name] = web_of(face_mesh.positions, polygons, outside, openings[name])
@@ -143,18 +161,24 @@ class Anatomy:
         """The outer skin thinned out, where it is dense."""
         return Thinning(self.given_skin) if self.given_skin.vertex_count > MOST else None
 
-    @cached_property
-    def skin(self) -> OuterSkin:
+    @stepwise
+    def skin(self) -> Work[OuterSkin]:
         """The outer skin as it is solved: split where the mesh is coarse, thinned out where it is dense.
 
         Where it is split, the vertices of `given_skin` are the first ones.
         """
-        return fine_skin(self.given_skin, SOLVED)[0] if self._thinning is None else self._thinning.skin
+        yield from worked_out(self, "given_skin")
+        if self._thinning is None:
+            return fine_skin(self.given_skin, SOLVED)[0]
+        yield from worked_out(self._thinning, "cells")
+        return self._thinning.skin
 
-    @cached_property
-    def carry(self) -> Sparse:
+    @stepwise
+    def carry(self) -> Work[Sparse]:
         """(g, n) takes fields over `skin` to the vertices of `given_skin`."""
+        yield from worked_out(self, "skin")
         if self._thinning is not None:
+            yield from worked_out(self._thinning, "carry")
             return self._thinning.carry
         return sparse.eye_array(self.given_skin.vertex_count, self.skin.vertex_count, format="csr")
 
@@ -180,21 +204,22 @@ class Anatomy:
             found[side] = build_eye(self.skin, side, ball if len(ball) else None)
         return found
 
-    @cached_property
-    def contact(self) -> Contact:
+    @stepwise
+    def contact(self) -> Work[Contact]:
         """Lips and lids where they meet, eyeballs and teeth behind them."""
-        return build_contact(self.skin, self.mesh, self.eyes, self.eyeballs, self.jaw)
+        return (yield from contact_steps(self.skin, self.mesh, self.eyes, self.eyeballs, self.jaw))
 
     @cached_property
     def muscles(self) -> list[PlacedMuscle]:
         """The muscles of the table whose mechanisms this face has, placed on it."""
         return place_muscles(muscles_of(self.mechanisms), self.warp)
 
-    @cached_property
-    def pulls(self) -> Pulls:
+    @stepwise
+    def pulls(self) -> Work[Pulls]:
         """What the muscles do to the skin."""
         if self._same_pulls is None:
-            return pulls_of(self.skin, self.sheet, self.muscles)
+            return (yield from pulls_steps(self.skin, self.sheet, self.muscles))
+        yield from worked_out(self._same_pulls, "pulls")
         return self._same_pulls.pulls.of({muscle.name for muscle in self.muscles})
 
     @cached_property
@@ -287,10 +312,10 @@ class Anatomy:
         inner: Bools = self.mesh.parts == Part.SKIN
         inner[self.still_skin] = False
         inner[self.given_skin.index] = False
-        positions, polygons = self.mesh.positions, self._skin_polygons
-        areas = mesh.vertex_areas(positions, polygons)
+        polygons = self._skin_polygons
+        about = polygons.kept(polygons.touching(inner))
         before = self.given_skin if self._thinning is None else self.skin
-        return InnerSkin(laplacian(positions, polygons), areas, inner, positions, before)
+        return InnerSkin(self.mesh.positions, about, inner, before)
 
     @cached_property
     def rooted_parts(self) -> RootedParts:

@@ -285,7 +285,7 @@ class Face:
         >>> [step.text for step in api.default_face().prepare()][0]
         'Preparing the skin'
         """
-        return preparation(self.anatomy, self._poser)
+        return preparation(self._poser)
 
     def sketcher(self) -> Sketcher:
         """Quick poses for a live preview; see `Sketcher`.

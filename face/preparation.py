@@ -2,33 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from operator import attrgetter
 
-from ..progress import Progress, Work
-from .anatomy import Anatomy
+from ..progress import Progress, Work, worked_out
 from .drive.request import Request, silent_faps
 from .pose import Poser
 from .response.relaxation import Memory
 
+#: What is worked out, in this order, of a poser; the text is for people.
+STAGES = (
+    ("Preparing the skin", "anatomy.given_skin"),
+    ("Preparing the skin", "anatomy.skin"),
+    ("Preparing the skin", "anatomy.muscles"),
+    ("Preparing the skin", "anatomy.carry"),
+    ("Preparing the skin", "anatomy.skin.normals"),
+    ("Computing what each muscle does", "anatomy.sheet.factor"),
+    ("Computing what each muscle does", "anatomy.pulls"),
+    ("Computing what each muscle does", "anatomy.actuators"),
+    ("Relating muscles to FAPs", "anatomy.points"),
+    ("Relating muscles to FAPs", "anatomy.kernel"),
+    ("Relating muscles to FAPs", "anatomy.inverse"),
+    ("Preparing contact of lips and lids", "anatomy.eyeballs"),
+    ("Preparing contact of lips and lids", "anatomy.contact"),
+    ("Preparing what follows the skin", "anatomy.inner_skin"),
+    ("Preparing what follows the skin", "anatomy.rooted_parts"),
+    ("Placing folds", "anatomy.given_skin.normals"),
+    ("Placing folds", "assembly.folds.placed"),
+)
 
-def preparation(anatomy: Anatomy, poser: Poser) -> Work[None]:
+
+def preparation(poser: Poser) -> Work[None]:
     """Work out all that poses share; yields how far it is and what comes next."""
-    stages: tuple[tuple[str, Callable[[], object]], ...] = (
-        ("Preparing the skin", lambda: anatomy.given_skin),
-        ("Preparing the skin", lambda: (anatomy.skin, anatomy.muscles)),
-        ("Preparing the skin", lambda: (anatomy.carry, anatomy.skin.normals)),
-        ("Computing what each muscle does", lambda: anatomy.sheet.factor),
-        ("Computing what each muscle does", lambda: anatomy.pulls),
-        ("Computing what each muscle does", lambda: anatomy.actuators),
-        ("Relating muscles to FAPs", lambda: anatomy.inverse),
-        ("Preparing contact of lips and lids", lambda: anatomy.eyeballs),
-        ("Preparing contact of lips and lids", lambda: anatomy.contact),
-        ("Preparing what follows the skin", lambda: anatomy.inner_skin),
-        ("Preparing what follows the skin", lambda: anatomy.rooted_parts),
-        ("Placing folds", lambda: anatomy.given_skin.normals),
-        ("Placing folds", lambda: poser.assembly.folds),
-        ("Solving the skin", lambda: poser.sketch(Request(silent_faps()), Memory())),
-    )
-    for number, (text, stage) in enumerate(stages):
-        yield Progress(number / len(stages), text)
-        stage()
+    count = len(STAGES) + 1
+    for number, (text, place) in enumerate(STAGES):
+        yield Progress(number / count, text)
+        owner, _, name = place.rpartition(".")
+        for step in worked_out(attrgetter(owner)(poser), name):
+            yield Progress((number + step.fraction) / count, text)
+    yield Progress((count - 1) / count, "Solving the skin")
+    poser.sketch(Request(silent_faps()), Memory())

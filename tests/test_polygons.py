@@ -56,6 +56,12 @@ def test_polygons_within_marked_vertices_are_kept_and_renumbered() -> None:
     assert as_tuples(PolygonTable.joined([kept, kept])) == MIXED[:2] * 2
 
 
+def test_polygons_that_touch_marked_vertices_are_those_with_a_corner_there() -> None:
+    table = PolygonTable.of(MIXED)
+    assert as_tuples(table.kept(table.touching(np.arange(7) == 1))) == MIXED[:2]
+    assert not table.touching(np.zeros(7, dtype=bool)).any()
+
+
 def test_what_is_read_once_cannot_be_changed() -> None:
     given = np.array([[0, 1, 2]])
     table = PolygonTable.of(given)

@@ -6,7 +6,7 @@ import math
 
 import pytest
 from risorius.errors import ParameterError
-from risorius.progress import Progress, Work, part_of, run
+from risorius.progress import Progress, Work, part_of, run, stepwise, worked_out
 
 
 def counting(ended: list[str]) -> Work[str]:
@@ -55,3 +55,33 @@ def test_counted_things_say_how_many_there_are() -> None:
     endless = Progress.counted(3, None, "pictures")
     assert math.isnan(endless.fraction)
     assert endless.text == "3 pictures"
+
+
+class Counted:
+    """Works out one property, and counts how often it has begun to."""
+
+    begun = 0
+
+    @stepwise
+    def result(self) -> Work[str]:
+        """Done in two steps."""
+        self.begun += 1
+        yield Progress(0.0, "first")
+        yield Progress(0.5, "second")
+        return "done"
+
+
+def test_a_stepwise_property_is_worked_out_once_at_once_or_bit_by_bit() -> None:
+    whole, slow = Counted(), Counted()
+    assert (whole.result, whole.result, whole.begun) == ("done", "done", 1)
+    assert [step.text for step in worked_out(slow, "result")] == ["first", "second"]
+    assert not list(worked_out(slow, "result"))
+    assert (slow.result, slow.begun) == ("done", 1)
+
+
+def test_a_stepwise_property_that_was_cancelled_is_worked_out_anew() -> None:
+    counted = Counted()
+    work = worked_out(counted, "result")
+    next(work)
+    work.close()
+    assert (counted.result, counted.begun) == ("done", 2)

@@ -16,6 +16,7 @@ import numpy as np
 from ...arrays import Floats, Ints
 from ...physics.mesh import fans, within
 from ...physics.skin import State
+from ...progress import Progress, Work
 from ..figures import Pair, Share, read_figures
 from ..mechanism import Mechanism
 from ..mechanisms.jaw import Jaw
@@ -48,6 +49,9 @@ UPPER_LIP_FAPS, LOWER_LIP_FAPS = (4, 8, 9, 51, 55, 56), (5, 10, 11, 52, 57, 58)
 
 #: Bodies may move margins that have been settled: both are repeated at most so often, while they move this, metres.
 SWEEPS, UNDISTURBED = 3, 0.02e-3
+
+#: Eyeballs and rows of teeth of a whole face.
+BODIES = 4
 
 AT_REST = Surroundings()
 
@@ -173,9 +177,9 @@ def _lifted(
     return lifted
 
 
-def build_contact(
+def contact_steps(
     skin: OuterSkin, mesh: FaceMesh, eyes: Mapping[str, Eye], eyeballs: Sequence[Eyeball], jaw: Jaw
-) -> Contact:
+) -> Work[Contact]:
     """Every contact of a face: its outer skin and mesh, lids by "l" and "r", the eyeballs it has, its mandible."""
     positions = mesh.positions
     bodies: list[Body] = []
@@ -186,12 +190,14 @@ def build_contact(
         triangles = _triangles(mesh, Part.EYEBALL_L if side == "l" else Part.EYEBALL_R)
         ball = modelled_ball(look, positions, triangles) if len(triangles) else round_ball(look, eye.radius)
         bodies.append(EyeballSurface(side, ball, index, firmness, skin.positions[index]))
+        yield Progress(len(bodies) / BODIES, "Preparing contact of lips and lids")
     index, firmness = _near(skin.lip_edge_distance, CONTACT.lip_skin)
     for part, carried_by in ((Part.TEETH_UPPER, None), (Part.TEETH_LOWER, jaw)):
         triangles = _triangles(mesh, part)
         if len(triangles):
             front = build_front(positions, triangles)
             bodies.append(DentalArch(front, carried_by, index, firmness, skin.positions[index]))
+            yield Progress(len(bodies) / BODIES, "Preparing contact of lips and lids")
     return Contact(skin, list(eyes), bodies)
 
 

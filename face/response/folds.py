@@ -18,6 +18,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Floats, Ints
 from ...physics.mesh import Sparse
+from ...progress import Progress, Work, stepwise
 from ...tables import TomlTable, read_toml
 from ..figures import ANATOMY, Length, Share, read_figures
 from ..mesh.template import MM, TemplateWarp
@@ -149,7 +150,7 @@ def _profile(across: Floats, lean: float) -> Floats:
 
 def place_fold(skin: OuterSkin, warp: TemplateWarp, row: FoldRow, spared: Floats) -> PlacedFold | None:
     """A fold on a face, or None where the mesh is too coarse for it; `spared` (n,) is 0 where nothing may move."""
-    rest, tree, line = skin.positions, cKDTree(skin.positions), line_on(skin, warp, row.line)
+    rest, tree, line = skin.positions, skin.tree, line_on(skin, warp, row.line)
     edge = float(np.median(np.sqrt(skin.areas[tree.query(line.course, k=6)[1]])))
     width = max(row.width, EDGES * edge)
     excess = width / row.width
@@ -189,12 +190,21 @@ class Folds:
 
     def __init__(self, skin: OuterSkin, warp: TemplateWarp, fixed: Ints, rows: Sequence[FoldRow] | None = None) -> None:
         """Place the folds of a table (the built-in one) on a face; `fixed` are vertices that must stay."""
-        self.skin = skin
-        distance, _ = cKDTree(skin.positions[fixed]).query(skin.positions)
+        self.skin, self._warp, self._fixed, self._rows = skin, warp, fixed, rows
+
+    @stepwise
+    def placed(self) -> Work[list[PlacedFold]]:
+        """The folds that the mesh is fine enough for."""
+        skin = self.skin
+        distance, _ = cKDTree(skin.positions[self._fixed]).query(skin.positions)
         spared = 1.0 - np.exp(-((distance / FOLDS.spared) ** 2))
-        spared[fixed] = 0.0
-        placed = [place_fold(skin, warp, row, spared) for row in (read_folds() if rows is None else rows)]
-        self.placed = [fold for fold in placed if fold is not None]
+        spared[self._fixed] = 0.0
+        rows = read_folds() if self._rows is None else self._rows
+        placed = []
+        for number, row in enumerate(rows):
+            yield Progress(number / len(rows), "Placing folds")
+            placed.append(place_fold(skin, self._warp, row, spared))
+        return [fold for fold in placed if fold is not None]
 
     def displacement(self, displacement: Floats) -> Floats:
         """What folds add (n, 3) to a displacement (n, 3) of the outer skin; head space, metres."""

@@ -9,8 +9,9 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from ...arrays import Bools, Floats, Ints
-from ...physics.elastic import Factor, diagonal_matrix
-from ...physics.mesh import Sparse
+from ...physics.elastic import Factor, diagonal_matrix, laplacian
+from ...physics.mesh import Sparse, vertex_areas
+from ...polygons import PolygonTable
 from ..figures import Length, read_figures
 from ..skin.outer import OuterSkin
 
@@ -36,21 +37,22 @@ class InnerSkin:
     out through it.
     """
 
-    def __init__(self, laplacian: Sparse, areas: Floats, inner: Bools, positions: Floats, outer: OuterSkin) -> None:
-        """Prepare for a mesh's Laplacian (V, V), vertex areas (V,), the mask (V,) of vertices that follow, and `outer`.
+    def __init__(self, positions: Floats, polygons: PolygonTable, inner: Bools, outer: OuterSkin) -> None:
+        """Prepare for positions (V, 3), the skin's polygons, the mask (V,) of vertices that follow, and `outer`.
 
-        Lengths are metres of head space.
+        Lengths are metres of head space. Polygons without a vertex that follows may be left out.
         """
         self.index: Ints = np.flatnonzero(inner)
         if len(self.index) == 0:
             return
-        rows: Sparse = laplacian[self.index]
+        areas = vertex_areas(positions, polygons)
+        rows: Sparse = laplacian(positions, polygons)[self.index]
         own: Sparse = rows[:, self.index]
         diagonal = own.diagonal()
         rest = REST_TIE * np.where(diagonal > 0, diagonal, 1.0)
         flesh = _flesh(positions[self.index], areas[self.index], outer, len(positions))
         self._factor = Factor(own + diagonal_matrix(rest + np.asarray(flesh.sum(axis=1)).ravel()))
-        keep = np.ones(laplacian.shape[0])
+        keep = np.ones(len(positions))
         keep[self.index] = 0.0
         self._coupling: Sparse = flesh - rows @ diagonal_matrix(keep)
 

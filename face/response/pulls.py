@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...physics.elastic import diagonal_matrix
+from ...progress import Progress, Work, part_of, run, worked_out
 from ..muscles.insertion import force_density
 from ..muscles.placement import PlacedMuscle
 from ..skin.fine import SUMMED, fine_skin
@@ -39,7 +40,15 @@ class Pulls:
 
 def pulls_of(skin: OuterSkin, sheet: ElasticSheet, muscles: Sequence[PlacedMuscle]) -> Pulls:
     """What muscles do to a skin."""
-    sheets = sheet.relax(_forces(skin, muscles))
+    return run(pulls_steps(skin, sheet, muscles))
+
+
+def pulls_steps(skin: OuterSkin, sheet: ElasticSheet, muscles: Sequence[PlacedMuscle]) -> Work[Pulls]:
+    """As `pulls_of`, bit by bit."""
+    forces = yield from part_of(_forces(skin, muscles), 0.0, 0.8)
+    yield Progress(0.8, "Computing what each muscle does")
+    sheets = sheet.relax(forces)
+    yield Progress(0.9, "Computing what each muscle does")
     shown = sheet.show(sheets)
     peak = np.linalg.norm(shown, axis=2).max(axis=1)
     alive = peak > 0.0
@@ -51,9 +60,14 @@ def pulls_of(skin: OuterSkin, sheet: ElasticSheet, muscles: Sequence[PlacedMuscl
     )
 
 
-def _forces(skin: OuterSkin, muscles: Sequence[PlacedMuscle]) -> Floats:
+def _forces(skin: OuterSkin, muscles: Sequence[PlacedMuscle]) -> Work[Floats]:
     """(k, n, 3) force of each muscle on each vertex, summed over the skin between them."""
     fine, carry = fine_skin(skin, SUMMED)
+    yield Progress(0.1, "Computing what each muscle does")
+    yield from part_of(worked_out(fine, "normals"), 0.1, 0.4)
     spread = (diagonal_matrix(fine.areas) @ carry).T.tocsr()
-    forces = [np.asarray(spread @ force_density(fine, muscle)) for muscle in muscles]
+    forces = []
+    for number, muscle in enumerate(muscles):
+        yield Progress(0.4 + 0.6 * number / len(muscles), "Computing what each muscle does")
+        forces.append(np.asarray(spread @ force_density(fine, muscle)))
     return np.array(forces).reshape(-1, skin.vertex_count, 3)

@@ -60,8 +60,7 @@ class RootedParts:
         touching = _touching(_distance(positions, polygons, rooted, carriers), edges)
         self._roots, self._rest = rooted[touching], rooted[~touching]
         self._at, self._off = positions[self._roots], positions[self._rest]
-        graph = _edges(positions, polygons, carriers)
-        around, length = _around(graph, positions[carriers], self._at)
+        around, length = _around(positions, polygons, carriers, self._at)
         self._carriers = carriers[around]
         self._away = positions[self._carriers] - self._at[:, None]
         reach = np.where(np.isfinite(length), length, 0.0).max(axis=1, keepdims=True)
@@ -138,13 +137,13 @@ def _touching(distance: Floats, edges: Sparse) -> Bools:
     return np.asarray(distance <= np.maximum(ROOTS.touch, ROOTS.nearest * least[labels]))
 
 
-def _around(graph: Sparse, positions: Floats, roots: Floats) -> tuple[Ints, Floats]:
+def _around(mesh_positions: Floats, polygons: PolygonTable, carriers: Ints, roots: Floats) -> tuple[Ints, Floats]:
     """(r, k) carriers about each root (r, 3), the nearest first, and their distances, infinite for what is another lip.
 
-    That is what cannot be reached from the nearest carrier by a way along the surface that is not much longer than
-    through the air.
+    Carriers are called by their number among them. Another lip is what cannot be reached from the nearest carrier by a
+    way along the surface that is not much longer than through the air.
     """
-    lengths = sparse.csr_array((1.0 / graph.data, graph.indices, graph.indptr), shape=graph.shape)
+    positions = mesh_positions[carriers]
     count = min(SEARCHED, len(positions))
     distance, found = (np.reshape(part, (len(roots), count)) for part in cKDTree(positions).query(roots, k=count))
     straight = np.linalg.norm(positions[found] - positions[found[:, :1]], axis=2)
@@ -153,7 +152,7 @@ def _around(graph: Sparse, positions: Floats, roots: Floats) -> tuple[Ints, Floa
     reached = np.flatnonzero(cKDTree(positions[places]).query(positions, distance_upper_bound=limit)[0] < np.inf)
     local = np.full(len(positions), -1, dtype=np.int64)
     local[reached] = np.arange(len(reached))
-    lengths = sparse.csr_array(lengths[reached][:, reached])
+    lengths = _lengths(mesh_positions, polygons, carriers, reached)
     way = np.empty(found.shape)
     for first in range(0, len(places), AT_ONCE):
         searched = dijkstra(lengths, directed=False, indices=local[places[first : first + AT_ONCE]], limit=limit)
@@ -162,6 +161,14 @@ def _around(graph: Sparse, positions: Floats, roots: Floats) -> tuple[Ints, Floa
     distance = np.where(way <= ROOTS.detour * straight + ROOTS.touch, distance, np.inf)
     order = np.argsort(distance, axis=1, kind="stable")[:, : min(NEIGHBOURS, count)]
     return np.take_along_axis(found, order, axis=1), np.take_along_axis(distance, order, axis=1)
+
+
+def _lengths(positions: Floats, polygons: PolygonTable, carriers: Ints, reached: Ints) -> Sparse:
+    """(k, k) lengths of edges and diagonals between some of the carriers, given by their number among them."""
+    among, member = np.zeros((2, len(positions)), dtype=bool)
+    among[carriers[reached]], member[carriers] = True, True
+    graph = mesh.adjacency(positions, polygons.kept(polygons.within(member) & polygons.touching(among)))
+    return sparse.csr_array(graph[carriers[reached]][:, carriers[reached]])
 
 
 def _means(near: Floats, values: Floats) -> Floats:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 from scipy import sparse
@@ -19,6 +20,7 @@ from ...arrays import Bools, Floats, Ints
 from ...physics.elastic import diagonal_matrix
 from ...physics.mesh import Sparse, adjacency, triangulate, vertex_areas
 from ...polygons import PolygonTable
+from ...progress import Progress, Work, stepwise, worked_out
 from ..mesh.openings import Opening
 from ..mesh.template import MM
 from .outer import OuterSkin
@@ -49,6 +51,9 @@ FIRM, FAINT = 2.0, 1e-6
 
 #: Vertices whose weights are worked out at once.
 AT_ONCE = 4000
+
+#: Vertices that are first compared with each other; each later batch is twice as large.
+FIRST_BATCH = 1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,19 +138,23 @@ class Thinning:
         return self.given.polygons[len(self.given.polygons) - self.given.web :]
 
     @cached_property
-    def _chosen(self) -> Ints:
+    def chosen(self) -> Ints:
         """(M,) vertices that are far enough from each other."""
         positions = self.given.positions
         arcs = [_thinned(positions, arc) for opening in self._openings for arc in (opening.upper, opening.lower)]
         stay = np.unique(np.concatenate([*arcs, self._webs.loops]))
         return _chosen(positions, self._apart, stay, self._places.off > BESIDE * self._apart)
 
-    @cached_property
-    def _cells(self) -> Cells:
+    @stepwise
+    def cells(self) -> Work[Cells]:
         """What is nearest to which of them; those that stand for hardly any skin are left out, too."""
+        for done, name in enumerate(("_triangles", "_graph", "_places", "chosen")):
+            yield Progress(0.2 * done, "Preparing the skin")
+            yield from worked_out(self, name)
         first_web = len(self._triangles) - int((self._webs.sizes - 2).sum())
-        kept = self._chosen
+        kept = self.chosen
         while True:
+            yield Progress(0.8, "Preparing the skin")
             found = dijkstra(self._graph, directed=False, indices=kept, min_only=True, return_predecessors=True)
             owners = np.searchsorted(kept, found[2])
             triangles, web = _dual(owners[self._triangles], first_web)
@@ -157,7 +166,7 @@ class Thinning:
     @property
     def kept(self) -> Ints:
         """(N,) vertices that are kept."""
-        return self._cells.kept
+        return self.cells.kept
 
     @cached_property
     def skin(self) -> OuterSkin:
@@ -172,26 +181,29 @@ class Thinning:
             self.given,
             index=self.given.index[self.kept],
             positions=self.given.positions[self.kept],
-            polygons=PolygonTable.of(self._cells.triangles),
-            web=self._cells.web,
+            polygons=PolygonTable.of(self.cells.triangles),
+            web=self.cells.web,
             mouth=inside(self.given.mouth),
             eyes={side: inside(opening) for side, opening in self.given.eyes.items()},
             _cache={},
         )
 
-    @cached_property
-    def carry(self) -> Sparse:
+    @stepwise
+    def carry(self) -> Work[Sparse]:
         """(n, N) weights that give every vertex what the kept ones round it do; a kept vertex does its own."""
         count = len(self.kept)
         graph = adjacency(self.skin.positions, self.skin.polygons, diagonals=False)
         joined = sparse.csr_array((np.ones_like(graph.data), graph.indices, graph.indptr), shape=graph.shape)
         step = joined + diagonal_matrix(np.ones(count))
         around = sparse.csr_array(step @ step @ step)
-        owners = self._cells.owners
+        owners = self.cells.owners
         parts = np.array_split(np.argsort(owners, kind="stable"), len(owners) // AT_ONCE + 1)
-        rows, columns, weights = zip(*(self._shares(around, part) for part in parts), strict=True)
-        entries = (np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns)))
-        return sparse.csr_array(entries, shape=(len(owners), count))
+        shares = []
+        for part in parts:
+            yield Progress(len(shares) / len(parts), "Preparing the skin")
+            shares.append(self._shares(around, part))
+        rows, columns, weights = (np.concatenate(each) for each in zip(*shares, strict=True))
+        return sparse.csr_array((weights, (rows, columns)), shape=(len(owners), count))
 
     def _shares(self, around: Sparse, part: Ints) -> tuple[Ints, Ints, Floats]:
         """Entries of `carry` for some vertices (p,): rows, columns, weights.
@@ -199,7 +211,7 @@ class Thinning:
         Moving least squares over what is `around` each one's owner, with weights that grow without end towards a kept
         vertex: constant and linear displacements are carried as they are.
         """
-        owners, positions = self._cells.owners[part], self.given.positions
+        owners, positions = self.cells.owners[part], self.given.positions
         columns, has = _padded(around, owners)
         reach = REACH * self._apart[part][:, None]
         away = (positions[self.kept][columns] - positions[part][:, None]) / reach[:, :, None]
@@ -207,11 +219,11 @@ class Thinning:
         weight = np.where(has, np.maximum(1.0 - distance, 0.0) ** 2 / (distance**2 + LEVEL**2), 0.0)
         weight[(columns == owners[:, None]) & has] += FAINT
         basis = np.concatenate([np.ones((*distance.shape, 1)), away], axis=2)
-        moment = np.einsum("pk,pki,pkj->pij", weight, basis, basis)
+        moment = (weight[:, :, None] * basis).transpose(0, 2, 1) @ basis
         moment[:, range(1, 4), range(1, 4)] += SHEET_TIE * weight.sum(axis=1)[:, None]
         value = np.zeros((len(part), 4, 1))
         value[:, 0] = 1.0
-        shares = weight * np.einsum("pki,pi->pk", basis, np.linalg.solve(moment, value)[:, :, 0])
+        shares = weight * (basis @ np.linalg.solve(moment, value))[:, :, 0]
         beyond = np.abs(shares).sum(axis=1) > FIRM
         shares[beyond] = weight[beyond] / weight[beyond].sum(axis=1, keepdims=True)
         own = self.kept[owners] == part
@@ -238,24 +250,54 @@ def _thinned(positions: Floats, arc: Ints) -> Ints:
 def _chosen(positions: Floats, apart: Floats, stay: Ints, is_open: Bools) -> Ints:
     """(N,) vertices that are kept: `stay`, and of those open to it as many as may be, no two nearer than `apart` (n,).
 
-    Each round keeps whatever comes first among its neighbours that are still open, in an order that is even over the
-    skin and always the same, and leaves its neighbours out.
+    They come in an order that is even over the skin and always the same; each is kept that is not too near to one that
+    was kept before it. Of a batch of them only those are compared that no earlier batch has left out.
     """
-    kept, open_to = np.zeros(len(positions), dtype=bool), is_open.copy()
-    pairs = cKDTree(positions).query_pairs(FARTHEST, output_type="ndarray")
-    distance = np.linalg.norm(positions[pairs[:, 0]] - positions[pairs[:, 1]], axis=1)
-    pairs = pairs[(distance < apart[pairs].min(axis=1)) & open_to[pairs].all(axis=1)]
+    kept = np.zeros(len(positions), dtype=bool)
     order = np.random.default_rng(0).permutation(len(positions))
+    queue = np.argsort(order)
+    queue = queue[is_open[queue]]
+    count = FIRST_BATCH
+    while len(queue):
+        batch, queue = queue[:count], queue[count:]
+        new = batch[_first_apart(positions[batch], apart[batch])]
+        kept[new] = True
+        queue = queue[~_too_near(positions[queue], apart[queue], positions[new], apart[new])]
+        count *= 2
+    kept[stay] = True
+    return np.flatnonzero(kept)
+
+
+def _first_apart(positions: Floats, apart: Floats) -> Bools:
+    """(k,) which of some vertices are kept, the first first: those that are far enough from all kept before them."""
+    kept, open_to = np.zeros((2, len(positions)), dtype=bool)
+    open_to[:] = True
+    pairs = cKDTree(positions).query_pairs(float(apart.max(initial=0.0)), output_type="ndarray")
+    distance = np.linalg.norm(positions[pairs[:, 0]] - positions[pairs[:, 1]], axis=1)
+    pairs = pairs[distance < apart[pairs].min(axis=1)]
     while open_to.any():
         beaten = np.zeros(len(positions), dtype=bool)
-        beaten[np.where(order[pairs[:, 0]] < order[pairs[:, 1]], pairs[:, 1], pairs[:, 0])] = True
+        beaten[pairs.max(axis=1)] = True
         new = open_to & ~beaten
         kept |= new
         open_to &= ~new
         open_to[pairs[new[pairs].any(axis=1)].ravel()] = False
         pairs = pairs[open_to[pairs].all(axis=1)]
-    kept[stay] = True
-    return np.flatnonzero(kept)
+    return kept
+
+
+def _too_near(positions: Floats, apart: Floats, kept: Floats, kept_apart: Floats) -> Bools:
+    """(k,) which vertices are nearer than they may be to one that is kept."""
+    if len(positions) == 0 or len(kept) == 0:
+        return np.zeros(len(positions), dtype=bool)
+    found = cKDTree(kept).query_ball_point(positions, np.minimum(apart, kept_apart.max()), return_length=False)
+    sizes = np.fromiter(map(len, found), dtype=np.int64, count=len(found))
+    own = np.repeat(np.arange(len(positions)), sizes)
+    other = np.fromiter(chain.from_iterable(found), dtype=np.int64, count=len(own))
+    distance = np.linalg.norm(positions[own] - kept[other], axis=1)
+    near = np.zeros(len(positions), dtype=bool)
+    near[own[distance < np.minimum(apart[own], kept_apart[other])]] = True
+    return near
 
 
 def _dual(owners: Ints, first_web: int) -> tuple[Ints, int]:

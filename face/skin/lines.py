@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ...arrays import Floats, Ints
 from ..mesh.template import TemplateWarp
@@ -62,7 +61,7 @@ class SkinLine:
 def line_on(skin: OuterSkin, warp: TemplateWarp, line: Floats) -> SkinLine:
     """A line (k, 3) of the template, carried to the skin of a face."""
     course = warp(resampled(line, COURSE))
-    _, nearest = cKDTree(skin.positions).query(course)
+    _, nearest = skin.tree.query(course)
     normal = skin.normals[nearest]
     course = course + normal * (normal * (skin.positions[nearest] - course)).sum(axis=1, keepdims=True)
     outwards = np.cross(np.gradient(course, axis=0), normal)

@@ -20,6 +20,7 @@ from ...physics import mesh
 from ...physics.elastic import Factor, diagonal_matrix, laplacian
 from ...physics.mesh import Sparse
 from ...polygons import PolygonTable
+from ...progress import Progress, Work, stepwise, worked_out
 from ..figures import Length, read_figures
 from ..mechanism import EVERY, Mechanism
 from ..mesh.openings import Opening
@@ -95,6 +96,11 @@ class OuterSkin:
         return len(self.positions)
 
     @cached_property
+    def tree(self) -> cKDTree:
+        """Its vertices, to look for the nearest ones."""
+        return cKDTree(self.positions)
+
+    @cached_property
     def areas(self) -> Floats:
         """(n,) area of skin that each vertex stands for, m^2."""
         return mesh.vertex_areas(self.positions, self.polygons)
@@ -146,10 +152,16 @@ class OuterSkin:
         outwards = self.areas @ (normals * (self.positions - inside)).sum(axis=1)
         return normals * (1.0 if outwards >= 0.0 else -1.0)
 
-    @cached_property
-    def normals(self) -> Floats:
+    @stepwise
+    def normals(self) -> Work[Floats]:
         """(n, 3) unit normals averaged over some way: the lie of the bone rather than of the wrinkle."""
-        smooth = self.smoothing(SHEET.bone_over).solve(self.areas[:, None] * self.raw_normals)
+        right = self.areas[:, None] * self.raw_normals
+        yield Progress(0.3, "Preparing the skin")
+        yield from worked_out(self, "laplacian")
+        yield Progress(0.5, "Preparing the skin")
+        filtering = self.smoothing(SHEET.bone_over)
+        yield Progress(0.9, "Preparing the skin")
+        smooth = filtering.solve(right)
         unit: Floats = smooth / np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
         return unit
 
