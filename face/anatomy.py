@@ -13,7 +13,7 @@ from ..mpeg4 import FAPS
 from ..physics import mesh
 from ..physics.mesh import Sparse
 from ..polygons import PolygonTable
-from ..progress import Progress, Work, stepwise, worked_out
+from ..progress import Progress, Work, part_of, stepwise, worked_out
 from .bodies.contact import Contact, contact_steps
 from .bodies.eyeball import Eyeball, build_eyeball
 from .bodies.head_turn import HeadTurn, build_head_turn
@@ -25,11 +25,11 @@ from .mechanisms.lids import Eye, build_eye
 from .mesh.face_mesh import COPY, FaceMesh
 from .mesh.fap_rows import FapRows, displacement_rows
 from .mesh.fap_units import unit_length
-from .mesh.openings import LIDS, LIP_LOWER, LIP_UPPER, Opening, find_opening, outer_faces
+from .mesh.openings import OPENINGS, Opening, find_opening, outer_faces
 from .mesh.parts import Part
 from .mesh.points import FeaturePoints, lies_on_skin, rebound
 from .mesh.reach import within_reach
-from .mesh.sewn import sewn_openings, web_of
+from .mesh.sewn import sewn_steps, web_of
 from .mesh.template import TEMPLATE_POINTS, TemplateWarp
 from .muscles.placement import PlacedMuscle, place_muscles
 from .muscles.table import muscles_of
@@ -107,28 +107,27 @@ class Anatomy:
     def _openings(self) -> Work[dict[str, Opening]]:
         """Mouth and eyes ("l", "r") as the feature points tell, between the mesh's vertices."""
         yield from worked_out(self, "_skin_polygons")
-        yield Progress(0.1, "Preparing the skin")
+        yield Progress(0.0, "Preparing the skin")
         graph = mesh.adjacency(self.mesh.positions, self._skin_polygons, diagonals=False)
-        found = {}
-        for name, arcs in (("mouth", (LIP_UPPER, LIP_LOWER)), *LIDS.items()):
-            yield Progress(0.2 + 0.2 * len(found), "Preparing the skin")
+        found = dict[str, Opening]()
+        for name, arcs in OPENINGS.items():
+            yield Progress(len(found) / len(OPENINGS), "Preparing the skin")
             found[name] = find_opening(graph, self.mesh.points.nearest, *arcs)
         return found
 
-    @cached_property
-    def _sewn(self) -> frozenset[str]:
+    @stepwise
+    def _sewn(self) -> Work[frozenset[str]]:
         """Which openings are sewn."""
-        return sewn_openings(
-            self.mesh.positions, self._skin_polygons, self.mesh.points.nearest, self.mesh.landmarks
-        )
+        places = self.mesh.points.nearest, self.mesh.landmarks
+        return (yield from sewn_steps(self.mesh.positions, self._skin_polygons, *places))
 
     @stepwise
     def given_skin(self) -> Work[OuterSkin]:
         """The outer skin with the mesh's own vertices."""
-        yield from worked_out(self, "_openings")
-        yield Progress(0.8, "Preparing the skin")
-        yield from worked_out(self, "_sewn")
-        yield Progress(0.9, "Preparing the skin")
+        yield from part_of(worked_out(self, "_openings"), 0.0, 0.5)
+        yield Progress(0.5, "Preparing the skin")
+        yield from part_of(worked_out(self, "_sewn"), 0.5, 1.0)
+        yield Progress(1.0, "Preparing the skin")
         face_mesh, polygons, sewn = self.mesh, self._skin_polygons, self._sewn
         openings = dict(self._openings)
         outside = outer_faces(polygons, list(openings.values()), face_mesh.points.nearest["9.3"])
@@ -264,6 +263,13 @@ class Anatomy:
     def rows(self) -> FapRows:
         """Displacement FAPs whose points lie on the mesh."""
         return displacement_rows(self.points, self.mesh.units, self.mesh.head_frame)
+
+    @cached_property
+    def measured(self) -> Ints:
+        """Vertices that FAPs are read off."""
+        points = [*self.points.values(), *self.mesh.points.values()]
+        held = [point.vertices for point in points if point.is_bound]
+        return np.unique(np.concatenate([*held, *(ball.index for ball in self.eyeballs)]))
 
     @cached_property
     def skin_rows(self) -> FapRows:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
 from functools import cached_property
 
 import numpy as np
@@ -233,7 +233,24 @@ class Face:
         >>> face.unmet(asked, [face.vertices])  # nothing has moved
         {31: 'check feature point 4.1'}
         """
-        return unmet(self.anatomy, checked_stream(asked), np.stack([self.measure(step) for step in positions]))
+        return run(self.unmet_steps(asked, positions))
+
+    def unmet_steps(self, asked: ArrayLike, positions: Iterable[ArrayLike]) -> Work[dict[int, str]]:
+        """As `unmet`, one of the positions at a time, for whoever shows progress.
+
+        Examples
+        --------
+        >>> face = api.default_face()
+        >>> asked = api.expression("joy").frame()[None]
+        >>> [step.text for step in face.unmet_steps(asked, [face.vertices])]
+        ['0 of 1 steps measured']
+        """
+        frames, achieved = checked_stream(asked), list[Floats]()
+        count = len(positions) if isinstance(positions, Sized) else None
+        for place in positions:
+            yield Progress.counted(len(achieved), count, "steps measured")
+            achieved.append(self.measure(place))
+        return unmet(self.anatomy, frames, np.stack(achieved))
 
     @cached_property
     def _poser(self) -> Poser:

@@ -31,7 +31,7 @@ def measure(anatomy: Anatomy, positions: Floats) -> Floats:
     faps = np.full(FAP_COUNT, np.nan)
     rest = anatomy.mesh.positions
     head = anatomy.mesh.head_frame.to_head(_checked(anatomy, positions))
-    head, turn = anatomy.head_turn.undo(head, rest)
+    head, turn = anatomy.head_turn.undo(head, rest, anatomy.measured)
     for number, value in turn.items():
         faps[number - 1] = value
     rows = anatomy.rows

@@ -205,6 +205,9 @@ def face_pairs(polygons: Polygons) -> tuple[Ints, Ints, Ints]:
 #: An edge counts as at least so long, metres: a graph has no edge of length 0.
 SHORTEST = 1e-9
 
+#: Samples of a surface that are made at once.
+BLOCK = 200_000
+
 
 def adjacency(vertices: Floats, polygons: Polygons, *, diagonals: bool = True) -> Sparse:
     """Symmetric (V, V) matrix of the lengths in metres of the edges, with face diagonals unless told otherwise.
@@ -250,12 +253,18 @@ def _unique_pairs(pairs: Sequence[Ints]) -> Ints:
 
 def surface_samples(corners: Floats, spacing: float) -> Floats:
     """(s, 3) points all over triangles given by their corners (t, 3, 3), no farther apart than a spacing, metres."""
+    return np.concatenate([np.empty((0, 3)), *sample_blocks(corners, spacing)])
+
+
+def sample_blocks(corners: Floats, spacing: float) -> Iterator[Floats]:
+    """The same block by block."""
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     parts = np.maximum(np.ceil(longest / spacing), 1).astype(np.int64)
-    points = []
     for count in np.unique(parts).tolist():
         i, j = (part.ravel() for part in np.meshgrid(np.arange(count + 1), np.arange(count + 1)))
         keep = i + j <= count
         shares = np.stack([i, j, count - i - j], axis=1)[keep] / count
-        points.append((shares @ corners[parts == count]).reshape(-1, 3))
-    return np.concatenate(points)
+        alike = corners[parts == count]
+        step = max(BLOCK // len(shares), 1)
+        for first in range(0, len(alike), step):
+            yield (shares @ alike[first : first + step]).reshape(-1, 3)

@@ -16,7 +16,7 @@ import numpy as np
 from ...arrays import Floats, Ints
 from ...physics.mesh import fans, within
 from ...physics.skin import State
-from ...progress import Progress, Work
+from ...progress import Progress, Work, part_of
 from ..figures import Pair, Share, read_figures
 from ..mechanism import Mechanism
 from ..mechanisms.jaw import Jaw
@@ -24,9 +24,9 @@ from ..mechanisms.lids import Eye
 from ..mesh.face_mesh import FaceMesh
 from ..mesh.parts import Part
 from ..skin.outer import OuterSkin, smoothstep
-from .dental_arch import DentalArch, build_front
+from .dental_arch import DentalArch, front_steps
 from .eyeball import Eyeball
-from .eyeball_surface import EyeballSurface, modelled_ball, round_ball
+from .eyeball_surface import EyeballSurface, modelled_ball_steps, round_ball
 from .margins import Depths, Meeting, build_meeting
 from .surroundings import Body, Look, Surroundings
 
@@ -188,14 +188,19 @@ def contact_steps(
         index, firmness = _near(np.min(skin.lid_distances(side), axis=0), CONTACT.lid_skin)
         look = Look(eye.centre, balls[side].gaze if side in balls else np.array([0.0, 0.0, 1.0]))
         triangles = _triangles(mesh, Part.EYEBALL_L if side == "l" else Part.EYEBALL_R)
-        ball = modelled_ball(look, positions, triangles) if len(triangles) else round_ball(look, eye.radius)
+        if len(triangles):
+            share = len(bodies) / BODIES
+            ball = yield from part_of(modelled_ball_steps(look, positions, triangles), share, share)
+        else:
+            ball = round_ball(look, eye.radius)
         bodies.append(EyeballSurface(side, ball, index, firmness, skin.positions[index]))
         yield Progress(len(bodies) / BODIES, "Preparing contact of lips and lids")
     index, firmness = _near(skin.lip_edge_distance, CONTACT.lip_skin)
     for part, carried_by in ((Part.TEETH_UPPER, None), (Part.TEETH_LOWER, jaw)):
         triangles = _triangles(mesh, part)
         if len(triangles):
-            front = build_front(positions, triangles)
+            share = len(bodies) / BODIES
+            front = yield from part_of(front_steps(positions, triangles), share, share)
             bodies.append(DentalArch(front, carried_by, index, firmness, skin.positions[index]))
             yield Progress(len(bodies) / BODIES, "Preparing contact of lips and lids")
     return Contact(skin, list(eyes), bodies)

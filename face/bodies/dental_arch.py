@@ -12,7 +12,8 @@ import numpy as np
 from scipy import ndimage
 
 from ...arrays import Floats, Ints
-from ...physics.mesh import surface_samples
+from ...physics.mesh import sample_blocks
+from ...progress import Progress, Work
 from ..figures import Length, read_figures
 from ..mechanisms.jaw import Jaw, JawMotion
 from .surroundings import Surroundings
@@ -67,18 +68,24 @@ class Front:
         return np.where(on_row & (deep < TEETH.thickest), deep, -np.inf), outwards
 
 
-def build_front(vertices: Floats, triangles: Ints) -> Front:
+def front_steps(vertices: Floats, triangles: Ints) -> Work[Front]:
     """The front of a row of teeth from its surface: vertices (v, 3) in head space, triangles (t, 3)."""
-    points = surface_samples(vertices[triangles], 0.5 * RISE)
-    axis = np.array([points[:, 0].mean(), points[:, 2].min()])
-    bottom = float(points[:, 1].min()) - RISE
-    turn = np.arctan2(points[:, 0] - axis[0], points[:, 2] - axis[1])
-    shape = int(2 * TEETH.widest / TURN) + 1, int((points[:, 1].max() - bottom) / RISE) + 3
-    column = np.round((turn + TEETH.widest) / TURN).astype(np.int64)
-    line = np.round((points[:, 1] - bottom) / RISE).astype(np.int64)
-    seen = (column >= 0) & (column < shape[0])
-    reach = np.full(shape, -np.inf)
-    np.maximum.at(reach, (column[seen], line[seen]), np.hypot(*(points[seen][:, [0, 2]] - axis).T))
+    blocks: list[Floats] = []
+    for block in sample_blocks(vertices[triangles], 0.5 * RISE):
+        blocks.append(block)
+        yield Progress(0.0, "Preparing contact of lips and lids")
+    low = np.min([block.min(axis=0) for block in blocks], axis=0)
+    high = max(block[:, 1].max() for block in blocks)
+    middle = sum(float(block[:, 0].sum()) for block in blocks) / sum(map(len, blocks))
+    axis, bottom = np.array([middle, low[2]]), float(low[1]) - RISE
+    reach = np.full((int(2 * TEETH.widest / TURN) + 1, int((high - bottom) / RISE) + 3), -np.inf)
+    for number, block in enumerate(blocks):
+        yield Progress(number / len(blocks), "Preparing contact of lips and lids")
+        aside, before = block[:, 0] - axis[0], block[:, 2] - axis[1]
+        column = np.round((np.arctan2(aside, before) + TEETH.widest) / TURN).astype(np.int64)
+        line = np.round((block[:, 1] - bottom) / RISE).astype(np.int64)
+        seen = (column >= 0) & (column < len(reach))
+        np.maximum.at(reach, (column[seen], line[seen]), np.hypot(aside[seen], before[seen]))
     return Front(axis, bottom, np.asarray(ndimage.grey_closing(reach, size=(GAP, GAP), mode="nearest")))
 
 

@@ -11,7 +11,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...arrays import Floats, Ints
-from ...physics.mesh import surface_samples
+from ...physics.mesh import sample_blocks
+from ...progress import Progress, Work
 from .eyeball import EYEBALL
 from .surroundings import Look, Surroundings
 
@@ -74,21 +75,37 @@ def round_ball(rest: Look, radius: float) -> Ball:
     return Ball(rest, np.full((ANGLES, TURNS + 1), radius))
 
 
-def modelled_ball(rest: Look, vertices: Floats, triangles: Ints) -> Ball:
+def modelled_ball_steps(rest: Look, vertices: Floats, triangles: Ints) -> Work[Ball]:
     """The surface of a modelled eyeball: vertices (v, 3) in head space, triangles (t, 3).
 
     Of several shells the outermost counts. Directions in which nothing is modelled have the median distance.
     """
-    away = surface_samples(vertices[triangles], SPACING) - rest.centre
-    distance = np.maximum(np.linalg.norm(away, axis=1), 1e-9)
-    places = _direction(away @ _axes(rest.gaze) / distance[:, None])
-    radii = np.zeros((ANGLES, TURNS))
-    for aside in ((-TIE, -TIE), (-TIE, TIE), (TIE, -TIE), (TIE, TIE)):  # halfway between two directions counts for both
-        angle, turn = (np.round(place + by).astype(np.int64) for place, by in zip(places, aside, strict=True))
-        np.maximum.at(radii, (np.clip(angle, 0, ANGLES - 1), turn % TURNS), distance)
+    radii, distances = np.zeros((ANGLES, TURNS)), list[Floats]()
+    for block in sample_blocks(vertices[triangles], SPACING):
+        yield Progress(0.0, "Preparing contact of lips and lids")
+        away = block - rest.centre
+        distances.append(np.maximum(np.linalg.norm(away, axis=1), 1e-9))
+        _raise(radii, away @ _axes(rest.gaze) / distances[-1][:, None], distances[-1])
     radii[[0, -1]] = radii[[0, -1]].max(axis=1, keepdims=True)
-    radii[radii == 0.0] = np.median(distance)
+    radii[radii == 0.0] = np.median(np.concatenate(distances))
     return Ball(rest, np.column_stack([radii, radii[:, 0]]))
+
+
+def _raise(radii: Floats, unit: Floats, distance: Floats) -> None:
+    """Let radii (ANGLES, TURNS) be no less than the distances (k,) in some directions (k, 3), in place."""
+    places = _direction(unit)
+    middle = [np.round(place) for place in places]
+    tied = np.flatnonzero(np.max([np.abs(p - m) for p, m in zip(places, middle, strict=True)], axis=0) > 0.5 - 2 * TIE)
+    _raise_at(radii, middle[0], middle[1], distance)
+    for aside in ((-TIE, -TIE), (-TIE, TIE), (TIE, -TIE), (TIE, TIE)):  # halfway between two directions counts for both
+        angle, turn = (np.round(place[tied] + by) for place, by in zip(places, aside, strict=True))
+        _raise_at(radii, angle, turn, distance[tied])
+
+
+def _raise_at(radii: Floats, angle: Floats, turn: Floats, distance: Floats) -> None:
+    """The same at places on the grid (k,), (k,)."""
+    at = np.clip(angle.astype(np.int64), 0, ANGLES - 1), turn.astype(np.int64) % TURNS
+    np.maximum.at(radii, at, distance)
 
 
 @dataclass(frozen=True, eq=False)

@@ -59,14 +59,18 @@ class HeadTurn:
         turned: Floats = turn.apply(positions - self.pivot) + self.pivot
         return turned
 
-    def undo(self, positions: Floats, rest: Floats) -> tuple[Floats, dict[int, float]]:
-        """Positions (V, 3) with the head's turn taken out, and FAPs 48-50; unchanged where the mesh shows no skull."""
+    def undo(self, positions: Floats, rest: Floats, wanted: Ints) -> tuple[Floats, dict[int, float]]:
+        """Positions (V, 3), those of some vertices with the head's turn taken out, and FAPs 48-50.
+
+        Where the mesh shows no skull they are unchanged.
+        """
         if not self.is_readable:
             return positions, {}
         turn, shift = self._rigid_motion(rest[self.skull], positions[self.skull])
-        vector = turn.as_rotvec()
-        undo = Rotation.from_rotvec(-self.weights[:, None] * vector)
-        back = undo.apply(positions - self.pivot - self.weights[:, None] * shift) + self.pivot
+        vector, weights = turn.as_rotvec(), self.weights[wanted, None]
+        undo = Rotation.from_rotvec(-weights * vector)
+        back = positions.copy()
+        back[wanted] = undo.apply(positions[wanted] - self.pivot - weights * shift) + self.pivot
         yaw, pitch, roll = turn.as_euler("yxz")
         return back, {48: pitch / ANGLE_UNIT, 49: yaw / ANGLE_UNIT, 50: roll / ANGLE_UNIT}
 

@@ -29,6 +29,9 @@ LIDS = {
     "r": (("3.8", "3.2", "3.12"), ("3.12", "3.4", "3.8")),
 }
 
+#: Upper and lower arc of every opening.
+OPENINGS = {"mouth": (LIP_UPPER, LIP_LOWER), **LIDS}
+
 
 @dataclass(frozen=True, eq=False)
 class Opening:

@@ -116,32 +116,40 @@ class _Surface:
 
     def __init__(self, vertices: Floats, triangles: Ints) -> None:
         self._vertices, self.triangles = vertices, triangles
-        self._own: Ints = np.unique(triangles)
-        self._near = cKDTree(vertices[self._own])
         self._reach = FREE_DISTANCE * float(np.linalg.norm(np.ptp(vertices, axis=0)))
-        owners = np.repeat(np.arange(len(triangles)), 3)
-        ends = (triangles.ravel(), owners)
-        self._at = sparse.csr_array((np.ones(len(owners), dtype=bool), ends), shape=(len(vertices), len(triangles)))
 
-    def _round(self, vertices: Ints) -> Ints:
-        """(k,) triangles that have one of some vertices as a corner, in their order."""
-        starts, held = self._at.indptr, self._at.indices
-        return np.unique(np.concatenate([held[starts[vertex] : starts[vertex + 1]] for vertex in vertices]))
+    def bind(self, positions: Mapping[str, Floats]) -> dict[str, BoundPoint]:
+        """Bind named positions to the closest triangles; those with none within reach stay free."""
+        used = np.zeros(len(self._vertices), dtype=bool)
+        used[self.triangles] = True
+        own = np.flatnonzero(used)
+        if len(own) == 0 or len(positions) == 0:
+            return {name: _free(name, position) for name, position in positions.items()}
+        count = min(NEAR_VERTICES, len(own))
+        _, nearest = cKDTree(self._vertices[own]).query(np.array(list(positions.values())), k=count)
+        near = own[np.reshape(nearest, (len(positions), count))]
+        tried = np.zeros(len(self._vertices), dtype=bool)
+        tried[near] = True
+        about = self.triangles[tried[self.triangles].any(axis=1)]
+        return {
+            name: self._bound(name, position, about[np.isin(about, those).any(axis=1)])
+            for (name, position), those in zip(positions.items(), near, strict=True)
+        }
 
-    def bind(self, name: str, position: Floats) -> BoundPoint:
-        """Bind a position to the closest triangle, or leave it free where there is none within reach."""
-        free = BoundPoint(name, position, np.zeros(0, dtype=np.int64), np.zeros(0))
-        if len(self._own) == 0:
-            return free
-        _, nearest = self._near.query(position, k=min(NEAR_VERTICES, len(self._own)))
-        corners = self.triangles[self._round(self._own[np.atleast_1d(nearest)])]
+    def _bound(self, name: str, position: Floats, corners: Ints) -> BoundPoint:
+        """A position bound to the closest of some triangles (t, 3), or free where that is beyond reach."""
         weights, distance = closest_on_triangles(position, self._vertices[corners])
         if distance.min() > self._reach:
-            return free
+            return _free(name, position)
         closest = distance <= distance.min() + SAME_DISTANCE * self._reach
         shares = np.bincount(corners[closest].ravel(), weights[closest].ravel()) / closest.sum()
         held = np.flatnonzero(shares > SAME_DISTANCE)
         return BoundPoint(name, position, held, shares[held] / shares[held].sum())
+
+
+def _free(name: str, position: Floats) -> BoundPoint:
+    """A position that follows nothing."""
+    return BoundPoint(name, position, np.zeros(0, dtype=np.int64), np.zeros(0))
 
 
 def lies_on_skin(name: str) -> bool:
@@ -175,6 +183,7 @@ def bind_points(
     anywhere = _Surface(vertices, triangles)
     on_skin = anywhere if skin is None or skin.all() else _Surface(vertices, triangles[skin[triangles].all(axis=1)])
     bound: dict[str, BoundPoint] = {}
+    places: dict[str, Floats] = {}
     for name, source in points.items():
         if isinstance(source, int | np.integer):
             index = int(source)
@@ -185,7 +194,10 @@ def bind_points(
         position = np.asarray(source, dtype=np.float64)
         if position.shape != (3,) or not np.isfinite(position).all():
             raise ModelError(f"feature point {name} must be a vertex index or three finite coordinates, not {source!r}")
-        bound[name] = (on_skin if lies_on_skin(name) else anywhere).bind(name, position)
+        places[name] = position
+    bound |= on_skin.bind({name: place for name, place in places.items() if lies_on_skin(name)})
+    bound |= anywhere.bind({name: place for name, place in places.items() if not lies_on_skin(name)})
+    bound = {name: bound[name] for name in points}
     return FeaturePoints(bound | _on_their_lips(bound, points, vertices, on_skin.triangles), len(vertices))
 
 
@@ -199,9 +211,8 @@ def rebound(points: FeaturePoints, vertices: Floats, triangles: Ints, names: Seq
     names : of the points that are bound again; one that has no place within reach stays as it is.
     """
     surface = _Surface(vertices, triangles)
-    found = {name: surface.bind(name, points[name].position) for name in names}
-    now = {**points, **{name: point for name, point in found.items() if point.is_bound}}
     given = {name: points[name].position for name in names}
+    now = {**points, **{name: point for name, point in surface.bind(given).items() if point.is_bound}}
     return FeaturePoints(now | _on_their_lips(now, given, vertices, triangles), len(vertices))
 
 
@@ -214,13 +225,15 @@ def _on_their_lips(
     if not given or not all(point.is_bound for point in middles):
         return {}
     upper, lower = (int(point.vertices[np.argmax(point.weights)]) for point in middles)
-    sides = own_lips(vertices, triangles, upper, lower)
+    off = [bound[name].position - (middles[0].position + middles[1].position) / 2.0 for name in given]
+    size = float(np.linalg.norm(off, axis=1).max())
+    sides = own_lips(vertices, triangles, upper, lower, size)
     again: dict[str, BoundPoint] = {}
     for own, other, names in zip(sides, sides[::-1], LIP_POINTS, strict=True):
         wrong = [name for name in names if name in given and bound[name].weights @ other[bound[name].vertices] > 0.5]
         if wrong:
             surface = _Surface(vertices, triangles[own[triangles].all(axis=1)])
-            again |= {name: surface.bind(name, bound[name].position) for name in wrong}
+            again |= surface.bind({name: bound[name].position for name in wrong})
     return again
 
 

@@ -20,6 +20,7 @@ from ...errors import ModelError
 from ...physics import mesh
 from ...physics.mesh import Sparse
 from ...polygons import PolygonTable
+from ...progress import Progress, Work, run
 from ..figures import Share, read_figures
 from .lid_ball import lid_ball
 from .openings import LIDS, Opening
@@ -34,6 +35,9 @@ class SewnFigures:
 
 
 SEWN = read_figures("parts.sewn", SewnFigures)
+
+#: Ways along the skin round an opening are hardly ever longer than this many times its size.
+FARTHEST = 4.0
 
 #: Opening -> points beyond its upper and its lower margin, and its corners.
 ACROSS = {
@@ -55,18 +59,31 @@ def sewn_openings(
     positions : (V, 3) head space, metres. skin : its polygons.
     nearest : feature point -> vertex. points : feature point -> (3,) in head space.
     """
+    return run(sewn_steps(positions, skin, nearest, points))
+
+
+def sewn_steps(
+    positions: Floats, skin: PolygonTable, nearest: Mapping[str, int], points: Mapping[str, Floats]
+) -> Work[frozenset[str]]:
+    """As `sewn_openings`, bit by bit."""
     ways = mesh.adjacency(positions, skin)
+    yield Progress(0.5, "Preparing the skin")
     known = [name for name, across in ACROSS.items() if all(point in nearest for point in across)]
-    whole = [name for name in known if _leads_across(ways, nearest, name)]
+    whole = [name for name in known if _leads_across(positions, ways, nearest, name)]
     eyes = [name for name in whole if name in LIDS]
+    if eyes:
+        yield Progress(1.0, "Preparing the skin")
     edges = mesh.adjacency(positions, skin, diagonals=False) if eyes else ways
     return frozenset(whole) - {side for side in eyes if not _is_shut(positions, skin, edges, nearest, points, side)}
 
 
-def _leads_across(ways: Sparse, nearest: Mapping[str, int], name: str) -> bool:
+def _leads_across(positions: Floats, ways: Sparse, nearest: Mapping[str, int], name: str) -> bool:
     """Whether the way along the skin from one lip or lid to the other leads straight across."""
-    upper, lower, *corners = (nearest[point] for point in ACROSS[name])
-    far = dijkstra(ways, directed=False, indices=np.array([upper, lower]))
+    upper, lower, *corners = at = [nearest[point] for point in ACROSS[name]]
+    limit = FARTHEST * float(np.linalg.norm(np.ptp(positions[at], axis=0)))
+    far = dijkstra(ways, directed=False, indices=at[:2], limit=limit)
+    if far[:, corners].sum(axis=0).min() > limit:  # what is farther than the limit was not seen
+        far = dijkstra(ways, directed=False, indices=at[:2])
     around = min(far[0, corner] + far[1, corner] for corner in corners)
     return bool(far[0, lower] <= SEWN.straight * around)
 

@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ...arrays import Bools, Floats, Ints
-from ...physics.mesh import Polygons, corners
+from ...physics.mesh import Polygons, corners, pair_keys
 from ...polygons import PolygonTable
 from ...progress import Progress, Work, run
 from .points import PointSource
@@ -85,6 +85,7 @@ def weld_steps(vertices: Floats, polygons: Polygons) -> Work[Weld]:
     closed = _closed(loops, sizes, lengths <= NO_LENGTH * usual)
     leads = _joined(np.arange(len(vertices)), np.concatenate([covering, closed]))
     kept = np.repeat(~doubles, sizes)
+    yield Progress(0.5, "Checking the mesh")
     leads = _joined(leads, _seams(vertices, place, leads[loops[kept]], sizes[~doubles]))
     return Weld(leads, _without_slivers(leads[loops], sizes, doubles))
 
@@ -143,9 +144,9 @@ def _closed(loops: Ints, sizes: Ints, closed: Bools) -> Ints:
 def _seams(vertices: Floats, place: Ints, loops: Ints, sizes: Ints) -> Ints:
     """(P, 2) ends of open edges that lie in one place and are one edge."""
     edges = np.stack([loops, _next(loops, sizes)], axis=1)
-    _, first, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
+    _, first, count = np.unique(pair_keys(np.sort(edges, axis=1)), return_index=True, return_counts=True)
     is_open = first[(count == 1) & (place[edges[first, 0]] != place[edges[first, 1]])]
-    normals = np.repeat(_normals(vertices, loops, sizes), sizes, axis=0)[is_open]
+    normals = _normals(vertices, loops, sizes, np.repeat(np.arange(len(sizes)), sizes)[is_open])
     edges = edges[is_open]
     forward = place[edges[:, 0]] < place[edges[:, 1]]
     edges[~forward] = edges[~forward, ::-1]
@@ -173,13 +174,19 @@ def _matched(group: Ints, forward: Bools, normals: Floats) -> list[tuple[int, in
     return list(zip(one_way[rows].tolist(), other_way[columns].tolist(), strict=True))
 
 
-def _normals(vertices: Floats, loops: Ints, sizes: Ints) -> Floats:
-    """(F, 3) unit normals of polygons."""
+def _normals(vertices: Floats, loops: Ints, sizes: Ints, wanted: Ints) -> Floats:
+    """(k, 3) unit normals of some polygons, given by their numbers (k,)."""
+    if len(wanted) == 0:
+        return np.zeros((0, 3))
+    those, of = np.unique(wanted, return_inverse=True)
+    kept = np.zeros(len(sizes), dtype=bool)
+    kept[those] = True
+    loops, sizes = loops[np.repeat(kept, sizes)], sizes[those]
     starts = np.cumsum(sizes) - sizes
     places = vertices - vertices.mean(axis=0)
     vectors = np.add.reduceat(np.cross(places[loops], places[_next(loops, sizes)]), starts)
     normals: Floats = vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-30)
-    return normals
+    return normals[np.ravel(of)]
 
 
 def _without_slivers(loops: Ints, sizes: Ints, doubles: Bools) -> PolygonTable:

@@ -45,10 +45,10 @@ def pulls_of(skin: OuterSkin, sheet: ElasticSheet, muscles: Sequence[PlacedMuscl
 
 def pulls_steps(skin: OuterSkin, sheet: ElasticSheet, muscles: Sequence[PlacedMuscle]) -> Work[Pulls]:
     """As `pulls_of`, bit by bit."""
-    forces = yield from part_of(_forces(skin, muscles), 0.0, 0.8)
-    yield Progress(0.8, "Computing what each muscle does")
+    forces = yield from part_of(_forces(skin, muscles), 0.0, 0.5)
+    yield Progress(0.5, "Computing what each muscle does")
     sheets = sheet.relax(forces)
-    yield Progress(0.9, "Computing what each muscle does")
+    yield Progress(1.0, "Computing what each muscle does")
     shown = sheet.show(sheets)
     peak = np.linalg.norm(shown, axis=2).max(axis=1)
     alive = peak > 0.0
@@ -63,11 +63,13 @@ def pulls_steps(skin: OuterSkin, sheet: ElasticSheet, muscles: Sequence[PlacedMu
 def _forces(skin: OuterSkin, muscles: Sequence[PlacedMuscle]) -> Work[Floats]:
     """(k, n, 3) force of each muscle on each vertex, summed over the skin between them."""
     fine, carry = fine_skin(skin, SUMMED)
-    yield Progress(0.1, "Computing what each muscle does")
-    yield from part_of(worked_out(fine, "normals"), 0.1, 0.4)
+    yield Progress(0.0, "Computing what each muscle does")
+    yield from part_of(worked_out(fine, "normals"), 0.0, 0.5)
+    yield Progress(0.5, "Computing what each muscle does")
+    yield from worked_out(fine, "graph")
     spread = (diagonal_matrix(fine.areas) @ carry).T.tocsr()
     forces = []
     for number, muscle in enumerate(muscles):
-        yield Progress(0.4 + 0.6 * number / len(muscles), "Computing what each muscle does")
+        yield Progress(0.5 + 0.5 * number / len(muscles), "Computing what each muscle does")
         forces.append(np.asarray(spread @ force_density(fine, muscle)))
     return np.array(forces).reshape(-1, skin.vertex_count, 3)

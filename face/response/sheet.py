@@ -38,7 +38,8 @@ class ElasticSheet:
         return Factor(self.stiffness)
 
     @cached_property
-    def _correction_factor(self) -> Factor:
+    def correction_factor(self) -> Factor:
+        """Prefactored matrix of the point corrections."""
         skin = self.skin
         return Factor(
             elastic_matrix(skin.laplacian, skin.areas, regions.correction_bending(skin), regions.anchor(skin))
@@ -49,7 +50,8 @@ class ElasticSheet:
         return sliding(self.skin)[:, None]
 
     @cached_property
-    def _bulge(self) -> Bulge:
+    def bulge(self) -> Bulge:
+        """How skin bulges where it is squeezed."""
         return Bulge(self.skin)
 
     def show(self, fields: Floats) -> Floats:
@@ -59,12 +61,12 @@ class ElasticSheet:
         flat = fields.reshape(-1, self.skin.vertex_count, 3)
         normals = self.skin.normals
         slid = flat - (self._slide * normals) * (flat * normals).sum(axis=2, keepdims=True)
-        return np.asarray((slid + self._bulge.lift(slid)).reshape(fields.shape))
+        return np.asarray((slid + self.bulge.lift(slid)).reshape(fields.shape))
 
     def show_transposed(self, loads: Floats) -> Floats:
         """W' f for loads (k, n, 3): the sheet forces that stand for forces on what the face shows."""
         normals = self.skin.normals
-        back = loads + self._bulge.lift_transposed(loads)
+        back = loads + self.bulge.lift_transposed(loads)
         return np.asarray(back - (self._slide * normals) * (back * normals).sum(axis=2, keepdims=True))
 
     def relax(self, forces: Floats) -> Floats:
@@ -73,7 +75,7 @@ class ElasticSheet:
 
     def point_responses(self, loads: Floats) -> Floats:
         """R (k, n, 3): what the face shows when unit loads (k, n, 3) act on it, by the correction kernel W K^-1 W'."""
-        return self.show(_solve_fields(self._correction_factor, self.show_transposed(loads)))
+        return self.show(_solve_fields(self.correction_factor, self.show_transposed(loads)))
 
 
 def _solve_fields(factor: Factor, forces: Floats) -> Floats:

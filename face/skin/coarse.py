@@ -148,13 +148,14 @@ class Thinning:
     @stepwise
     def cells(self) -> Work[Cells]:
         """What is nearest to which of them; those that stand for hardly any skin are left out, too."""
-        for done, name in enumerate(("_triangles", "_graph", "_places", "chosen")):
-            yield Progress(0.2 * done, "Preparing the skin")
+        names = ("_triangles", "_graph", "_places", "chosen")
+        for done, name in enumerate(names):
+            yield Progress(done / len(names), "Preparing the skin")
             yield from worked_out(self, name)
         first_web = len(self._triangles) - int((self._webs.sizes - 2).sum())
         kept = self.chosen
         while True:
-            yield Progress(0.8, "Preparing the skin")
+            yield Progress(1.0, "Preparing the skin")
             found = dijkstra(self._graph, directed=False, indices=kept, min_only=True, return_predecessors=True)
             owners = np.searchsorted(kept, found[2])
             triangles, web = _dual(owners[self._triangles], first_web)
@@ -198,7 +199,7 @@ class Thinning:
         around = sparse.csr_array(step @ step @ step)
         owners = self.cells.owners
         parts = np.array_split(np.argsort(owners, kind="stable"), len(owners) // AT_ONCE + 1)
-        shares = []
+        shares = list[tuple[Ints, Ints, Floats]]()
         for part in parts:
             yield Progress(len(shares) / len(parts), "Preparing the skin")
             shares.append(self._shares(around, part))

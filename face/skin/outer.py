@@ -156,11 +156,11 @@ class OuterSkin:
     def normals(self) -> Work[Floats]:
         """(n, 3) unit normals averaged over some way: the lie of the bone rather than of the wrinkle."""
         right = self.areas[:, None] * self.raw_normals
-        yield Progress(0.3, "Preparing the skin")
+        yield Progress(0.0, "Preparing the skin")
         yield from worked_out(self, "laplacian")
         yield Progress(0.5, "Preparing the skin")
         filtering = self.smoothing(SHEET.bone_over)
-        yield Progress(0.9, "Preparing the skin")
+        yield Progress(1.0, "Preparing the skin")
         smooth = filtering.solve(right)
         unit: Floats = smooth / np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
         return unit

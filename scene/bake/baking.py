@@ -18,7 +18,7 @@ from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of, face_steps
 from . import action as actions
 from . import shape_keys
-from .compress import TOLERANCE, compress
+from .compress import TOLERANCE, compress_steps
 from .motion import Motion
 from .notes import Note
 from .remarks import remarks, unmet_remarks
@@ -139,13 +139,14 @@ def bake_motion(
     yield Progress(0.02, "Placing the muscles")
     face = yield from part_of(face_steps(source), 0.02, 0.03)
     yield from part_of(face.prepare(), 0.03, 0.1)
-    displacements = np.empty((count, *face.vertices.shape))
+    moving = np.empty((count, *face.vertices.shape))
     for index, positions in enumerate(motion.positions(face, rate, drive)):
-        displacements[index] = positions - face.vertices
-        yield Progress(0.1 + 0.75 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
-    missed = face.unmet(motion.asked, face.vertices + displacements)
+        moving[index] = positions
+        yield Progress(0.1 + 0.7 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
+    missed = yield from part_of(face.unmet_steps(motion.asked, moving), 0.8, 0.87)
     yield Progress(0.87, "Compressing the motion to shape keys")
-    packed = compress(displacements, tolerance=tolerance * face.scale)
+    moving -= face.vertices
+    packed = yield from part_of(compress_steps(moving, tolerance=tolerance * face.scale), 0.87, 0.97)
     if len(packed.shapes) == 0:
         raise SceneError(source.head.name, "nothing moves in this motion: increase its activation or its duration")
     yield Progress(0.97, "Writing the shape keys")

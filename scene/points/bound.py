@@ -7,7 +7,7 @@ once it has others, the point goes to the nearest place of the new surface, or i
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -16,8 +16,10 @@ from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 from mathutils.interpolate import poly_3d_calc
 
-from ...arrays import Floats
+from ...arrays import Floats, Ints
 from ...face.mesh.point_files import PointTable
+from ...physics.mesh import triangulate
+from ...polygons import PolygonTable
 from .. import mesh as meshes
 from ..blender_types import Mesh, SearchTree
 from ..shape_mix import resting_values
@@ -39,8 +41,7 @@ class Surface:
     """The resting surface of a mesh, to look up places on."""
 
     vertices: Floats
-    polygons: list[tuple[int, ...]]
-    triangles: list[tuple[int, int, int]]
+    triangles: Ints
     counts: tuple[int, int, int]
     digest: str
     tree: SearchTree
@@ -49,10 +50,9 @@ class Surface:
     def of(cls, mesh: Mesh) -> Surface:
         """Read a mesh's resting surface."""
         vertices = meshes.rest_vertices(mesh)
-        polygons = meshes.polygon_sequence(*meshes.polygon_arrays(mesh))
-        triangles = [(p[0], p[k], p[k + 1]) for p in polygons for k in range(1, len(p) - 1)]
-        tree = BVHTree.FromPolygons(vertices.tolist(), triangles, all_triangles=True)
-        return cls(vertices, polygons, triangles, mesh_counts(mesh), mesh_digest(mesh), tree)
+        triangles = triangulate(PolygonTable(*meshes.polygon_arrays(mesh)))
+        tree = BVHTree.FromPolygons(vertices.tolist(), triangles.tolist(), all_triangles=True)
+        return cls(vertices, triangles, mesh_counts(mesh), mesh_digest(mesh), tree)
 
     def nearest(self, place: Floats) -> tuple[Floats, int, float] | None:
         """The nearest place (3,), its triangle and its distance."""
@@ -64,7 +64,7 @@ class Surface:
         near = self.nearest(place)
         if near is None or near[2] > reach:
             return None
-        return shares(self.triangles[near[1]], self.vertices, near[0])
+        return shares(self.triangles[near[1]].tolist(), self.vertices, near[0])
 
     def kept(self, held: Held | None, place: Floats, confidence: float, origin: Origin) -> KeptPoint:
         """A point at a place, held by vertices of this surface or by none."""
@@ -90,7 +90,7 @@ class Followed:
     lost: tuple[str, ...]
 
 
-def shares(corners: tuple[int, ...], vertices: Floats, place: Floats) -> Held:
+def shares(corners: Sequence[int], vertices: Floats, place: Floats) -> Held:
     """Vertices of a polygon, and their shares in a place on it."""
     weights = np.array(poly_3d_calc([Vector(vertices[v]) for v in corners], Vector(place)), dtype=np.float64)
     held = weights > SMALLEST_SHARE

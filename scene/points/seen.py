@@ -58,7 +58,8 @@ class Visible:
         if not found:
             return None
         if self.same_polygons:
-            held, weights = shares(surface.polygons[polygon], self.vertices, np.array(place))
+            corners = tuple(self.obj.data.polygons[polygon].vertices)
+            held, weights = shares(corners, self.vertices, np.array(place))
             rest: Floats = np.array(weights) @ surface.vertices[list(held)]
             return rest
         if self._carried is not None:

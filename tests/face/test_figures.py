@@ -44,6 +44,8 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "mesh/checks.py": (0.01, 0.01),  # weight of a row of least squares
     "mesh/head_frame.py": (10.0, 1e-3),  # when axes and points are believed
     "mesh/points.py": (0.02,),  # how far off the surface a point may lie
+    "mesh/own_lip.py": (4.0,),  # how far a search goes
+    "mesh/sewn.py": (4.0,),  # how far a search goes
     "mesh/sphere.py": (0.8,),  # share of points that a fit keeps
     "mesh/template.py": (1e-3, 3.0),  # a millimetre; smoothing of the warp
     "mesh/weld.py": (1e-3, 1e-4, 0.25),  # how near copies lie; what has no length; when covered polygons are doubles
