@@ -131,10 +131,12 @@ class _Surface:
         tried = np.zeros(len(self._vertices), dtype=bool)
         tried[near] = True
         about = self.triangles[tried[self.triangles].any(axis=1)]
-        return {
-            name: self._bound(name, position, about[np.isin(about, those).any(axis=1)])
-            for (name, position), those in zip(positions.items(), near, strict=True)
-        }
+        bound = {}
+        for (name, position), those in zip(positions.items(), near, strict=True):
+            tried[:] = False
+            tried[those] = True
+            bound[name] = self._bound(name, position, about[tried[about].any(axis=1)])
+        return bound
 
     def _bound(self, name: str, position: Floats, corners: Ints) -> BoundPoint:
         """A position bound to the closest of some triangles (t, 3), or free where that is beyond reach."""

@@ -79,7 +79,8 @@ def sewn_steps(
 
 def _leads_across(positions: Floats, ways: Sparse, nearest: Mapping[str, int], name: str) -> bool:
     """Whether the way along the skin from one lip or lid to the other leads straight across."""
-    upper, lower, *corners = at = [nearest[point] for point in ACROSS[name]]
+    at = [nearest[point] for point in ACROSS[name]]
+    lower, corners = at[1], at[2:]
     limit = FARTHEST * float(np.linalg.norm(np.ptp(positions[at], axis=0)))
     far = dijkstra(ways, directed=False, indices=at[:2], limit=limit)
     if far[:, corners].sum(axis=0).min() > limit:  # what is farther than the limit was not seen

@@ -64,8 +64,11 @@ def compress_steps(displacements: Floats, *, tolerance: float = TOLERANCE) -> Wo
     frame_count, vertex_count, _ = displacements.shape
     flat = displacements.reshape(frame_count, -1)
     left, scale = yield from _loadings(flat)
-    rest = flat.copy()
-    largest = yield from _largest(flat)
+    rest = np.empty_like(flat)
+    for part in _blocks(flat):
+        yield Progress(0.0, TEXT)
+        rest[:, part] = flat[:, part]
+    largest = yield from _largest(rest)
     shapes: list[Floats] = []
     weights: list[Floats] = []
     while largest > tolerance and len(shapes) < len(left):
