@@ -59,15 +59,17 @@ class HeadTurn:
         turned: Floats = turn.apply(positions - self.pivot) + self.pivot
         return turned
 
-    def undo(self, positions: Floats, rest: Floats, wanted: Ints) -> tuple[Floats, dict[int, float]]:
-        """Positions (V, 3), those of some vertices with the head's turn taken out, and FAPs 48-50.
+    def undo(
+        self, positions: Floats, rest: Floats, wanted: Ints | slice[None, None, None] = slice(None)
+    ) -> tuple[Floats, dict[int, float]]:
+        """Positions (V, 3), those of all or some vertices with the head's turn taken out, and FAPs 48-50.
 
         Where the mesh shows no skull they are unchanged.
         """
         if not self.is_readable:
             return positions, {}
         turn, shift = self._rigid_motion(rest[self.skull], positions[self.skull])
-        vector, weights = turn.as_rotvec(), self.weights[wanted, None]
+        vector, weights = turn.as_rotvec(), self.weights[wanted][:, None]
         undo = Rotation.from_rotvec(-weights * vector)
         back = positions.copy()
         back[wanted] = undo.apply(positions[wanted] - self.pivot - weights * shift) + self.pivot
