@@ -237,7 +237,9 @@ def _fitted_points(start: Start, clicked: Mapping[str, Floats], paint: Paint | N
     wishes = [click_wishes(clicked, pose, template)] if clicked else []
     fitted = yield from part_of(fit(template, target, wishes, start=starting_bend(template, start.flow)), 0.0, 0.95)
     score = located.score.value
-    carried = carry(template, target, fitted, score, _seen(paint, pose))
+    surface = located.surface
+    local = Surface(pose.to_template(surface.vertices), surface.triangles, pose.normals_to_template(surface.normals))
+    carried = carry(template, target, fitted, score, local, _seen(paint, pose))
     positions = {name: pose.to_mesh(place) for name, place in carried.positions.items()}
     confidence = dict(carried.confidence)
     for name, place in clicked.items():

@@ -11,11 +11,14 @@ from scipy.spatial import cKDTree
 from ....arrays import Floats
 from ....physics.mesh import vertex_normals
 from ...mesh.points import closest_on_triangles
+from ..surface.cloud import Surface
 from ..surface.margins import Margin
 from ..template.template import FitTemplate
+from .brow_lines import box_of_brows
 from .confidence import confidences
 from .fitted import Fit, ring_shares
-from .painted_brows import Look, box_of_brows, find_brows
+from .modelled_brows import find_modelled_brows
+from .painted_brows import Look, find_brows
 from .proportions import read_brow_places, read_proportions
 from .target import Target, feature
 
@@ -29,7 +32,7 @@ TIP_SHARE, TIP_REACH = 0.1, 7e-3
 #: Where the middles of both lids lie between an eye's right corner and its left one.
 LID_MIDDLE = {"eye_l": 0.46, "eye_r": 0.54}
 #: How sure the points of brows are that show: some 2 mm off.
-PAINTED = 0.85
+SHOWN = 0.85
 
 #: Feature points on the lid margins and where the lips meet: ring, and edge or side of the corner.
 RIM_POINTS: Mapping[str, tuple[str, str]] = {
@@ -49,12 +52,15 @@ class Carried:
     confidence: Mapping[str, float]
 
 
-def carry(template: FitTemplate, target: Target, fit: Fit, score: float, look: Look | None = None) -> Carried:
+def carry(
+    template: FitTemplate, target: Target, fit: Fit, score: float, pieces: Surface, look: Look | None = None
+) -> Carried:
     """The template's feature points on the head that it was bent onto.
 
     Parameters
     ----------
     score : the face's score; poor faces make every point doubtful.
+    pieces : the head and what lies on it, in template coordinates.
     look : how bright the face is painted; None: it is not.
     """
     fit = replace(fit, margins={ring: margin for ring, margin in fit.margins.items() if _is_sound(ring, margin)})
@@ -65,10 +71,13 @@ def carry(template: FitTemplate, target: Target, fit: Fit, score: float, look: L
     places |= _lids_in_order(places, drop)
     places["9.3"] = _foremost(target, places["9.3"])
     places |= _by_proportions(template, fit, places, drop)
-    brows = {} if look is None else _painted(places, drop, look)
+    shown = find_modelled_brows(pieces, target.outside.positions, places)
+    if not shown and look is not None:
+        shown = find_brows(*look(*box_of_brows(places)), places)
+    brows = _on_skin(shown, places, drop)
     places |= brows
     sure = confidences(template, target, fit.skin, fit.margins, places, RIM_POINTS, score)
-    return Carried(places, sure | dict.fromkeys(brows, PAINTED))
+    return Carried(places, sure | dict.fromkeys(brows, SHOWN))
 
 
 class _Drop:
@@ -110,10 +119,10 @@ def _by_proportions(template: FitTemplate, fit: Fit, places: Mapping[str, Floats
     return moved
 
 
-def _painted(places: Mapping[str, Floats], drop: _Drop, look: Look) -> dict[str, Floats]:
-    """The points of brows that show on the face."""
+def _on_skin(shown: Mapping[str, Floats], places: Mapping[str, Floats], drop: _Drop) -> dict[str, Floats]:
+    """The points of brows that show on the face, from their places (x, z) in the picture."""
     found = {}
-    for name, (x, z) in find_brows(*look(*box_of_brows(places)), places).items():
+    for name, (x, z) in shown.items():
         place = drop.nearest(name, np.array([x, places[name][1], z]))
         found[name] = drop.nearest(name, np.array([x, place[1], z]))
     return found

@@ -3,65 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 from scipy.ndimage import gaussian_filter, gaussian_filter1d
 
 from ....arrays import Bools, Floats, Ints
+from .brow_lines import ASIDE, LINE_BLUR, LONGEST, PIXEL, SHORTEST, THICKEST, UP, Eye, brow_points
 
 #: Points (N, 3) on the face in a box (least and greatest x, y, z), template coordinates, and their brightness (N,).
 Look: TypeAlias = Callable[[Floats, Floats], tuple[Floats, Floats]]
-#: Where brows are sought: from the inner eye corner, towards the ear and upwards, shares of the eyes' width; the width
-#: of a pixel; how far behind the foremost point of its pixel a point still shows, metres of the template.
-ASIDE, UP, PIXEL, BEHIND = (-0.2, 0.6), (0.1, 0.44), 0.012, 6e-3
-#: Blur of the picture, and of the brow's line, pixels.
-BLUR, LINE_BLUR = 1.2, 3.0
+#: How far behind the foremost point of its pixel a point still shows, metres of the template.
+BEHIND = 6e-3
+#: Blur of the picture, pixels.
+BLUR = 1.2
 #: What a step of the line up or down costs, share of the darkness of the darkest.
 STEP_COST = 0.06
 #: The skin is as bright as this share of all is at most.
 SKIN = 0.7
 #: A brow is darker than the skin by this share of it; it ends where it is less than this share of its own darkness.
 DARK, END = 0.1, 0.4
-#: Shortest, longest and thickest brow; how far that of one side may lie above that of the other; shares of the width.
-SHORTEST, LONGEST, THICKEST, UNEVEN = 0.22, 0.7, 0.17, 0.06
-#: Where brows usually arch, share of their length, and how firmly that is believed of straight ones.
-ARCH, ARCH_COST = 0.6, 0.06
 #: Share of a brow's columns whose darkest place is not at the edge of the picture.
 INSIDE = 0.8
-
-
-@dataclass(frozen=True, eq=False)
-class _Eye:
-    """An eye: its inner corner (x, z) and the direction towards the ear, in the picture; the width of both eyes."""
-
-    inner: Floats
-    outward: Floats
-    width: float
-
-    def local(self, places: Floats) -> Floats:
-        """(N, 2) how far places (N, 2) of the picture lie towards the ear and upwards, shares of the width."""
-        up = self.upward()
-        return np.column_stack([(places - self.inner) @ self.outward, (places - self.inner) @ up]) / self.width
-
-    def place(self, aside: float, up: float) -> Floats:
-        """(2,) the other way."""
-        return np.asarray(self.inner + self.width * (aside * self.outward + up * self.upward()))
-
-    def upward(self) -> Floats:
-        """(2,) at a right angle to the way outward."""
-        x, z = self.outward
-        return np.asarray(np.array([-z, x]) * np.sign(x), dtype=np.float64)
-
-
-def box_of_brows(places: Mapping[str, Floats]) -> tuple[Floats, Floats]:
-    """Least and greatest (3,) of the box that brows are sought in, from the eye corners, template coordinates."""
-    corners = np.array([places[name] for name in ("3.7", "3.11", "3.8", "3.12")])
-    width = float(np.linalg.norm(places["3.7"] - places["3.12"]))
-    low = corners.min(axis=0) - width * np.array([0.35, 0.6, 0.0])
-    high = corners.max(axis=0) + width * np.array([0.35, 0.4, UP[1] + 0.1])
-    return low, high
 
 
 def find_brows(positions: Floats, brightness: Floats, places: Mapping[str, Floats]) -> dict[str, Floats]:
@@ -73,33 +36,10 @@ def find_brows(positions: Floats, brightness: Floats, places: Mapping[str, Float
     brightness : (N,) of them.
     places : name -> (3,) the eye corners.
     """
-    picture = [0, 2]
-    width = float(np.linalg.norm(places["3.7"] - places["3.12"]))
-    across = (places["3.7"] - places["3.12"])[picture]
-    across /= np.linalg.norm(across)
-    found: dict[str, tuple[float, float]] = {}
-    brows = []
-    for inner, outward, names in (("3.11", across, ("4.1", "4.3", "4.5")), ("3.8", -across, ("4.2", "4.4", "4.6"))):
-        eye = _Eye(places[inner][picture], outward, width)
-        line = _brow_line(eye, positions, brightness)
-        if line is None:
-            return {}
-        brows.append(line)
-        top = line[_uppermost(line)]
-        for name, (aside, up) in zip(names, (line[0], top, line[-1]), strict=True):
-            found[name] = tuple(eye.place(float(aside), float(up)))
-    if abs(brows[0][:, 1].mean() - brows[1][:, 1].mean()) > UNEVEN:
-        return {}
-    return {name: np.array(place) for name, place in found.items()}
+    return brow_points(places, lambda eye: _brow_line(eye, positions, brightness))
 
 
-def _uppermost(line: Floats) -> int:
-    """The highest place of a brow's line; of a straight one that where brows usually arch."""
-    share = np.linspace(0.0, 1.0, len(line))
-    return int((line[:, 1] - ARCH_COST * (share - ARCH) ** 2).argmax())
-
-
-def _brow_line(eye: _Eye, positions: Floats, brightness: Floats) -> Floats | None:
+def _brow_line(eye: Eye, positions: Floats, brightness: Floats) -> Floats | None:
     """(N, 2) the middle line of a brow from its inner end to its outer one, or None where nothing looks like one."""
     picture = _picture(eye, positions, brightness)
     if picture is None:
@@ -122,7 +62,7 @@ def _brow_line(eye: _Eye, positions: Floats, brightness: Floats) -> Floats | Non
     return np.column_stack([ASIDE[0] + (run + 0.5) * PIXEL, UP[0] + (line + 0.5) * PIXEL])
 
 
-def _picture(eye: _Eye, positions: Floats, brightness: Floats) -> Floats | None:
+def _picture(eye: Eye, positions: Floats, brightness: Floats) -> Floats | None:
     """(rows upward, columns outward) mean brightness above an eye, or None where too little of it is seen."""
     local = eye.local(positions[:, [0, 2]])
     columns, rows = (round((high - low) / PIXEL) for low, high in (ASIDE, UP))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from risorius.face.fit.bending.painted_brows import box_of_brows, find_brows
+from risorius.face.fit.bending.brow_lines import box_of_brows
+from risorius.face.fit.bending.painted_brows import find_brows
 from risorius.face.fit.surface.paint import Paint, of_corners, of_image, weights_in
 
 EYES = {
