@@ -8,6 +8,7 @@ faces          measure, points
 films          bake, render, demo: they need Blender
 recognition    recognise
 streams        fap
+recordings     options of reading a recording, and what was assumed to read it
 animation_tables    tables
 capture        import, export
 track          track

@@ -11,6 +11,7 @@ from ..errors import FormatError, RisoriusError
 from .films import NEEDS_BLENDER, silent_blender
 from .options import Verbs, add_scene, face_of, scene_options, verb
 from .progress import ShowProgress
+from .recordings import add_recording, read_as_told
 from .result import Result, UsageError
 
 #: Files of `export shapes` that need Blender; .npz does not.
@@ -22,15 +23,8 @@ def add_capture_verbs(verbs: Verbs) -> None:
     importing = verb(verbs, "import", _import)
     importing.add_argument("file", type=Path, help="OpenFace, ARKit, Live Link Face or MediaPipe: .csv, .json, .jsonl")
     importing.add_argument("--out", type=Path, help="the .fap file to write")
-    kinds = ("openface", "arkit", "mediapipe", "landmarks", "faps")
-    importing.add_argument("--kind", choices=kinds, help="the kind of file (default: detected from its columns)")
     importing.add_argument("--fps", type=float, help="frames per second of the stream (default: the recording's)")
-    importing.add_argument("--rate", type=float, help="frames per second, if the recording does not contain them")
-    importing.add_argument(
-        "--aspect", type=_aspect, default=16.0 / 9.0, help="landmarks: WIDTH:HEIGHT of the image (default: 16:9)"
-    )
-    about = "landmarks: time range in seconds with a neutral face (default: found automatically)"
-    importing.add_argument("--neutral", type=float, nargs=2, metavar=("FROM", "TO"), help=about)
+    add_recording(importing)
 
     exporting = verb(verbs, "export", _export)
     exporting.add_argument(
@@ -45,30 +39,16 @@ def add_capture_verbs(verbs: Verbs) -> None:
     exporting.add_argument("--names", default="arkit", help=names)
     about = "shapes to .glb: targets move the normals, too (default: they do; the file is larger)"
     exporting.add_argument("--morph-normals", action=argparse.BooleanOptionalAction, default=True, help=about)
+    add_recording(exporting)
     exporting.add_argument("--replace", action="store_true", help="shapes: replace keys with the same names")
-
-
-def _aspect(text: str) -> float:
-    """16:9, or a number."""
-    width, _, height = text.partition(":")
-    try:
-        return float(width) / float(height or 1.0)
-    except ZeroDivisionError:
-        raise argparse.ArgumentTypeError("the height of the image must not be 0") from None
 
 
 def _import(arguments: argparse.Namespace) -> Result:
     """Convert a tracker's recording to a FAP stream."""
     from .. import api
 
-    stream = api.read_stream(
-        arguments.file,
-        arguments.kind,
-        fps=arguments.fps,
-        rate=arguments.rate,
-        aspect=arguments.aspect,
-        neutral=None if arguments.neutral is None else tuple(arguments.neutral),
-    )
+    recording = read_as_told(arguments.file, arguments, fps=arguments.fps)
+    stream = recording.stream
     if arguments.out:
         api.write_fap(arguments.out, stream)
     known = ~np.isnan(stream.frames)
@@ -80,6 +60,8 @@ def _import(arguments: argparse.Namespace) -> Result:
         "frames": len(stream.frames),
         "unknown_frames": unknown,
         "faps": faps,
+        "format": str(recording.format),
+        "assumed": list(recording.assumed),
         "out": arguments.out,
     }
     title = f"{stream.name}: {len(stream.frames)} frames at {stream.fps:g} per second, {len(faps)} FAPs"
@@ -101,9 +83,10 @@ def _export_csv(arguments: argparse.Namespace) -> Result:
 
     if len(arguments.source) != 1:
         raise UsageError("export csv needs one input file: a .fap, or a tracker's .csv or .json")
-    stream = api.read_stream(arguments.source[0])
+    recording = read_as_told(arguments.source[0], arguments)
+    stream = recording.stream
     api.write_fap_csv(arguments.out, stream)
-    data = {"frames": len(stream.frames), "fps": stream.fps, "out": arguments.out}
+    data = {"frames": len(stream.frames), "fps": stream.fps, "assumed": list(recording.assumed), "out": arguments.out}
     return Result(data, [f"wrote {arguments.out}: {len(stream.frames)} frames at {stream.fps:g} per second"])
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import FormatError, ParameterError
 from .options import Verbs, add_face, face_of, verb, vertices_of
 from .progress import ShowProgress
+from .recordings import add_recording, read_as_told
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ def add_recognition_verb(verbs: Verbs) -> None:
     recognise.add_argument("--words", nargs="*", metavar="WORD", help=about)
     recognise.add_argument("--over-time", action="store_true", help="recognise every frame instead of one")
     recognise.add_argument("--out", type=Path, help="with --over-time: write a .csv table, one row per frame")
+    add_recording(recognise)
     add_face(recognise)
 
 
@@ -60,7 +62,7 @@ def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int]:
         return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0
     if others:
         raise UsageError("give one stream only")
-    stream = api.read_stream(path)
+    stream = read_as_told(path, arguments).stream
     if not len(stream.frames):
         raise FormatError(path, "has no frames: nothing to recognise")
     return stream.expanded(), stream.fps, stream.first_frame

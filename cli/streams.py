@@ -22,6 +22,7 @@ from .options import (
     verb,
 )
 from .progress import ShowProgress, when_slow
+from .recordings import add_recording, read_as_told
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -78,6 +79,7 @@ def with_action(argv: list[str]) -> list[str]:
 
 def _add_reading(parser: argparse.ArgumentParser) -> None:
     """Options of reading a stream."""
+    add_recording(parser)
     parser.add_argument("--fill", choices=("copy", "hold", "standard"), help="fill FAPs that are not stated")
     parser.add_argument("--expand", action="store_true", help="convert visemes and expressions to low-level FAPs")
     parser.add_argument(
@@ -158,7 +160,7 @@ def _read(arguments: argparse.Namespace) -> tuple[FapStream, Recording]:
     """The stream of a file, filled and expanded as asked; and the file as it was read."""
     from .. import api
 
-    recording = api.read_recording(arguments.source, strict=arguments.strict, progress=when_slow())
+    recording = read_as_told(Path(arguments.source), arguments, strict=arguments.strict)
     for problem in recording.damage:
         print(f"risorius fap: {problem}", file=sys.stderr)
     stream = recording.stream

@@ -11,10 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import FormatError, ParameterError
+from ...errors import FormatError
 from ...files import read_bytes
 from ...mpeg4 import FapStream, decode_fba, read_fap, write_fap, write_fap_json, write_fba
 from ...mpeg4.streams.capture import Samples, write_fap_csv
+from ...mpeg4.streams.capture.times import checked_rate
 from ...mpeg4.streams.fap_json import stream_of_document
 from ...progress import Report
 from .formats import WRITABLE, StreamFormat
@@ -46,6 +47,7 @@ def read_recording(
     *,
     fps: float | None = None,
     rate: float | None = None,
+    start: float | str | None = None,
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
     strict: bool = False,
@@ -59,7 +61,9 @@ def read_recording(
         MediaPipe landmarks (CSV, JSON).
     format : which of these; None: what the file contains tells, then its ending.
     fps : frames per second of the stream; None: those of the file. At another rate, visemes and expressions are FAPs.
-    rate : frames per second of a tracker's file that states no times, or whose timecode counts in others than 60.
+    rate : frames per second of a tracker's file; None: as its times, timecodes or frame numbers show, else 30.
+    start : where the stream begins, in seconds of the recording's own times or as one of its timecodes; None: with its
+        first row.
     aspect : landmarks only: the picture's width over its height.
     neutral : landmarks only: seconds from and to which the face is neutral; None: its usual shape is.
     strict : .fba only: refuse any damage.
@@ -77,8 +81,7 @@ def read_recording(
     >>> print(recording.format, recording.stream.fps)
     openface 25.0
     """
-    if rate is not None and not (np.isfinite(rate) and rate > 0.0):
-        raise ParameterError("rate", "must be a positive number of frames per second", rate)
+    checked_rate(rate)
     opened = open_stream(path, None if format is None else StreamFormat.of(format))
     if opened.format is StreamFormat.FBA:
         decoded = decode_fba(read_bytes(path), path=path, strict=strict, progress=progress)
@@ -87,9 +90,9 @@ def read_recording(
         return Recording(_at(read_fap(path), fps), StreamFormat.FAP)
     if opened.samples is None:
         return Recording(_at(stream_of_document(path, opened.document), fps), StreamFormat.JSON)
-    samples = opened.samples(Told(rate, aspect, neutral))
+    samples = opened.samples(Told(rate, start, aspect, neutral))
     frames, per_second = samples.evenly(fps)
-    stream = FapStream(frames=frames, fps=per_second, name=_name(opened))
+    stream = FapStream(frames=frames, fps=per_second, name=_name(opened), assumed=samples.assumed)
     return Recording(stream, opened.format, samples.assumed)
 
 
@@ -99,6 +102,7 @@ def read_stream(
     *,
     fps: float | None = None,
     rate: float | None = None,
+    start: float | str | None = None,
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
 ) -> FapStream:
@@ -110,7 +114,7 @@ def read_stream(
     >>> api.read_stream("take.csv").frames[:, 19 - 1].round().tolist()  # close_t_l_eyelid
     [0.0, 468.0, 937.0]
     """
-    return read_recording(path, format, fps=fps, rate=rate, aspect=aspect, neutral=neutral).stream
+    return read_recording(path, format, fps=fps, rate=rate, start=start, aspect=aspect, neutral=neutral).stream
 
 
 def read_capture(
@@ -119,6 +123,7 @@ def read_capture(
     kind: str | StreamFormat | None = None,
     fps: float | None = None,
     rate: float | None = None,
+    start: float | str | None = None,
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
 ) -> FapStream:
@@ -130,7 +135,7 @@ def read_capture(
     >>> len(api.read_capture("still.csv").frames)
     3
     """
-    return read_stream(path, kind, fps=fps, rate=rate, aspect=aspect, neutral=neutral)
+    return read_stream(path, kind, fps=fps, rate=rate, start=start, aspect=aspect, neutral=neutral)
 
 
 def write_stream(

@@ -31,6 +31,7 @@ class Told:
     """What a caller knows of a recording that its file may not say; see `recording.read_recording`."""
 
     rate: float | None = None
+    start: float | str | None = None
     aspect: float = ASPECT
     neutral: tuple[float, float] | None = None
 
@@ -55,19 +56,29 @@ class Tracker(Generic[Content]):
 Frames: TypeAlias = list[JsonFrame]
 
 TABLES: tuple[Tracker[TableFile], ...] = (
-    Tracker((StreamFormat.FAPS,), "FAPs (F03_open_jaw)", holds_faps, lambda table, told: read_fap_csv(table)),
+    Tracker(
+        (StreamFormat.FAPS,),
+        "FAPs (F03_open_jaw)",
+        holds_faps,
+        lambda table, told: read_fap_csv(table, rate=told.rate, start=told.start),
+    ),
     Tracker(
         (StreamFormat.LANDMARKS,),
         "landmarks (x_0)",
         holds_landmarks,
         lambda table, told: _samples(landmarks_from_csv(table, aspect=told.aspect, rate=told.rate), told),
     ),
-    Tracker((StreamFormat.OPENFACE,), "OpenFace (AU01_r)", holds_openface, lambda table, told: read_openface(table)),
+    Tracker(
+        (StreamFormat.OPENFACE,),
+        "OpenFace (AU01_r)",
+        holds_openface,
+        lambda table, told: read_openface(table, rate=told.rate, start=told.start),
+    ),
     Tracker(
         (StreamFormat.ARKIT, StreamFormat.MEDIAPIPE),
         "ARKit (jawOpen)",
         holds_arkit,
-        lambda table, told: read_arkit(table, rate=told.rate),
+        lambda table, told: read_arkit(table, rate=told.rate, start=told.start),
     ),
 )
 """CSV files, in the order in which they are looked for."""
@@ -77,7 +88,7 @@ RECORDINGS: tuple[Tracker[Frames], ...] = (
         (StreamFormat.MEDIAPIPE, StreamFormat.ARKIT),
         "blend shapes",
         lambda frames: _any_has("blendshapes", frames),
-        lambda frames, told: read_scores(frames, rate=told.rate),
+        lambda frames, told: read_scores(frames, rate=told.rate, start=told.start),
     ),
     Tracker(
         (StreamFormat.LANDMARKS,),
@@ -96,4 +107,7 @@ def _any_has(name: str, frames: Frames) -> bool:
 
 def _samples(landmarks: Landmarks, told: Told) -> Samples:
     """The samples of landmarks."""
-    return Samples(landmarks.times, read_landmarks(landmarks, neutral=told.neutral).frames, landmarks.assumed)
+    frames = read_landmarks(landmarks, neutral=told.neutral).frames
+    if landmarks.rows is None:
+        return Samples(landmarks.times, frames)
+    return Samples.at_times(landmarks.rows, frames, start=told.start)

@@ -37,6 +37,7 @@ class FapStream:
     visemes, expressions : frame index -> value of FAP 1, FAP 2, where stated.
     first_frame : number of the first frame in a file (0, or 1 in files that count from one).
     version : of the file format.
+    assumed : what the file did not say and was assumed to read it, in words for people.
 
     Raises
     ------
@@ -60,6 +61,7 @@ class FapStream:
     expressions: Mapping[int, ExpressionField] = field(default_factory=dict)
     first_frame: int = 0
     version: str = "2.1"
+    assumed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Check the arrays against one another."""

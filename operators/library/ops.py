@@ -15,6 +15,7 @@ from ...scene.bake.baking import BakeResult, bake_motion
 from ...scene.bake.motion import FapMotion, at_rate
 from ...scene.bake.timing import scene_fps
 from ...scene.blender_types import Event
+from ...scene.points.found import Finding
 from ..active import active_object, face_reason, target_of
 from ..annotated import Annotated
 from ..bake.ops import BakeOperator
@@ -128,6 +129,7 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, Operator):
     ]
 
     _was_asked_for = False
+    _assumed: tuple[str, ...] = ()
 
     def invoke(self, context: Context, event: Event) -> set[str]:
         """Ask for the file, unless one was dropped."""
@@ -146,12 +148,19 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, Operator):
     def show_apex(self, context: Context) -> None:
         """Stay at the frame: it is where the motion begins."""
 
+    def finish(self, context: Context, result: BakeResult | Finding) -> str:
+        """Say what the file left open, and what was written."""
+        for assumed in self._assumed:
+            self.report({"WARNING"}, f"{Path(self.filepath).name}: {assumed}")
+        return super().finish(context, result)
+
     def baking(self, context: Context) -> Work[BakeResult]:
         """Simulate the stream at the scene's rate."""
         from ... import api
 
         obj, path = active_object(context), Path(bpy.path.abspath(self.filepath))
-        stream = api.read_stream(path)
+        recording = api.read_recording(path)
+        stream, self._assumed = recording.stream, recording.assumed
         fps = scene_fps(context.scene)
         frames = at_rate(stream.expanded(), stream.fps, fps)
         if len(frames) == 0:

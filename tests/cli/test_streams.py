@@ -158,3 +158,23 @@ def test_a_trackers_recording_is_a_stream_like_any_other(run_json: Run, tmp_path
     assert set(run_json("recognise", tmp_path / "a.json")) == set(map(str, api.ARCHETYPES))
     run_json("export", "csv", tmp_path / "a.fba", "--out", tmp_path / "a.csv")
     assert run_json("fap", "info", tmp_path / "a.csv")["format"] == "faps"
+
+
+@pytest.mark.parametrize("verb", [["import"], ["fap", "info"], ["recognise"]])
+def test_what_was_assumed_is_said_and_can_be_overruled(
+    verb: list[str], capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "take.csv"
+    path.write_text("frame,jawOpen\n0,0.1\n1,0.2\n4,0.3\n")
+    assert main([*verb, str(path)]) == 0
+    assert capsys.readouterr().err == "note: take.csv: the file contains no times: 30 frames per second\n"
+    assert main([*verb, str(path), "--rate", "24"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_a_stream_begins_where_it_is_told(run_json: Run, tmp_path: Path) -> None:
+    (tmp_path / "take.csv").write_text("timestamp,jawOpen\n2.00,0\n2.04,0\n2.08,0\n")
+    said = run_json("import", tmp_path / "take.csv")
+    assert (said["frames"], said["assumed"]) == (3, ["its times begin at 2 s, which is frame 0"])
+    said = run_json("import", tmp_path / "take.csv", "--start", 0)
+    assert (said["frames"], said["unknown_frames"], said["assumed"]) == (53, 50, [])

@@ -1,7 +1,9 @@
 """What trackers write, as FAPs: one file per format, by the tables of presets/capture/.
 
 shapes, columns                      mapping tables: blend shapes and action units in FAPs
-times, samples                       when rows are, and what that assumes; from these to an even rate
+times, rates, timecode               when rows are, and what that assumes: one model for every format
+row_names, stamps                    what tells that in tables, whatever it is called
+samples                              from these times to an even rate
 rotation                             rotations of a head as FAPs 48 to 50
 table_file, json_file                CSV and JSON, with errors that name line and column or frame
 openface, live_link                  action units with pose and gaze; ARKit blend shapes

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ....errors import FormatError
 from ....tables import write_csv
 from ...standard import FAP_COUNT, FAPS
 from ..fap_stream import FapStream
 from .samples import Samples
+from .stamps import table_times
 from .table_file import TableFile
 
 COLUMNS = {number: f"F{number:02d}_{fap.name}" for number, fap in FAPS.items() if not fap.high_level}
@@ -46,7 +46,7 @@ def holds_faps(table: TableFile) -> bool:
     return any(name in table for name in COLUMNS.values())
 
 
-def read_fap_csv(table: TableFile) -> Samples:
+def read_fap_csv(table: TableFile, *, rate: float | None = None, start: float | str | None = None) -> Samples:
     """The samples of a CSV of FAPs.
 
     Raises
@@ -57,9 +57,5 @@ def read_fap_csv(table: TableFile) -> Samples:
     for number, name in COLUMNS.items():
         if name in table:
             frames[:, number - 1] = table.numbers(name)
-    times = table.numbers("timestamp")
-    for row in range(len(times)):
-        if not np.isfinite(times[row]) or (row > 0 and times[row] <= times[row - 1]):
-            problem = "has a timestamp that is not later than the one before: sort the rows by time"
-            raise FormatError(table.path, problem, line=table.lines[row])
-    return Samples(times, frames)
+    times = table_times(table, rate)
+    return Samples.at_times(times, frames[times.rows], start=start)

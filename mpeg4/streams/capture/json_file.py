@@ -9,7 +9,8 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +18,13 @@ import numpy as np
 
 from ....errors import FormatError
 from ....files import read_bytes
-from .times import Times
+from ....tables import parsed_number
+from .row_names import NUMBER_NAMES, RATE_NAMES, first_named, time_named
+from .timecode import date_seconds, is_timecode, timecode_stamps
+from .times import Stamps, Times, placed
 
 #: Names of one frame's entries: what it is -> how it is called.
 NAMES: Mapping[str, tuple[str, ...]] = {
-    "time": ("timestamp", "time", "t"),
-    "time_ms": ("timestamp_ms", "timestampMs", "time_ms", "timeMs"),
     "blendshapes": ("blendshapes", "face_blendshapes", "faceBlendshapes", "blendShapes"),
     "landmarks": ("landmarks", "face_landmarks", "faceLandmarks", "multi_face_landmarks", "multiFaceLandmarks"),
     "matrix": (
@@ -33,11 +35,19 @@ NAMES: Mapping[str, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class JsonFrame:
-    """One frame of a JSON file: its place in it, and its entries."""
+    """One frame of a JSON file.
+
+    Attributes
+    ----------
+    number : its place in the file. entries : by name.
+    key : its number where the file names frames so. per_second : the frame rate that the file states.
+    """
 
     path: Path
     number: int
     entries: Mapping[str, Any]
+    key: float | None = None
+    per_second: float | None = None
 
     def entry(self, what: str) -> Any:
         """An entry by what it is (`NAMES`); None where there is none, or no face was seen."""
@@ -75,12 +85,21 @@ def frames_of(file: Path, document: Any) -> list[JsonFrame]:
     listed = document.get("frames", [document]) if isinstance(document, dict) else document
     if not isinstance(listed, list) or not listed:
         raise FormatError(file, "must contain a list of frames, or an object with that list under 'frames'")
-    frames = []
+    frames, per_second = [], _stated_rate(document)
     for number, entries in enumerate(listed):
         if not isinstance(entries, dict):
             raise FormatError(file, f"must be an object, but it is {str(entries)[:40]!r}", key=f"frame {number}")
-        frames.append(JsonFrame(file, number, entries))
+        frames.append(JsonFrame(file, number, entries, per_second=per_second))
     return frames
+
+
+def _stated_rate(document: Any) -> float | None:
+    """The frame rate that a document states beside its frames; None where it states none."""
+    name = first_named(document, RATE_NAMES) if isinstance(document, dict) else None
+    rate = document[name] if name is not None else None
+    if isinstance(rate, bool) or not isinstance(rate, int | float) or not math.isfinite(rate) or rate <= 0.0:
+        return None
+    return float(rate)
 
 
 def read_json_document(path: str | Path) -> Any:
@@ -116,24 +135,46 @@ def _line(file: Path, number: int, line: str) -> Any:
         raise FormatError(file, f"is not valid JSON ({error}): is the file cut off here?", line=number) from error
 
 
-def times_of(frames: list[JsonFrame], rate: float | None, usual: float) -> Times:
-    """Times of each frame from the first on; where the file says none, as `Times.even`.
+def json_times(frames: list[JsonFrame], rate: float | None = None) -> Times:
+    """When the frames are: by their times, by their numbers, or at the file's own rate.
 
     Raises
     ------
-    FormatError : some frames have a time and others not, or times that do not rise.
+    FormatError : a time that is none, or not later than the frame before; names the frame.
+    ParameterError : the rate.
     """
-    seconds = []
-    for frame in frames:
-        plain, thousandths = frame.entry("time"), frame.entry("time_ms")
-        if plain is None and thousandths is None:
-            seconds.append(math.nan)
-        else:
-            seconds.append(frame.number_at("time", plain if plain is not None else thousandths))
-            seconds[-1] *= 1.0 if plain is not None else 1e-3
-    if all(math.isnan(second) for second in seconds):
-        return Times.even(len(frames), rate, usual)
-    for number, frame in enumerate(frames):
-        if math.isnan(seconds[number]) or (number > 0 and seconds[number] <= seconds[number - 1]):
-            raise frame.refuse("time", "must be later than the frame before: sort the frames by time")
-    return Times(np.array(seconds)).from_first()
+    named = time_named({name: None for frame in frames for name in frame.entries})
+    number_name = first_named({name: None for frame in frames for name in frame.entries}, NUMBER_NAMES)
+    numbers = None if number_name is None else np.array([_number(frame, number_name) for frame in frames])
+    if numbers is None and any(frame.key is not None for frame in frames):
+        numbers = np.array([math.nan if frame.key is None else frame.key for frame in frames])
+    stamps = Stamps(len(frames), numbers=numbers, counted=frames[0].per_second, refuse=partial(_refuse, frames))
+    if named is not None:
+        name, unit = named
+        texts = [frame.entries.get(name) for frame in frames]
+        if any(isinstance(text, str) and is_timecode(text) for text in texts):
+            found = timecode_stamps([text if isinstance(text, str) else "" for text in texts], rate, stamps.refuse)
+            return placed(found, rate)
+        seconds = np.array([_seconds(frame, name) for frame in frames])
+        stamps = replace(stamps, seconds=seconds, unit=unit)
+    return placed(stamps, rate)
+
+
+def _number(frame: JsonFrame, name: str) -> float:
+    """The number of a frame; NaN where it is none."""
+    value = frame.entries.get(name)
+    return float(value) if isinstance(value, int | float) and math.isfinite(value) else math.nan
+
+
+def _seconds(frame: JsonFrame, name: str) -> float:
+    """The time of one frame in the file's unit; NaN where it states none."""
+    value = frame.entries.get(name)
+    if isinstance(value, str):
+        date, number = date_seconds(value), parsed_number(value)
+        value = date if date is not None else number if number is not None else value
+    return frame.number_at("time", value)
+
+
+def _refuse(frames: list[JsonFrame], row: int, problem: str) -> FormatError:
+    """The error for the time of one frame."""
+    return frames[row].refuse("time", problem)

@@ -14,17 +14,16 @@ from typing import Any
 
 import numpy as np
 
-from ....arrays import Floats
+from ....arrays import Floats, Ints
 from ....errors import FormatError, ParameterError
-from .json_file import JsonFrame, times_of
+from .json_file import JsonFrame, json_times
+from .row_names import NUMBER_NAMES, first_named, time_named
+from .stamps import table_times
 from .table_file import TableFile
 from .times import Times
 
 #: Landmarks beyond this are in pixels; within it they are shares of the picture (a face may stick out a little).
 NORMALISED = 4.0
-
-#: Where a file says no times.
-USUAL_RATE = 30.0
 
 COLUMN = re.compile(r"(?:.*[_\W])?(?:([xyz])_?(\d+)|(\d+)_?([xyz]))", re.IGNORECASE)
 INDEX_NAMES = ("landmark", "landmark_id", "landmark_index", "index", "id")
@@ -40,12 +39,12 @@ class Landmarks:
     times : (T,) seconds, rising.
     positions : (T, N, 3) to the right of the picture (the left of a subject who faces it), up, and towards the camera;
         the picture's height is 1, or it is in pixels. NaN where no face was seen.
-    assumed : what the file does not say and was assumed, in words for people.
+    rows : what a file says of when they are; None where they are of no file.
     """
 
     times: Floats
     positions: Floats
-    assumed: tuple[str, ...] = ()
+    rows: Times | None = None
 
 
 def landmarks_from_json(frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, rate: float | None = None) -> Landmarks:
@@ -73,8 +72,8 @@ def landmarks_from_json(frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, 
             raise frame.refuse("landmarks", f"must be {count} as in other frames, but they are {len(entries)}")
         for number, entry in enumerate(entries):
             row[number] = _position(frame, number, entry)
-    times = times_of(frames, rate, USUAL_RATE)
-    return Landmarks(times.seconds, _upright(raw, aspect), times.assumed)
+    times = json_times(frames, rate)
+    return Landmarks(times.seconds, _upright(raw, aspect)[times.rows], times)
 
 
 def _listed(frame: JsonFrame) -> list[Any]:
@@ -111,11 +110,9 @@ def holds_landmarks(table: TableFile) -> bool:
 
 def landmarks_from_csv(table: TableFile, *, aspect: float = 16.0 / 9.0, rate: float | None = None) -> Landmarks:
     """The landmarks of a CSV file; parameters and errors as `landmarks_from_json`."""
-    raw, seconds = _long(table) if _is_long(table) else _wide(table)
-    times = Times.even(len(raw), rate, USUAL_RATE) if np.isnan(seconds).all() else Times(seconds).from_first()
-    if (np.diff(times.seconds) <= 0.0).any() or np.isnan(times.seconds).any():
-        raise FormatError(table.path, "has times that do not increase from frame to frame: sort the rows by time")
-    return Landmarks(times.seconds, _upright(raw, aspect), times.assumed)
+    raw, first = _long(table) if _is_long(table) else (_wide(table), np.arange(len(table.rows)))
+    times = table_times(table.only(first), rate)
+    return Landmarks(times.seconds, _upright(raw, aspect)[times.rows], times)
 
 
 def _wide_columns(table: TableFile) -> dict[tuple[int, int], str]:
@@ -129,8 +126,8 @@ def _wide_columns(table: TableFile) -> dict[tuple[int, int], str]:
     return found
 
 
-def _wide(table: TableFile) -> tuple[Floats, Floats]:
-    """(T, N, 3) landmarks and (T,) times of a table with a row per frame."""
+def _wide(table: TableFile) -> Floats:
+    """(T, N, 3) landmarks of a table with a row per frame."""
     columns = _wide_columns(table)
     numbers = sorted({number for number, _ in columns})
     if len(numbers) < FEWEST or numbers != list(range(len(numbers))):
@@ -139,8 +136,7 @@ def _wide(table: TableFile) -> tuple[Floats, Floats]:
     missing = [f"{'xyz'[axis]}_{n}" for n in numbers for axis in range(3) if (n, axis) not in columns]
     if missing:
         raise FormatError(table.path, f"lacks the columns {', '.join(missing[:5])}", line=1)
-    raw = np.stack([np.stack([table.numbers(columns[n, a]) for a in range(3)], axis=1) for n in numbers], axis=1)
-    return raw, _times(table)
+    return np.stack([np.stack([table.numbers(columns[n, a]) for a in range(3)], axis=1) for n in numbers], axis=1)
 
 
 def _is_long(table: TableFile) -> bool:
@@ -148,32 +144,27 @@ def _is_long(table: TableFile) -> bool:
     return all(axis in table for axis in "xyz") and any(name in table for name in INDEX_NAMES)
 
 
-def _long(table: TableFile) -> tuple[Floats, Floats]:
-    """(T, N, 3) landmarks and (T,) times of a table with a row per landmark."""
+def _long(table: TableFile) -> tuple[Floats, Ints]:
+    """(T, N, 3) landmarks of a table with a row per landmark, and the (T,) first row of each frame."""
     which = table.numbers(next(name for name in INDEX_NAMES if name in table))
-    frames = table.numbers("frame") if "frame" in table else np.zeros(len(which))
+    named = first_named(table.columns, NUMBER_NAMES), time_named(table.columns)
+    name = named[0] or (named[1][0] if named[1] is not None else None)
+    frames = table.texts(name) if name is not None else ["0"] * len(which)
+    places: dict[str, int] = {}
     for row, (landmark, frame) in enumerate(zip(which, frames, strict=True)):
-        if not (0 <= landmark < MOST and landmark == int(landmark) and math.isfinite(frame)):
+        if not (0 <= landmark < MOST and landmark == int(landmark) and frame):
             raise FormatError(table.path, "must name its frame and its landmark (0, 1, ...)", line=table.lines[row])
-    counted, place = np.unique(frames, return_inverse=True)
+        places.setdefault(frame, row)
+    order = {frame: place for place, frame in enumerate(places)}
     count = int(which.max()) + 1
     if count < FEWEST:
         raise FormatError(table.path, f"has {count} landmarks per frame, but a face mesh has {FEWEST} or more")
-    if count * len(counted) > 2 * len(which) + MOST:
-        raise FormatError(table.path, "has frames with most landmarks missing: correct the column frame")
-    raw = np.full((len(counted), count, 3), np.nan)
+    if count * len(order) > 2 * len(which) + MOST:
+        raise FormatError(table.path, "has frames with most landmarks missing: correct the column of frames")
+    raw = np.full((len(order), count, 3), np.nan)
+    place = np.array([order[frame] for frame in frames])
     raw[place, which.astype(np.int64)] = np.stack([table.numbers(axis) for axis in "xyz"], axis=1)
-    times = np.full(len(counted), np.nan)
-    times[place] = _times(table)
-    return raw, times
-
-
-def _times(table: TableFile) -> Floats:
-    """(rows,) seconds; NaN where the table has none."""
-    for name, unit in (("timestamp", 1.0), ("time", 1.0), ("timestamp_ms", 1e-3), ("time_ms", 1e-3)):
-        if name in table:
-            return table.numbers(name) * unit
-    return np.full(len(table.rows), np.nan)
+    return raw, np.array(list(places.values()), dtype=np.int64)
 
 
 def _upright(raw: Floats, aspect: float) -> Floats:

@@ -7,29 +7,21 @@ right shoulder) and stand in presets/capture/live_link.toml, for versions of the
 
 from __future__ import annotations
 
-import math
-import re
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
-from ....arrays import Floats
-from ....errors import FormatError, ParameterError
+from ....arrays import Bools, Floats
+from ....errors import FormatError
 from ....tables import read_toml
 from .columns import arkit_columns
 from .samples import Samples
 from .shapes import CAPTURE_PRESETS, fap_frame
+from .stamps import table_times
 from .table_file import TableFile
-from .times import Times
 
-TIMECODE = re.compile(r"(\d+):(\d{1,2}):(\d{1,2})[:;](\d+(?:\.\d+)?)")
-
-#: Live Link Face's own frame rate, at which the frames of a timecode are counted unless it shows a higher one.
-USUAL_RATE = 60.0
-
-#: Columns of time in other tables, with the seconds of one unit; the first that is there counts.
-TIME_COLUMNS = (("timestamp", 1.0), ("time", 1.0), ("timestamp_s", 1.0), ("timestamp_ms", 1e-3), ("time_ms", 1e-3))
+#: How many blend shapes a row of Live Link Face has.
+COUNT = "BlendShapeCount"
 
 
 def holds_arkit(table: TableFile) -> bool:
@@ -37,12 +29,14 @@ def holds_arkit(table: TableFile) -> bool:
     return any(name in table for name in arkit_columns().gains)
 
 
-def read_arkit(table: TableFile, *, rate: float | None = None, preset: Path | None = None) -> Samples:
+def read_arkit(
+    table: TableFile, *, rate: float | None = None, start: float | str | None = None, preset: Path | None = None
+) -> Samples:
     """The samples of a table of ARKit blend shapes.
 
     Parameters
     ----------
-    rate : frames per second of the recording, in which its timecode counts; None: 60, or what the timecode shows.
+    rate, start : see `times.placed` and `times.Times.since_first`.
     preset : the table of rotations; by default presets/capture/live_link.toml.
 
     Raises
@@ -56,8 +50,16 @@ def read_arkit(table: TableFile, *, rate: float | None = None, preset: Path | No
     frames = columns.frames(scores)
     turned = _rotations(table, preset or CAPTURE_PRESETS / "live_link.toml")
     frames = np.where(np.isnan(frames), turned, frames)
-    times = _times(table, rate)
-    return Samples(times.seconds, frames, times.assumed)
+    frames[_faceless(table)] = np.nan
+    times = table_times(table, rate)
+    return Samples.at_times(times, frames[times.rows], start=start)
+
+
+def _faceless(table: TableFile) -> Bools:
+    """(T,) rows in which the app saw no face: it counts no blend shapes in them."""
+    if COUNT not in table:
+        return np.zeros(len(table.rows), dtype=np.bool_)
+    return np.asarray(table.numbers(COUNT) <= 0.0)
 
 
 def _rotations(table: TableFile, preset: Path) -> Floats:
@@ -71,37 +73,3 @@ def _rotations(table: TableFile, preset: Path) -> Floats:
         for place in np.flatnonzero(~np.isnan(gains)):
             frames[:, place] = values * gains[place]
     return frames
-
-
-def _times(table: TableFile, rate: float | None) -> Times:
-    """Times from the first row on."""
-    if rate is not None and not (math.isfinite(rate) and rate > 0.0):
-        raise ParameterError("rate", "must be a positive number of frames per second", rate)
-    units: Mapping[str, float] = dict(TIME_COLUMNS)
-    name = next((name for name in units if name in table), None)
-    if "timecode" in table:
-        times = _timecodes(table, rate)
-    elif name is not None:
-        times = Times(table.numbers(name) * units[name])
-    else:
-        times = Times.even(len(table.rows), rate, USUAL_RATE)
-    for row in range(1, len(times.seconds)):
-        if not times.seconds[row] > times.seconds[row - 1]:
-            problem = "has a time that is not later than the one before: sort the rows by time"
-            raise FormatError(table.path, problem, line=table.lines[row])
-    return times.from_first()
-
-
-def _timecodes(table: TableFile, rate: float | None) -> Times:
-    """Times of the timecodes."""
-    parts = []
-    for text, line in zip(table.texts("timecode"), table.lines, strict=True):
-        match = TIMECODE.fullmatch(text)
-        if match is None:
-            problem = f"column Timecode must be HH:MM:SS:FF or HH:MM:SS:FF.fraction, but it is {text[:40]!r}"
-            raise FormatError(table.path, problem, line=line)
-        parts.append([float(part) for part in match.groups()])
-    hours, minutes, seconds, frames = np.array(parts).T
-    counted = rate or max(USUAL_RATE, float(np.floor(frames.max())) + 1.0)
-    assumed = () if rate is not None else (f"its timecode counts {counted:g} frames per second",)
-    return Times(3600.0 * hours + 60.0 * minutes + seconds + frames / counted, assumed)

@@ -13,17 +13,14 @@ import numpy as np
 from ....arrays import Floats
 from ....errors import FormatError
 from .columns import arkit_columns
-from .json_file import JsonFrame, times_of
+from .json_file import JsonFrame, json_times
 from .rotation import head_faps
 from .samples import Samples
-
-#: Where a file says no times.
-USUAL_RATE = 30.0
 
 SCORE_NAMES = ("category_name", "categoryName", "displayName", "name")
 
 
-def read_scores(frames: list[JsonFrame], *, rate: float | None = None) -> Samples:
+def read_scores(frames: list[JsonFrame], *, rate: float | None = None, start: float | str | None = None) -> Samples:
     """The samples of frames with blend shapes, and the head's pose where they have a transformation matrix.
 
     Raises
@@ -39,8 +36,8 @@ def read_scores(frames: list[JsonFrame], *, rate: float | None = None) -> Sample
     columns = {name: np.array([score.get(name, math.nan) for score in scores]) for name in known}
     values = arkit_columns().frames(columns)
     values[:, 47:50] = head_faps(np.stack([rotation_of(frame) for frame in frames]))
-    times = times_of(frames, rate, USUAL_RATE)
-    return Samples(times.seconds, values, times.assumed)
+    times = json_times(frames, rate)
+    return Samples.at_times(times, values[times.rows], start=start)
 
 
 def _scores(frame: JsonFrame) -> dict[str, float]:

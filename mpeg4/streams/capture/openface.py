@@ -15,6 +15,7 @@ from ...standard import ANGLE_UNIT, FAP_COUNT
 from .columns import load_columns
 from .rotation import euler_matrix, head_faps, in_head_axes
 from .samples import Samples
+from .stamps import table_times
 from .table_file import TableFile
 
 #: Frames of which the tracker is less sure than this state nothing; OpenFace's own `success` asks for about as much.
@@ -34,11 +35,14 @@ def holds_openface(table: TableFile) -> bool:
     return "pose_Rx" in table or any(name in table for name in load_columns().gains)
 
 
-def read_openface(table: TableFile, *, sure: float = SURE) -> Samples:
+def read_openface(
+    table: TableFile, *, rate: float | None = None, start: float | str | None = None, sure: float = SURE
+) -> Samples:
     """The samples of an OpenFace CSV.
 
     Parameters
     ----------
+    rate, start : see `times.placed` and `times.Times.since_first`.
     sure : frames below this confidence, and those without success, are unknown.
 
     Raises
@@ -61,17 +65,8 @@ def read_openface(table: TableFile, *, sure: float = SURE) -> Samples:
         frames[~(table.numbers("confidence") >= sure)] = np.nan
     if "success" in table:
         frames[~(table.numbers("success") > 0.0)] = np.nan
-    return Samples(_times(table), frames)
-
-
-def _times(table: TableFile) -> Floats:
-    """(T,) seconds; from the frame numbers at 30 a second where the file has no times (single images)."""
-    times = table.numbers("timestamp") if "timestamp" in table else table.numbers("frame") / 30.0
-    for row in range(len(times)):
-        if not np.isfinite(times[row]) or (row > 0 and times[row] <= times[row - 1]):
-            problem = f"timestamp {times[row]:g} is not later than the one before: sort the rows by time"
-            raise FormatError(table.path, problem, line=table.lines[row])
-    return times
+    times = table_times(table, rate)
+    return Samples.at_times(times, frames[times.rows], start=start)
 
 
 def _rotations(table: TableFile) -> Floats:

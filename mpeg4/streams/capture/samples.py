@@ -9,9 +9,11 @@ import numpy as np
 
 from ....arrays import Floats
 from ....errors import ParameterError
+from .rates import LONGEST_STEP, usual_rate
+from .times import USUAL_RATE, Times
 
-#: Values are interpolated between samples no farther apart than this many usual intervals; a longer gap is unknown.
-LONGEST_GAP = 2.5
+#: In an even row every missing frame is a gap, so steps of more than one and a half intervals are.
+LONGEST_EVEN_STEP = 1.5
 
 #: A moment within this share of an interval from a sample takes that sample as it is: trackers round their times.
 SNAP = 1e-3
@@ -29,11 +31,17 @@ class Samples:
     times : (T,) seconds, rising.
     frames : (T, 68) FAP units; NaN where unknown.
     assumed : what the file does not say and was assumed, in words for people.
+    rate : samples per second; None: as the times show.
+    even : whether each is a frame of an even count; then what lies between others is missing, however short.
+    begin : seconds at which a stream of them begins; None: with the first sample.
     """
 
     times: Floats
     frames: Floats
     assumed: tuple[str, ...] = ()
+    rate: float | None = None
+    even: bool = False
+    begin: float | None = None
 
     def __post_init__(self) -> None:
         if self.times.shape != (len(self.frames),) or len(self.times) == 0:
@@ -41,18 +49,25 @@ class Samples:
         if not np.isfinite(self.times).all() or (np.diff(self.times) <= 0.0).any():
             raise ParameterError("times", "must be finite and increase from sample to sample", "unordered times")
 
+    @classmethod
+    def at_times(cls, times: Times, frames: Floats, *, start: float | str | None = None) -> Samples:
+        """What a file says: frames of the rows that were kept, (T, 68), at their times, from `start` on."""
+        if start is not None:
+            return cls(times.seconds, frames, times.assumed, times.rate, times.even, times.since_first(start))
+        begins = () if times.begins is None else (times.begins,)
+        return cls(times.seconds, frames, (*times.assumed, *begins), times.rate, times.even)
+
     @property
     def fps(self) -> float:
-        """Samples per second, from the usual interval, rounded where it is a whole number within a hundredth."""
-        if len(self.times) < 2:
-            return 25.0
-        rate = 1.0 / float(np.median(np.diff(self.times)))
-        return float(round(rate)) if abs(rate - round(rate)) < 0.01 * rate and rate >= 1.0 else rate
+        """Samples per second: as told, else the usual rate of their times."""
+        if self.rate is not None:
+            return self.rate
+        return usual_rate(np.diff(self.times)) if len(self.times) > 1 else USUAL_RATE
 
     def evenly(self, fps: float | None = None) -> tuple[Floats, float]:
-        """(N, 68) frames at an even rate from the first time on, and that rate.
+        """(N, 68) frames at an even rate from the beginning on, and that rate.
 
-        Between samples values are interpolated; they are unknown where either neighbour is, and within long gaps.
+        Between samples values are interpolated; they are unknown where either neighbour is, and within gaps.
 
         Raises
         ------
@@ -61,22 +76,26 @@ class Samples:
         rate = self.fps if fps is None else fps
         if not (math.isfinite(rate) and rate > 0.0):
             raise ParameterError("fps", "must be a positive number of frames per second", rate)
-        count = np.floor((self.times[-1] - self.times[0]) * rate + 0.5) + 1
+        begin = float(self.times[0]) if self.begin is None else self.begin
+        count = np.floor((self.times[-1] - begin) * rate + 0.5) + 1
         if count > MOST_FRAMES:
             raise ParameterError("times", f"must not span more than {MOST_FRAMES} frames", float(count))
-        return self.at(self.times[0] + np.arange(int(count)) / rate), rate
+        return self.at(begin + np.arange(int(count)) / rate), rate
 
     def at(self, when: Floats) -> Floats:
         """(N, 68) FAPs at times (N,); NaN where unknown."""
+        interval = 1.0 / self.fps
+        outside = when < self.times[0] - interval / 2.0
         if len(self.times) == 1:
-            return np.repeat(self.frames, len(when), axis=0)
-        interval = float(np.median(np.diff(self.times)))
+            return np.where(outside[:, None], np.nan, np.repeat(self.frames, len(when), axis=0))
         right = np.clip(np.searchsorted(self.times, when), 1, len(self.times) - 1)
         before, after = self.times[right - 1], self.times[right]
         share = np.clip((when - before) / (after - before), 0.0, 1.0)
-        share = np.where(share < SNAP, 0.0, np.where(share > 1.0 - SNAP, 1.0, share))[:, None]
+        snap = np.minimum(SNAP * interval / (after - before), SNAP)
+        share = np.where(share < snap, 0.0, np.where(share > 1.0 - snap, 1.0, share))[:, None]
         first, last = self.frames[right - 1], self.frames[right]
         mixed = first + share * (last - first)
         inside = np.where(share == 0.0, first, np.where(share == 1.0, last, mixed))
-        too_far = ((after - before) > LONGEST_GAP * interval)[:, None] & (share > 0.0) & (share < 1.0)
-        return np.where(too_far, np.nan, inside)
+        longest = (LONGEST_EVEN_STEP if self.even else LONGEST_STEP) * interval
+        too_far = ((after - before) > longest)[:, None] & (share > 0.0) & (share < 1.0)
+        return np.where(too_far | outside[:, None], np.nan, inside)

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ....arrays import Floats
+from ....arrays import Floats, Ints
 from ....errors import FormatError
 from ....files import read_bytes
 from ....tables import numbered_lines, parsed_number, row_cells, split_cells
+from .row_names import tells_of_a_row
 
 #: What trackers write for "no value".
 UNKNOWN = ("", "nan", "na", "none", "null", "-nan", "-nan(ind)", "inf", "-inf")
@@ -36,6 +37,13 @@ class TableFile:
 
     def __contains__(self, name: str) -> bool:
         return name.lower() in self._places
+
+    def only(self, rows: Ints) -> TableFile:
+        """The table with some of its rows."""
+        if len(rows) == len(self.rows):
+            return self
+        chosen = [(self.rows[row], self.lines[row]) for row in rows]
+        return TableFile(self.path, self.columns, tuple(row for row, _ in chosen), tuple(line for _, line in chosen))
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -93,8 +101,17 @@ def read_table_file(path: str | Path) -> TableFile:
         raise FormatError(file, "has a heading but no rows: nothing was recorded")
     mark = max(",;\t", key=lines[0][1].count)
     columns = tuple(split_cells(file, *lines[0], separator=mark))
-    rows = tuple(row_cells(file, len(columns), *line, separator=mark) for line in lines[1:])
+    rows = tuple(_row(file, columns, *line, separator=mark) for line in lines[1:])
     return TableFile(file, columns, rows, tuple(number for number, _ in lines[1:]))
+
+
+def _row(file: Path, columns: tuple[str, ...], number: int, line: str, *, separator: str) -> tuple[str, ...]:
+    """The cells of one line; a line that ends before anything that was seen in its frame, states nothing of that."""
+    cells = split_cells(file, number, line, separator=separator)
+    stated = sum(1 for cell in cells if cell)
+    if len(cells) < len(columns) and stated and all(tells_of_a_row(name) for name in columns[: len(cells)]):
+        return (*cells, *[""] * (len(columns) - len(cells)))
+    return row_cells(file, len(columns), number, line, separator=separator)
 
 
 def _text(file: Path) -> str:

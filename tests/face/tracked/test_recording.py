@@ -82,7 +82,7 @@ def test_trackers_files_are_recognised(tmp_path: Path) -> None:
     ("name", "text", "assumed"),
     [
         ("a.json", json.dumps(FRAMES), "the file contains no times: 30 frames per second"),
-        ("a.csv", "jawOpen\n0\n1\n", "the file contains no times: 60 frames per second"),
+        ("a.csv", "jawOpen\n0\n1\n", "the file contains no times: 30 frames per second"),
         ("a.csv", "Timecode,jawOpen\n10:00:00:01,0\n10:00:00:02,1\n", "its timecode counts 60 frames per second"),
     ],
 )

@@ -1,0 +1,60 @@
+"""Options of reading a recording, and a recording as it was read: what had to be assumed is said."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .progress import when_slow
+
+if TYPE_CHECKING:
+    from ..api import Recording
+
+KINDS = ("openface", "arkit", "mediapipe", "landmarks", "faps")
+
+
+def add_recording(parser: argparse.ArgumentParser) -> None:
+    """Options of reading what a tracker wrote."""
+    parser.add_argument("--kind", choices=KINDS, help="the kind of a recording (default: detected from its contents)")
+    about = "frames per second of a recording (default: what its times, timecodes or frame numbers show, else 30)"
+    parser.add_argument("--rate", type=float, help=about)
+    about = "where the stream begins: seconds of the recording's own times, or a timecode (default: its first row)"
+    parser.add_argument("--start", metavar="TIME", help=about)
+    parser.add_argument(
+        "--aspect", type=_aspect, default=16.0 / 9.0, help="landmarks: WIDTH:HEIGHT of the image (default: 16:9)"
+    )
+    about = "landmarks: time range in seconds with a neutral face (default: found automatically)"
+    parser.add_argument("--neutral", type=float, nargs=2, metavar=("FROM", "TO"), help=about)
+
+
+def read_as_told(
+    path: Path, arguments: argparse.Namespace, *, fps: float | None = None, strict: bool = False
+) -> Recording:
+    """The recording in a file, read as `add_recording` has asked; says on standard error what was assumed."""
+    from .. import api
+
+    recording = api.read_recording(
+        path,
+        arguments.kind,
+        fps=fps,
+        rate=arguments.rate,
+        start=arguments.start,
+        aspect=arguments.aspect,
+        neutral=None if arguments.neutral is None else tuple(arguments.neutral),
+        strict=strict,
+        progress=when_slow(),
+    )
+    for assumed in recording.assumed:
+        print(f"note: {path.name}: {assumed}", file=sys.stderr)
+    return recording
+
+
+def _aspect(text: str) -> float:
+    """16:9, or a number."""
+    width, _, height = text.partition(":")
+    try:
+        return float(width) / float(height or 1.0)
+    except ZeroDivisionError:
+        raise argparse.ArgumentTypeError("the height of the image must not be 0") from None

@@ -1,0 +1,76 @@
+"""What trackers and loggers call that which says when a row is, and whose face it is of: one place for every format."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+#: Units of time by what stands behind a name ("timestamp_ms", "Time (s)", "timeMs"), in seconds.
+UNIT_NAMES = {
+    **dict.fromkeys(("s", "sec", "secs", "second", "seconds"), 1.0),
+    **dict.fromkeys(("ms", "msec", "msecs", "milli", "millis", "millisecond", "milliseconds"), 1e-3),
+    **dict.fromkeys(("us", "usec", "usecs", "micros", "microsecond", "microseconds", "µs", "μs"), 1e-6),
+    **dict.fromkeys(("ns", "nsec", "nsecs", "nanos", "nanosecond", "nanoseconds"), 1e-9),
+}
+
+#: Names of a time, without blanks, in the order in which they count; a unit may follow.
+TIME_NAMES = (
+    "timecode", "timestamp", "time", "t", "ts", "timestamps", "times", "frametimestamp", "frametime", "capturetime",
+    "elapsedtime", "timeelapsed", "elapsed", "videotime", "mediatime", "currenttime", "devicetime", "datetime",
+    "presentationtime", "pts", "utc", "unixtime", "seconds", "sec", "secs", "milliseconds", "millis", "ms",
+)  # fmt: skip
+
+#: Names of a frame's number, likewise.
+NUMBER_NAMES = (
+    "frame", "framenumber", "frameidx", "frameindex", "frameid", "frameno", "framenum", "framecount", "framenr",
+    "frames", "imageid", "imageindex", "imagenumber",
+)  # fmt: skip
+
+#: Columns that number the rows of a table that was saved again.
+INDEX_NAMES = ("", "unnamed0", "index", "row", "rowid", "rownumber")
+
+#: Names of a face's number.
+FACE_NAMES = ("faceid", "face", "faceindex", "faceidx", "facenumber", "personid", "person", "subjectid", "trackid")
+
+#: Names of the frames per second of a whole file.
+RATE_NAMES = ("fps", "framerate", "framespersecond", "rate", "exportfps", "samplerate", "samplingrate", "frequency")
+
+#: Names of what is known of a row beside its values.
+ROW_NAMES = ("blendshapecount", "confidence", "success", "facescore", "score", "tracked", "istracked", "trackingstatus")
+
+
+def plain_name(name: str) -> str:
+    """A name in lower case, letters and digits alone: "Frame_Number" is "framenumber"."""
+    return "".join(letter for letter in name.lower() if letter.isalnum())
+
+
+def time_name(name: str) -> tuple[str, float | None] | None:
+    """The name of a time without its unit, and the unit in seconds, None where it names none; None: it is no time."""
+    plain = plain_name(name)
+    if plain in TIME_NAMES:
+        return plain, UNIT_NAMES.get(plain)
+    for unit, seconds in sorted(UNIT_NAMES.items(), key=lambda item: -len(item[0])):
+        stem = plain.removesuffix(unit)
+        apart = re.search(rf"(?:[\W_]|[a-z0-9](?=[A-Z])){re.escape(unit)}\W*$", name, re.IGNORECASE)
+        if stem != plain and stem in TIME_NAMES and (apart or len(unit) > 1):
+            return stem, seconds
+    return None
+
+
+def first_named(names: Iterable[str], wanted: tuple[str, ...]) -> str | None:
+    """The name that comes first among those wanted; None where none is there."""
+    there = {plain_name(name): name for name in reversed(list(names))}
+    return next((there[name] for name in wanted if name in there), None)
+
+
+def time_named(names: Iterable[str]) -> tuple[str, float | None] | None:
+    """The name that tells the time, and its unit in seconds; None where none does."""
+    found = [(TIME_NAMES.index(known[0]), name, known[1]) for name in names if (known := time_name(name)) is not None]
+    return min(found, key=lambda item: item[0])[1:] if found else None
+
+
+def tells_of_a_row(name: str) -> bool:
+    """Whether a column says when a row is, whose it is or how sure it is, rather than what was seen."""
+    plain = plain_name(name)
+    others = (*NUMBER_NAMES, *INDEX_NAMES, *FACE_NAMES, *RATE_NAMES, *ROW_NAMES)
+    return plain in others or time_name(name) is not None
