@@ -14,7 +14,7 @@ from .bake.shape_keys import write_shape
 from .bake.target import Target
 from .bake.writing import STILL
 from .blender_types import Object
-from .faces import FaceSource, face_of
+from .faces import FaceSource, face_steps
 from .mesh import keys_of
 from .refusals import own_mesh
 from .shape_mix import data_path
@@ -61,7 +61,7 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
         problem = f"already has shape keys with these names ({some}): remove them, or turn on Replace (--replace)"
         raise SceneError(source.head.name, problem)
     yield Progress(0.0, "Reading the face")
-    face = face_of(source)
+    face = yield from part_of(face_steps(source), 0.0, 0.0)
     posed = yield from part_of(arkit_shape_steps(face, wanted), 0.0, 0.97)
     shapes = {name: positions - face.vertices for name, positions in posed.items()}
     yield Progress(0.97, "Writing the shape keys")

@@ -130,12 +130,15 @@ def find_points_steps(
     yield Progress(0.0, "Reading the mesh")
     places = checked_vertices(vertices)
     faces = _checked_faces(polygons, len(places))
+    yield Progress(0.0, "Reading the mesh")
     template = fit_template()
+    yield Progress(0.0, "Reading the mesh")
     clicked = checked_clicks(clicks, template)
     refuse_clicks_off(places, clicked)
     known = recognise_topology(len(places), faces, load_topologies() if topologies is None else topologies)
     if known is not None:
         return _known_points(known, places, clicked)
+    yield Progress(0.0, "Reading the mesh")
     surface = yield from part_of(_welded(places, faces), 0.0, 0.02)
     if len(clicked) >= FEWEST:
         start = Start(_located_by_clicks(surface, clicked, template), None)

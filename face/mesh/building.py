@@ -12,15 +12,15 @@ from ...arrays import Floats
 from ...errors import ModelError
 from ...physics.mesh import Polygons, fans
 from ...polygons import PolygonTable
-from ...progress import Progress, Work, part_of
+from ...progress import Progress, Work, part_of, run
 from .checks import checked_axes, checked_parts, known_parts, with_pupils
 from .face_mesh import COPY, FaceMesh
 from .fap_units import fapu
 from .head_frame import head_frame_of
 from .parts import Part, Told
 from .points import PointSource, bind_points, check_sides
-from .sewn import sewn_openings
-from .weld import weld, weld_steps
+from .sewn import sewn_steps
+from .weld import weld_steps
 
 
 def face_mesh_steps(
@@ -52,12 +52,21 @@ def face_mesh_steps(
 
 def sewn_among(vertices: Floats, polygons: Polygons, places: Mapping[str, Floats]) -> frozenset[str]:
     """Which openings of a mesh (V, 3) are sewn, by its feature points' places (3,): `Face.sewn` without a face."""
+    return run(sewn_among_steps(vertices, polygons, places))
+
+
+def sewn_among_steps(
+    vertices: Floats, polygons: Polygons, places: Mapping[str, Floats]
+) -> Work[frozenset[str]]:
+    """As `sewn_among`, bit by bit."""
     try:
         frame = head_frame_of({name: np.asarray(place) for name, place in with_pupils(places, vertices).items()})
     except ModelError:
         return frozenset()  # said where the face is made
     points = {name: frame.to_head(place) for name, place in places.items()}
-    positions, seams = frame.to_head(vertices), weld(vertices, polygons)
+    seams = yield from part_of(weld_steps(vertices, polygons), 0.0, 0.5)
+    positions = frame.to_head(vertices)
     used = np.unique(seams.polygons.loops)
     _, near = cKDTree(positions[used]).query(np.array(list(points.values())))
-    return sewn_openings(positions, seams.polygons, dict(zip(points, used[near].tolist(), strict=True)), points)
+    nearest = dict(zip(points, used[near].tolist(), strict=True))
+    return (yield from part_of(sewn_steps(positions, seams.polygons, nearest, points), 0.5, 1.0))

@@ -48,11 +48,15 @@ class Surface:
 
     @classmethod
     def of(cls, mesh: Mesh) -> Surface:
-        """Read a mesh's resting surface."""
-        vertices = meshes.rest_vertices(mesh)
+        """Read a mesh's resting surface; the last one is kept, as one piece of work asks for it several times."""
+        vertices, digest = meshes.rest_vertices(mesh), mesh_digest(mesh)
+        for last in _last:
+            if last.digest == digest and np.array_equal(last.vertices, vertices):
+                return last
         triangles = triangulate(PolygonTable(*meshes.polygon_arrays(mesh)))
         tree = BVHTree.FromPolygons(vertices.tolist(), triangles.tolist(), all_triangles=True)
-        return cls(vertices, triangles, mesh_counts(mesh), mesh_digest(mesh), tree)
+        _last[:] = [cls(vertices, triangles, mesh_counts(mesh), digest, tree)]
+        return _last[0]
 
     def nearest(self, place: Floats) -> tuple[Floats, int, float] | None:
         """The nearest place (3,), its triangle and its distance."""
@@ -72,6 +76,10 @@ class Surface:
             return KeptPoint(triple(place), confidence=confidence, origin=origin)
         on = triple(_place(*held, self.vertices))
         return KeptPoint(triple(place), *held, on, confidence, origin)
+
+
+#: The surface that was read last.
+_last: list[Surface] = []
 
 
 @dataclass(frozen=True)

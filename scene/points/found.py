@@ -9,7 +9,8 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ModelError, SceneError
-from ...progress import Progress, Work
+from ...polygons import PolygonTable
+from ...progress import Progress, Work, part_of
 from .. import mesh as meshes
 from ..blender_types import Object, Scene
 from ..refusals import refuse_broken_vertices, refuse_unreadable
@@ -78,7 +79,7 @@ def seek_points(
     """
     from ... import api
     from ...face.fit.clicks import click_place
-    from ...face.mesh.building import sewn_among
+    from ...face.mesh.building import sewn_among_steps
 
     yield Progress(0.0, "Reading the mesh")
     refuse_unreadable(obj)
@@ -94,7 +95,7 @@ def seek_points(
     if said is not None:
         raise _explained(obj, ModelError(said))
     try:
-        polygons = meshes.polygon_sequence(*arrays)
+        polygons = PolygonTable(*arrays)
         paint = paint_of(obj, stretch)
         found = yield from api.find_points_steps(vertices, polygons, known or None, topologies=topologies, paint=paint)
     except ModelError as refusal:
@@ -104,9 +105,10 @@ def seek_points(
     table = {name: triple(back @ place) for name, place in found.positions.items()}
     origin = Origin.FOUND if found.topology is None else Origin.TOPOLOGY
     origins = {name: Origin.CLICKED if name in known else origin for name in table}
+    yield Progress(1.0, "Checking lips and lids")
     kept = bind(obj.data, table, origins=origins, confidence=found.confidence)
     yield Progress(1.0, "Checking lips and lids")
-    sewn = sewn_among(vertices, polygons, found.positions)
+    sewn = yield from part_of(sewn_among_steps(vertices, polygons, found.positions), 1.0, 1.0)
     kept = replace(kept, score=0.0 if known else found.score, sewn=sewn)
     return Finding(kept, found.score, found.topology, unreadable)
 
