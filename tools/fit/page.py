@@ -276,6 +276,10 @@ The conventions of the point sets differ by several millimetres in places (jaw a
 folds, top of the head on MakeHuman). No fit can remove this. The points of the bent heads follow the default head's
 convention, so they show the error without it, but for the brows.
 
+The 68 landmarks of pictures (iBUG) differ, too. Point 9.3 is the foremost point of the nose. Their point 30 lies on its
+bridge on some faces: 9 mm above the foremost point on menpo's mean face, 1 mm from it on menpo's scan of one person. It
+is no measure of how well 9.3 is found.
+
 Brows are the largest difference. Nothing in the shape of a face tells where they are. The landmarks of ICT and the
 brows of the default head are 26 to 28 mm above the inner eye corner, those of scans 12 to 17 mm. Unless brows are
 painted or modelled on the mesh, their points are found 18 to 23 mm above it, near the mean of five faces
