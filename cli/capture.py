@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import FormatError, RisoriusError
-from .films import NEEDS_BLENDER, silent_blender
+from ..errors import FormatError
+from .films import needing_blender, silent_blender
 from .options import Verbs, add_scene, face_of, scene_options, verb
 from .progress import ShowProgress
 from .recordings import add_recording, read_as_told
@@ -128,12 +128,8 @@ def _shapes_in_blender(arguments: argparse.Namespace) -> dict[str, tuple[str, ..
     options = scene_options(arguments) | {
         name: getattr(arguments, name) for name in ("names", "replace", "morph_normals")
     }
-    try:
+    with needing_blender():
         from ..scene.jobs.shapes import blendshape_file
-    except ModuleNotFoundError as missing:
-        if missing.name in ("bpy", "mathutils"):
-            raise RisoriusError(NEEDS_BLENDER) from None
-        raise
     with silent_blender():
         written = blendshape_file(arguments.out, **options, progress=ShowProgress())
     return {"keys": written.keys, "replaced": written.replaced, "remarks": written.remarks}

@@ -8,13 +8,27 @@ import os
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import RisoriusError
-from .options import Verbs, add_creases, add_engine, add_scene, add_words, scene_options, verb
+from .options import (
+    Verbs,
+    add_creases,
+    add_engine,
+    add_onto,
+    add_scene,
+    add_timing,
+    add_words,
+    onto_options,
+    scene_options,
+    timing_options,
+    verb,
+)
 from .progress import ShowProgress
 from .result import Result
+
+if TYPE_CHECKING:
+    from ..scene.jobs.destination import Destination
 
 NEEDS_BLENDER = (
     "this command needs Blender: run it as `blender --command risorius ...`, or `pip install bpy` into this Python"
@@ -25,7 +39,9 @@ def add_film_verbs(verbs: Verbs) -> None:
     """Add bake, render and demo to the verbs."""
     bake = verb(verbs, "bake", _bake)
     add_words(bake)
+    add_timing(bake)
     add_scene(bake)
+    add_onto(bake)
     _add_rate(bake)
     add_creases(bake)
     bake.add_argument("--dynamic", action="store_true", help="simulate the motion instead of posing the apex")
@@ -33,7 +49,9 @@ def add_film_verbs(verbs: Verbs) -> None:
 
     render = verb(verbs, "render", _render)
     add_words(render)
+    add_timing(render)
     add_scene(render)
+    add_onto(render)
     _add_rate(render)
     add_engine(render)
     add_creases(render)
@@ -55,12 +73,14 @@ def _add_rate(parser: argparse.ArgumentParser) -> None:
 
 def _bake(arguments: argparse.Namespace) -> Result:
     """Bake expressions onto a face and save a .blend file."""
-    return _made("bake_file", arguments, dynamic=arguments.dynamic)
+    onto = onto_options(arguments, moves=arguments.dynamic)
+    return _made("bake_file", arguments, onto, **timing_options(arguments), dynamic=arguments.dynamic)
 
 
 def _render(arguments: argparse.Namespace) -> Result:
     """Render expressions as a video."""
-    return _made("render_film", arguments, engine=arguments.engine)
+    onto = onto_options(arguments)
+    return _made("render_film", arguments, onto, **timing_options(arguments), engine=arguments.engine)
 
 
 def _demo(arguments: argparse.Namespace) -> Result:
@@ -68,15 +88,27 @@ def _demo(arguments: argparse.Namespace) -> Result:
     return _made("demo", arguments, engine=arguments.engine)
 
 
-def _jobs() -> ModuleType:
-    """The jobs that need Blender; imported only here."""
+@contextlib.contextmanager
+def needing_blender() -> Iterator[None]:
+    """Around imports of jobs: say what to do where there is no Blender around.
+
+    Raises
+    ------
+    RisoriusError : there is none.
+    """
     try:
-        from ..scene.jobs import words
+        yield
     except ModuleNotFoundError as missing:
         if missing.name in ("bpy", "mathutils"):
             raise RisoriusError(NEEDS_BLENDER) from None
         raise
-    return words
+
+
+def destination_of(onto: Mapping[str, Any]) -> Destination:
+    """Where a bake goes, from `onto_options`."""
+    with needing_blender():
+        from ..scene.jobs.destination import Destination
+    return Destination.of(**onto)
 
 
 def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -101,15 +133,26 @@ def silent_blender() -> Iterator[None]:
         os.close(kept)
 
 
-def _made(job: str, arguments: argparse.Namespace, **options: object) -> Result:
+def _made(job: str, arguments: argparse.Namespace, onto: Mapping[str, Any] | None = None, **options: object) -> Result:
     """Run a job, and name the files that it has written."""
-    run = getattr(_jobs(), job)
+    with needing_blender():
+        from ..scene.jobs import words
+    run = getattr(words, job)
+    if onto is not None:
+        options["destination"] = destination_of(onto)
     with silent_blender():
         made = dict(run(arguments.out, **_job_options(arguments), **options))
     return Result(made, lines_of(made))
 
 
 def lines_of(made: Mapping[str, Any]) -> list[str]:
-    """What a job has made, a line each; every remark has a line of its own."""
-    lines = [f"{key}: {value}" for key, value in made.items() if key != "remarks"]
+    """What a job has made, a line each; every clip on a rig and every remark has a line of its own."""
+    lines = [f"{key}: {value}" for key, value in made.items() if key not in ("clips", "remarks")]
+    lines += [_clip_line(clip) for clip in made.get("clips", ())]
     return lines + [f"note: {remark}" for remark in made.get("remarks", ())]
+
+
+def _clip_line(clip: Mapping[str, Any]) -> str:
+    """A clip on a rig: when it plays, and how much it moves."""
+    first, last = clip["frames"]
+    return f"clip: {clip['clip']}, frames {first:.0f} to {last:.0f}, {len(clip['controls'])} controls"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -62,6 +63,57 @@ def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
     elif arguments.object_name is not None and arguments.mesh.suffix.lower() in (".npz", ".obj"):
         raise UsageError(f"--object needs a .blend, .glb or .gltf: {arguments.mesh} is read as one mesh")
     return {name: getattr(arguments, name) for name in ("mesh", "points", "object_name")}
+
+
+def add_timing(parser: argparse.ArgumentParser) -> None:
+    """How strongly each word is felt, and how long its expression takes."""
+    parser.add_argument(
+        "--activation", type=float, help="how strongly each emotion is felt, 1 to 7 (default: the word's own)"
+    )
+    about = "how each expression comes and goes: flash, natural, posed, spontaneous, slow (default: natural)"
+    parser.add_argument("--timing", metavar="NAME", default="natural", help=about)
+    for name, what in (("onset", "appear"), ("apex", "stay"), ("offset", "fade")):
+        parser.add_argument(f"--{name}", type=float, metavar="S", help=f"seconds to {what} (default: of --timing)")
+
+
+def timing_options(arguments: argparse.Namespace) -> dict[str, Any]:
+    """What `add_timing` has asked for, as the jobs of `scene` want it."""
+    from .. import api
+
+    timings = api.load_timings()
+    if arguments.timing not in timings:
+        raise ParameterError("--timing", f"must be one of {', '.join(timings)}", arguments.timing)
+    given = {name: getattr(arguments, name) for name in ("onset", "apex", "offset")}
+    seconds = {name: value for name, value in given.items() if value is not None}
+    return {"activation": arguments.activation, "timing": replace(timings[arguments.timing], **seconds)}
+
+
+def add_onto(parser: argparse.ArgumentParser) -> None:
+    """Which shape keys or controls are keyed."""
+    about = "what is keyed: new shape keys, or the keys that the face of --mesh has (default: new)"
+    parser.add_argument("--onto", choices=("new", "keys"), default="new", help=about)
+    parser.add_argument("--symmetric", action="store_true", help="--onto keys: left and right get the same value")
+    about = "--onto keys: how smooth a motion is over time; 0 leaves each frame to itself (default: 1)"
+    parser.add_argument("--smooth", type=float, metavar="AMOUNT", help=about)
+    about = "--onto keys: key the action that the face plays, instead of laying a clip over it that can be taken off"
+    parser.add_argument("--into-action", action="store_true", help=about)
+
+
+def onto_options(arguments: argparse.Namespace, *, moves: bool = True) -> dict[str, Any]:
+    """What `add_onto` has asked for; `moves` : whether a motion is baked, not single poses."""
+    asked = {name: getattr(arguments, name) for name in ("symmetric", "smooth", "into_action")}
+    given = {name: value for name, value in asked.items() if value not in (None, False)}
+    if arguments.onto == "new":
+        for name in given:
+            raise UsageError(f"--{name.replace('_', '-')} needs --onto keys")
+        return {"onto": "new"}
+    if arguments.mesh is None:
+        raise UsageError(f"--onto {arguments.onto} needs --mesh: the default head has no controls of its own")
+    if arguments.creases:
+        raise UsageError("--creases needs --onto new")
+    if "smooth" in given and not moves:
+        raise UsageError("--smooth needs --dynamic: without it, each expression is one pose")
+    return {"onto": arguments.onto, **given}
 
 
 def add_engine(parser: argparse.ArgumentParser) -> None:

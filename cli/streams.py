@@ -7,17 +7,18 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import RisoriusError
 from .faps import range_lines, ranges_of
-from .films import NEEDS_BLENDER, lines_of, silent_blender
+from .films import destination_of, lines_of, needing_blender, silent_blender
 from .options import (
     Verbs,
     add_creases,
     add_engine,
     add_fps,
+    add_onto,
     add_scene,
     add_strength,
     expression_of,
+    onto_options,
     scene_options,
     verb,
 )
@@ -54,6 +55,7 @@ def add_stream_verb(verbs: Verbs) -> None:
     play.add_argument("target", metavar="OUT", nargs="?", help="the file to write: .blend or .mp4")
     play.add_argument("--out", type=Path, help="the same as OUT")
     add_scene(play)
+    add_onto(play)
     add_engine(play)
     add_creases(play)
 
@@ -112,14 +114,10 @@ def _play(arguments: argparse.Namespace) -> Result:
     """Play a FAP stream on a face, as .blend or video (needs Blender)."""
     out = _target(arguments)
     stream, _ = _read(arguments)
-    shared = scene_options(arguments)
-    try:
+    onto, shared = onto_options(arguments), scene_options(arguments)
+    with needing_blender():
         from ..scene.jobs import playing
-    except ModuleNotFoundError as missing:
-        if missing.name in ("bpy", "mathutils"):
-            raise RisoriusError(NEEDS_BLENDER) from None
-        raise
-    shared |= {"creases": arguments.creases, "engine": arguments.engine}
+    shared |= {"creases": arguments.creases, "engine": arguments.engine, "destination": destination_of(onto)}
     with silent_blender():
         made = dict(playing.play_stream(out, stream, **shared, progress=ShowProgress()))
     return Result(made, lines_of(made))

@@ -16,7 +16,7 @@ from .target import Target
 from .timing import ClipTiming
 
 if TYPE_CHECKING:
-    from ...api import Cue
+    from ...api import Cue, Timing
 
 ARCHETYPES = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
 #: Seconds of rest before, between and after expressions.
@@ -25,20 +25,34 @@ PAUSE = 0.2
 FIRST_FRAME = 1
 
 
-def cues_of(words: Sequence[str]) -> list[Cue]:
-    """One cue per word, one after another, each with the natural timing."""
+def cues_of(words: Sequence[str], *, activation: float | None = None, timing: Timing | None = None) -> list[Cue]:
+    """One cue per word, one after another, with the natural timing or another.
+
+    `activation` : how strongly each is felt; None for the word's own.
+    """
     from ... import api
 
     if not words:
         raise ParameterError("words", "must name at least one emotion", tuple(words))
-    timing = api.load_timings()["natural"]
+    timing = api.load_timings()["natural"] if timing is None else timing
     cues: list[Cue] = []
     start = PAUSE
     for word in words:
-        profile = api.expression(word)
-        cues.append(api.Cue(profile, start=start, onset=timing.onset, apex=timing.apex, offset=timing.offset))
+        cues.append(timing.cue(api.expression(word, activation=activation), start=start))
         start = cues[-1].start + cues[-1].duration + PAUSE
     return cues
+
+
+def clip_names(cues: Sequence[Cue]) -> list[str]:
+    """A name for the clip of each cue: its word, with a number where the word has been there before."""
+    names: list[str] = []
+    for cue in cues:
+        word = str(cue.profile.word)
+        name, number = word, 1
+        while name in names:
+            name, number = f"{word} {number + 1}", number + 1
+        names.append(name)
+    return names
 
 
 def pose_all(
@@ -46,15 +60,16 @@ def pose_all(
 ) -> Work[list[BakeResult]]:
     """One shape key per cue, each clip at its cue's time from `first_frame` on."""
     results = []
-    for index, cue in enumerate(cues):
+    for index, (clip, cue) in enumerate(zip(clip_names(cues), cues, strict=True)):
         timing = ClipTiming(
             start=first_frame + cue.start * fps, onset=cue.onset, apex=cue.apex, offset=cue.offset, fps=fps
         )
         work = bake_expression(
             target,
             cue.profile.frame(),
-            clip=str(cue.profile.word),
+            clip=clip,
             timing=timing,
+            peak=cue.peak,
             emotion=cue.profile.weights,
             creases=creases,
         )

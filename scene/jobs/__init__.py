@@ -2,6 +2,7 @@
 
 words, playing, shapes    from words; from a FAP stream; the shape keys that engines know
 subjects                  whose face it is: the default head, or the mesh of a file that looks most like a face
+destination               where its bakes go: new shape keys, or the controls that the character has
 inputs                    that file: opened or read, and the meshes in it
 stage                     the scene around the face, if it is not the user's
 painting                  materials for meshes that bring none

@@ -5,7 +5,7 @@ A job opens a file of its own, so it refuses to run in a Blender with a window, 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 
@@ -17,15 +17,16 @@ from ...errors import FormatError, ParameterError, SceneError
 
 @dataclass(frozen=True)
 class Made:
-    """What a job has written; ``dict(made)`` names it all."""
+    """What a job has written; ``dict(made)`` names it all. `clips` : reports of clips on a rig (`rig.report`)."""
 
     blend: Path | None = None
     film: Path | None = None
     sheet: Path | None = None
     face: str = ""
-    frames: int = 0
-    shape_keys: int = 0
-    error_mm: float = 0.0
+    frames: int | None = None
+    shape_keys: int | None = None
+    error_mm: float | None = None
+    clips: tuple[Mapping[str, object], ...] = ()
     remarks: tuple[str, ...] = ()
 
     def __iter__(self) -> Iterator[tuple[str, object]]:

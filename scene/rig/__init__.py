@@ -8,6 +8,7 @@ clips        the keyframes of a clip as actions of all that a rig keys
 layers       how such a clip plays: on top of what plays already, and taken off again
 kept         what is kept with a clip: what its bake has noted, and how far the rig follows
 beside       clips on the rig and clips of new shape keys at the same frames, which add up
+report       what a bake has to say for itself, as plain numbers and names
 """
 
 from .baking import bake_expression_onto, bake_expressions_onto, bake_motion_onto

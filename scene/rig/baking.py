@@ -27,7 +27,7 @@ from .kept import Followed, keep
 from .rig import Rig
 
 if TYPE_CHECKING:
-    from ...api import EmotionShares, Face, Retargeted
+    from ...api import Controls, EmotionShares, Face, Retargeted
 
 #: Finds the controls of a face, bit by bit.
 FindRig: TypeAlias = Callable[[FaceSource], Work[Rig]]
@@ -119,8 +119,8 @@ def bake_expressions_onto(
     """
     from ... import api
 
-    source, face, rig = yield from _prepared(target, find_rig)
-    retargeting = api.Retargeting(face, rig.controls(), symmetric=onto.symmetric)
+    source, face, rig, controls = yield from _prepared(target, find_rig)
+    retargeting = api.Retargeting(face, controls, symmetric=onto.symmetric)
     solved: list[tuple[Expression, Retargeted, Mapping[int, str]]] = []
     for index, each in enumerate(expressions):
         yield Progress(0.7 + 0.3 * index / len(expressions), f"Solving the skin for {each.clip}")
@@ -132,9 +132,9 @@ def bake_expressions_onto(
     remove_rig_clips(source.head, [each.clip for each in expressions])
     results: list[BakeResult] = []
     for each, found, missed in solved:
-        curve = each.timing.curve(each.peak)
+        curve = _on_frames(each.timing.curve(each.peak))
         values = {channel: moved[0] * curve.values for channel, moved in rig.channel_values(found).items()}
-        said = (*unmet_remarks(missed, each.clip), *_about(source, face))
+        said = (*unmet_remarks(missed, each.clip), *_about(target, source, face))
         keyframes = Keyframes(curve.frames, values, curve.linear)
         adding = any(overlap(result.frame_range, keyframes.span) for result in results)
         results.append(_write(source, rig, each.clip, keyframes, onto, found, said, note=each.note, adding=adding))
@@ -163,8 +163,8 @@ def bake_motion_onto(
 
     rate = fps if fps is not None else scene_fps()
     count = motion.frame_count(rate)
-    source, face, rig = yield from _prepared(target, find_rig)
-    retargeting = api.Retargeting(face, rig.controls(), symmetric=onto.symmetric)
+    source, face, rig, controls = yield from _prepared(target, find_rig)
+    retargeting = api.Retargeting(face, controls, symmetric=onto.symmetric)
     take = retargeting.take()
     for index, positions in enumerate(motion.positions(face, rate, drive)):
         take.add(positions)
@@ -172,25 +172,26 @@ def bake_motion_onto(
     yield Progress(0.9, "Relating the motion to the controls")
     found = retargeting.values(take, fps=rate, requested=motion.asked, smooth=onto.smooth)
     keyframes = Keyframes(start + np.arange(count, dtype=np.float64), rig.channel_values(found), linear=True)
-    return _write(source, rig, clip, keyframes, onto, found, _about(source, face), note=note)
+    return _write(source, rig, clip, keyframes, onto, found, _about(target, source, face), note=note)
 
 
-def _prepared(target: Target, find_rig: FindRig) -> Work[tuple[FaceSource, Face, Rig]]:
-    """The face, ready for poses, and the controls of its rig."""
+def _prepared(target: Target, find_rig: FindRig) -> Work[tuple[FaceSource, Face, Rig, Controls]]:
+    """The face, ready for poses, and the controls of its rig, which are refused before the face takes long."""
     yield Progress(0.0, "Reading the face")
     source = read_face(target.obj, companions=target.companions)
-    yield Progress(0.05, "Placing the muscles")
-    face = yield from part_of(face_steps(source), 0.05, 0.1)
-    yield Progress(0.1, "Looking at the controls")
-    rig = yield from part_of(find_rig(source), 0.1, 0.3)
+    yield Progress(0.05, "Looking at the controls")
+    rig = yield from part_of(find_rig(source), 0.05, 0.25)
     refuse_unkeyable(place.owner for entry in rig.entries for place in entry.channel.places)
+    controls = rig.controls()
+    yield Progress(0.25, "Placing the muscles")
+    face = yield from part_of(face_steps(source), 0.25, 0.3)
     yield from part_of(face.prepare(), 0.3, 0.7)
-    return source, face, rig
+    return source, face, rig, controls
 
 
-def _about(source: FaceSource, face: Face) -> tuple[str, ...]:
-    """What the user should know about the face."""
-    return tuple(sewn_remarks(source.head.name, face.sewn))
+def _about(target: Target, source: FaceSource, face: Face) -> tuple[str, ...]:
+    """What the user should know about the face, and what of it stays behind."""
+    return (*sewn_remarks(source.head.name, face.sewn), *target.remarks())
 
 
 def _write(
@@ -227,6 +228,14 @@ def _write(
         {name: peaks[name] for name in used},
         dict(rig.left_alone),
     )
+
+
+def _on_frames(curve: Curve) -> Curve:
+    """Eased keyframes on whole frames, as a hand would set them."""
+    if curve.linear:
+        return curve
+    frames, first = np.unique(np.floor(curve.frames + 0.5), return_index=True)
+    return Curve(frames, curve.values[first])
 
 
 def _farthest(moved: Floats) -> float:

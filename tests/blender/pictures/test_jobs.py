@@ -87,7 +87,7 @@ def test_the_demo_leaves_film_file_and_sheet(tmp_path: Path) -> None:
     steps: list[Any] = []
     look = Look(Engine.WORKBENCH, 64, 64)
     load = partial(subject, Input(fps=4.0))
-    made = dict(run(words._demo(tmp_path / "out", load, ["joy", "sad"], look), steps.append))
+    made = dict(run(words._demo(tmp_path / "out", load, cues_of(["joy", "sad"]), look), steps.append))
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"risorius.blend", "risorius.mp4", "risorius.png"}
     assert made["frames"] == len(api.sequence(cues_of(["joy", "sad"]), fps=4.0)) + 1
     fractions = [step.fraction for step in steps]
