@@ -82,6 +82,7 @@ def find_points(
     *,
     topologies: Sequence[Topology] | None = None,
     paint: Paint | None = None,
+    beside: tuple[Floats, Ints] | None = None,
 ) -> FoundPoints:
     """Find the feature points of a face, whichever way it looks and however large it is.
 
@@ -92,6 +93,7 @@ def find_points(
     clicks : name -> (3,) points that are known; four or more also say where the face is.
     topologies : known connectivities; None: those that come with Risorius.
     paint : how bright the mesh is painted; brows that show on it tell where the points of the brows are.
+    beside : vertices (B, 3) and triangles (T, 3) of other objects, in the mesh's coordinates: brows may be among them.
 
     Raises
     ------
@@ -106,7 +108,7 @@ def find_points(
     >>> min(found.confidence.values()) > 0.0
     True
     """
-    return run(find_points_steps(vertices, polygons, clicks, topologies=topologies, paint=paint))
+    return run(find_points_steps(vertices, polygons, clicks, topologies=topologies, paint=paint, beside=beside))
 
 
 def find_points_steps(
@@ -116,6 +118,7 @@ def find_points_steps(
     *,
     topologies: Sequence[Topology] | None = None,
     paint: Paint | None = None,
+    beside: tuple[Floats, Ints] | None = None,
 ) -> Work[FoundPoints]:
     """`find_points` as a generator: yields `Progress(fraction, text)`, returns the points; close it to cancel.
 
@@ -146,7 +149,7 @@ def find_points_steps(
         located = yield from part_of(locate(surface), 0.02, 0.55)
         yield Progress(0.55, "Checking for a crooked face")
         start = better_start(located)
-    return (yield from part_of(_fitted_points(start, clicked, paint), 0.6, 1.0))
+    return (yield from part_of(_fitted_points(start, clicked, paint, beside), 0.6, 1.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,7 +235,9 @@ def _located_by_clicks(surface: Surface, clicked: Mapping[str, Floats], template
     return Located(pose, surface, scored(surface, pose, template), template)
 
 
-def _fitted_points(start: Start, clicked: Mapping[str, Floats], paint: Paint | None) -> Work[FoundPoints]:
+def _fitted_points(
+    start: Start, clicked: Mapping[str, Floats], paint: Paint | None, beside: tuple[Floats, Ints] | None
+) -> Work[FoundPoints]:
     """Bend the template onto the head and carry its points over."""
     located = start.place
     pose, template = located.pose, located.template
@@ -240,9 +245,8 @@ def _fitted_points(start: Start, clicked: Mapping[str, Floats], paint: Paint | N
     wishes = [click_wishes(clicked, pose, template)] if clicked else []
     fitted = yield from part_of(fit(template, target, wishes, start=starting_bend(template, start.flow)), 0.0, 0.95)
     score = located.score.value
-    surface = located.surface
-    local = Surface(pose.to_template(surface.vertices), surface.triangles, pose.normals_to_template(surface.normals))
-    carried = carry(template, target, fitted, score, local, _seen(paint, pose))
+    pieces = _with_beside(located.surface, pose, beside)
+    carried = carry(template, target, fitted, score, pieces, _seen(paint, pose))
     positions = {name: pose.to_mesh(place) for name, place in carried.positions.items()}
     confidence = dict(carried.confidence)
     for name, place in clicked.items():
@@ -250,6 +254,15 @@ def _fitted_points(start: Start, clicked: Mapping[str, Floats], paint: Paint | N
         if not _means_corner(name, place, positions[name], pose):
             positions[name] = place
     return FoundPoints(positions, confidence, score)
+
+
+def _with_beside(surface: Surface, pose: HeadPose, beside: tuple[Floats, Ints] | None) -> Surface:
+    """A surface and what lies beside it, in template coordinates; normals are left out."""
+    vertices, triangles = surface.vertices, surface.triangles
+    if beside is not None:
+        triangles = np.concatenate([triangles, beside[1] + len(vertices)])
+        vertices = np.concatenate([vertices, beside[0]])
+    return Surface(pose.to_template(vertices), triangles, np.zeros_like(vertices))
 
 
 def _seen(paint: Paint | None, pose: HeadPose) -> Look | None:

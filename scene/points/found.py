@@ -15,6 +15,7 @@ from .. import mesh as meshes
 from ..blender_types import Object, Scene
 from ..refusals import refuse_broken_vertices, refuse_unreadable
 from ..shape_mix import settle_drivers
+from .beside import pieces_beside
 from .bound import bind
 from .kept import KeptPoints, Origin, triple, write_kept
 from .painted import paint_of
@@ -97,7 +98,10 @@ def seek_points(
     try:
         polygons = PolygonTable(*arrays)
         paint = paint_of(obj, stretch)
-        found = yield from api.find_points_steps(vertices, polygons, known or None, topologies=topologies, paint=paint)
+        beside = pieces_beside(obj, stretch, scene)
+        found = yield from api.find_points_steps(
+            vertices, polygons, known or None, topologies=topologies, paint=paint, beside=beside
+        )
     except ModelError as refusal:
         keep_refusal(search, str(refusal))
         raise _explained(obj, refusal) from refusal

@@ -284,7 +284,7 @@ Brows are the largest difference. Nothing in the shape of a face tells where the
 brows of the default head are 26 to 28 mm above the inner eye corner, those of scans 12 to 17 mm. Unless brows are
 painted or modelled on the mesh, their points are found 18 to 23 mm above it, near the mean of five faces
 (`presets/anatomy/brow_places.csv`): too low for ICT and the bent heads, nearly right for scans. Painted brows,
-and those that are pieces of the mesh, are found where they are.
+and those that are pieces of the mesh or objects beside it, are found where they are.
 """
 
 EFFECT = """The scanned head is posed (exact drive) from the FAPs of its 15 scanned expressions, measured with its exact
