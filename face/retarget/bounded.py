@@ -29,7 +29,8 @@ def bounded_over_time(
     ----------
     matrix : (K, K) positive semidefinite, ones on its diagonal. right : (T, K).
     low, high : (K,) bounds on both sides of 0.
-    sparing : (K,) what each control costs. smooth : weight of second differences over time; 0: each frame by itself.
+    sparing : (K,) or (T, K) what each control costs.
+    smooth : weight of second differences over time; 0: each frame by itself.
     """
     values, axes = np.linalg.eigh(matrix)
     values = np.maximum(values, 0.0)

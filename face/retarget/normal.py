@@ -67,15 +67,9 @@ class Normal:
     scale: Floats
 
 
-def normal_equations(controls: Seen, asked: Wishes, emphasis: float, weights: Floats) -> Normal:
-    """The normal equations in which points count `emphasis` times as much as all skin.
-
-    Parameters
-    ----------
-    weights : (m,) how much each point counts beside the others.
-    """
-    vertices = max(controls.skin.shape[1] // 3, 1)
-    weight = emphasis * vertices * weights / max(float(weights.sum()), 1.0)
+def normal_equations(controls: Seen, asked: Wishes, weights: Floats) -> Normal:
+    """The normal equations in which points count as `weights` (m,) say, where all skin counts 1."""
+    weight = max(controls.skin.shape[1] // 3, 1) * weights
     plain = controls.skin @ controls.skin.T + (weight * controls.points) @ controls.points.T
     scale = np.sqrt(np.diagonal(plain))
     scale = np.where(scale > 0.0, scale, 1.0)

@@ -1,7 +1,7 @@
 """A motion of the muscles as values of the controls that a rig already has.
 
-What is nearest over the outer skin alone often misses what FAPs measure: lips that should part, a gaze. So feature
-points count more, as far as the skin's motion is shown hardly less well for it.
+Feature points and gaze count more than the skin around them, and controls that fight each other are kept apart, as far
+as the skin's motion is shown hardly less well for it (`weighing`).
 """
 
 from __future__ import annotations
@@ -13,31 +13,21 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Bools, Floats
+from ...arrays import Floats
 from ...errors import ModelError, ParameterError
 from ...mpeg4 import FAP_COUNT
 from ..face import Face
 from ..unmet import unmet
-from .bounded import bounded_over_time
 from .controls import Controls
 from .mirrored import mirrored_pairs
-from .normal import Normal, Seen, Wishes, normal_equations, seen
+from .normal import Seen, Wishes, seen
 from .shortfall import Shortfall, shortfalls
 from .sight import sight_of
+from .weighing import Counted, weighed_values
 
-#: How many times as much as all skin feature points may count.
-EMPHASES = (0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4)
-#: A FAP that is requested counts as much as this many others.
-REQUESTED = 3.0
-#: So much less of the skin's motion may be explained for the points' sake, as a share of all of it.
-YIELD = 0.016
-#: What a control costs, as a share of what its whole range does: those that fight each other are not both on.
-SPARING = 0.0015
 #: Weight of second differences over time, at 25 frames per second, where a motion is to be smooth.
 SMOOTH = 1.0
 USUAL_RATE = 25.0
-#: Frames that the emphasis is chosen on, at most.
-SAMPLE = 60
 #: Controls do the same where the cosine between their effects is at least this.
 SAME = 0.9995
 #: A head is at rest where half its skull moves less than this, metres of head space.
@@ -205,53 +195,35 @@ class Retargeting:
         tied = Seen(self.ties @ self.does.skin, self.ties @ self.does.points)
         wish = Wishes(asked.skin @ self.ties.T, asked.points, asked.size)
         smoothing = smooth * SMOOTH * (fps / USUAL_RATE) ** 4
-        found = self._solve(tied, wish, self._weights(requested), smoothing) @ self.ties
-        return self._result(asked, found, np.array(take.turns), requested)
+        found = weighed_values(
+            tied, wish, self._counted(requested), *self._limits, smooth=smoothing, mirror=self._mirror(tied)
+        )
+        return self._result(asked, found @ self.ties, np.array(take.turns), requested)
 
     def take(self) -> Take:
         """A motion to be added frame by frame."""
         return Take(self)
 
-    def _weights(self, requested: ArrayLike | None) -> Floats:
-        """(m,) how much each of the points counts."""
-        weights = np.ones(self.does.points.shape[1])
+    def _counted(self, requested: ArrayLike | None) -> Counted:
+        """Which points are read for FAPs, and which of those are requested."""
+        faps = np.arange(self.does.points.shape[1]) < len(self.sight.numbers)
+        wanted = np.zeros_like(faps)
         if requested is not None:
             silent = np.isnan(np.asarray(requested, dtype=np.float64).reshape(-1, FAP_COUNT))
-            known: Bools = np.asarray(~silent.all(axis=0))
-            weights[: len(self.sight.numbers)][known[self.sight.numbers - 1]] = REQUESTED
-        return weights
+            wanted[: len(self.sight.numbers)] = (~silent.all(axis=0))[self.sight.numbers - 1]
+        return Counted(faps, wanted)
 
-    def _solve(self, does: Seen, asked: Wishes, weights: Floats, smooth: float) -> Floats:
-        """(T, J) values, with as much emphasis on points as the skin allows."""
-        low, high = self._limits
-        some = np.unique(np.linspace(0, len(asked.size) - 1, SAMPLE).astype(np.int64))
-        sample = Wishes(asked.skin[some], asked.points[some], asked.size[some])
-        square = does.skin @ does.skin.T
-        plain = normal_equations(does, sample, 0.0 if square.any() else 1.0, weights)
-        best = self._least(plain, low, high, 0.0, spare=False)
-        bound = _left(square, sample, best) + YIELD * float(sample.size.sum())
-        chosen = EMPHASES[0]
-        for emphasis in EMPHASES:
-            tried = self._least(normal_equations(does, sample, emphasis, weights), low, high, 0.0)
-            if _left(square, sample, tried) > bound:
-                break
-            chosen = emphasis
-        return self._least(normal_equations(does, asked, chosen, weights), low, high, smooth)
+    def _mirror(self, tied: Seen) -> dict[int, int]:
+        """Control -> its mirror image."""
+        resting = self.face.anatomy.mesh.positions[self.sight.skin]
+        pairs = mirrored_pairs(resting, tied.skin)
+        return dict(pairs) | {right: left for left, right in pairs}
 
     @cached_property
     def _limits(self) -> tuple[Floats, Floats]:
         """(J,) the limits of values that controls share."""
         reach = np.where(self.ties > 0.0, 1.0, np.nan)
         return np.nanmax(reach * self.controls.low, axis=1), np.nanmin(reach * self.controls.high, axis=1)
-
-    def _least(self, normal: Normal, low: Floats, high: Floats, smooth: float, *, spare: bool = True) -> Floats:
-        """(T, J) values by least squares."""
-        reach = normal.scale * np.maximum(high, -low)
-        cost = SPARING * reach if spare else np.zeros(len(reach))
-        return (
-            bounded_over_time(normal.matrix, normal.right, low * normal.scale, high * normal.scale, cost, smooth)
-            / normal.scale
-        )
 
     def _result(self, asked: Wishes, values: Floats, turns: Floats, requested: ArrayLike | None) -> Retargeted:
         """What is told of values (T, K)."""
@@ -311,9 +283,3 @@ def _doubles(names: Sequence[str], does: Seen) -> dict[str, str]:
         if first is not None:
             found[names[later]] = names[first]
     return found
-
-
-def _left(square: Floats, asked: Wishes, values: Floats) -> float:
-    """Squared distance from the motion's skin, over all frames, by values (T, K)."""
-    shown = float(np.einsum("tj,jk,tk->", values, square, values))
-    return float(asked.size.sum()) - 2.0 * float((values * asked.skin).sum()) + shown
