@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Floats
+from ...arrays import Bools, Floats
 from ...errors import ModelError, ParameterError
 from ...mpeg4 import FAP_COUNT
 from ..face import Face
@@ -210,7 +210,8 @@ class Retargeting:
         wanted = np.zeros_like(faps)
         if requested is not None:
             silent = np.isnan(np.asarray(requested, dtype=np.float64).reshape(-1, FAP_COUNT))
-            wanted[: len(self.sight.numbers)] = (~silent.all(axis=0))[self.sight.numbers - 1]
+            known: Bools = np.asarray(~silent.all(axis=0))
+            wanted[: len(self.sight.numbers)] = known[self.sight.numbers - 1]
         return Counted(faps, wanted)
 
     def _mirror(self, tied: Seen) -> dict[int, int]:
