@@ -71,11 +71,16 @@ def curves_of(action: Action, data_path: str, index: int = 0) -> list[FCurve]:
 
 def bone_curves(action: Action) -> list[FCurve]:
     """The F-curves of an action that move bones."""
+    return [curve for curve in all_curves(action) if curve.data_path.startswith("pose.bones")]
+
+
+def all_curves(action: Action) -> list[FCurve]:
+    """All F-curves of an action, in any slot of it."""
     if not hasattr(action, "slots"):
         groups = [action.fcurves]
     else:
         groups = [bag.fcurves for strip in _strips(action) for bag in strip.channelbags]
-    return [curve for group in groups for curve in group if curve.data_path.startswith("pose.bones")]
+    return [curve for group in groups for curve in group]
 
 
 def changes(curve: FCurve) -> bool:

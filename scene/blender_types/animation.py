@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal, Protocol, Self, overload
 
 from .collections import Growing, Items, Numbers
@@ -16,6 +16,15 @@ class WithProperties(Protocol):
     def __delitem__(self, name: str) -> None: ...
     def __contains__(self, name: str) -> bool: ...
     def get(self, name: str, default: object = None) -> object: ...
+    def items(self) -> Sequence[tuple[str, object]]: ...
+    def id_properties_ui(self, name: str) -> PropertyLook: ...
+
+
+class PropertyLook(Protocol):
+    """How a custom property shows."""
+
+    def update(self, **settings: object) -> None: ...
+    def as_dict(self) -> Mapping[str, object]: ...
 
 
 class Datablock(WithProperties, Protocol):
@@ -63,6 +72,7 @@ class FCurve(Protocol):
     """One animated figure."""
 
     data_path: str
+    array_index: int
     lock: bool
     keyframe_points: Keyframes
 
@@ -199,12 +209,17 @@ class DriverTarget(Protocol):
     """What a driver reads: a property of a datablock."""
 
     id_type: str
-    id: Datablock
+    id: Datablock | None
     data_path: str
+    bone_target: str
+    transform_type: str
+    transform_space: str
 
 
 class DriverVariable(Protocol):
     """A variable of a driver."""
+
+    type: str
 
     @property
     def targets(self) -> Sequence[DriverTarget]: ...
@@ -225,17 +240,17 @@ class Driver(Protocol):
     def variables(self) -> DriverVariables: ...
 
 
-class DriverCurve(Protocol):
+class DriverCurve(FCurve, Protocol):
     """A driver with its curve."""
 
     @property
     def driver(self) -> Driver: ...
 
 
-class Drivers(Items[FCurve], Protocol):
+class Drivers(Items[DriverCurve], Protocol):
     """The drivers of a datablock."""
 
-    def remove(self, driver: FCurve) -> None: ...
+    def remove(self, driver: DriverCurve) -> None: ...
 
 
 class AnimData(Protocol):

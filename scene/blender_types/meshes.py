@@ -74,7 +74,9 @@ class Materials(Items["Material | None"], Protocol):
 
 
 class Mesh(Datablock, Protocol):
-    """A mesh."""
+    """A mesh; and of the data of other objects, what is used of it."""
+
+    pose_position: str  # of an armature
 
     @property
     def vertices(self) -> Growing[MeshVertex]: ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
-from .animation import Datablock
+from .animation import Datablock, WithProperties
 from .collections import Items, Matrix, Numbers
 from .meshes import Mesh, ShapeKey, VertexGroup
 from .nodes import NodeTree
@@ -14,6 +14,12 @@ from .nodes import NodeTree
 class Setting(Protocol):
     """One setting of something, as Blender describes it."""
 
+    @property
+    def is_readonly(self) -> bool: ...
+    @property
+    def default(self) -> float: ...  # of a number
+    @property
+    def default_array(self) -> Numbers: ...  # of several
     @property
     def identifier(self) -> str: ...
     @property
@@ -27,11 +33,65 @@ class Settings(Protocol):
     def properties(self) -> Items[Setting]: ...
 
 
+class WithPointers(Protocol):
+    """Anything with settings of which some point to objects."""
+
+    @property
+    def bl_rna(self) -> Settings: ...
+
+
+class Constraint(WithPointers, Protocol):
+    """A constraint of a bone or an object; those that limit have `owner_space`, and limits for each axis."""
+
+    type: str
+    mute: bool
+    influence: float
+    owner_space: str
+
+
+class BoneCollection(Protocol):
+    """A collection of an armature's bones."""
+
+    @property
+    def is_visible_effectively(self) -> bool: ...
+
+
+class Bone(Protocol):
+    """A bone of an armature. Blender has `hide` here for the pose up to 4.5."""
+
+    name: str
+    hide: bool
+    hide_select: bool
+
+    @property
+    def use_connect(self) -> bool: ...
+    @property
+    def collections(self) -> Sequence[BoneCollection]: ...
+
+
+class PoseBone(WithProperties, Protocol):
+    """A bone as it is posed. Blender has `hide` here from 5.0 on."""
+
+    name: str
+    hide: bool
+    rotation_mode: str
+    lock_location: Sequence[bool]
+    lock_rotation: Sequence[bool]
+    lock_scale: Sequence[bool]
+
+    @property
+    def bone(self) -> Bone: ...
+    @property
+    def parent(self) -> PoseBone | None: ...
+    @property
+    def constraints(self) -> Items[Constraint]: ...
+
+
 class Pose(Protocol):
     """The posed bones of an armature."""
 
     @property
-    def bones(self) -> Items[object]: ...
+    def bones(self) -> Items[PoseBone]: ...
 
 
 class Modifier(Protocol):
@@ -60,17 +120,12 @@ class Modifiers(Items[Modifier], Protocol):
     def move(self, from_index: int, to_index: int) -> None: ...
 
 
-class PropertyLook(Protocol):
-    """How a custom property shows."""
-
-    def update(self, **settings: object) -> None: ...
-
-
 class Object(Datablock, Protocol):
     """An object. `data` is a mesh only where `type` is "MESH": ask first (`refusals.refuse_unreadable` does)."""
 
     data: Mesh
     parent: Object | None
+    matrix_parent_inverse: Matrix
     location: Numbers
     matrix_world: Matrix
     add_rest_position_attribute: bool
@@ -95,6 +150,8 @@ class Object(Datablock, Protocol):
     @property
     def modifiers(self) -> Modifiers: ...
     @property
+    def constraints(self) -> Items[Constraint]: ...
+    @property
     def users_collection(self) -> Sequence[Collection]: ...
     @property
     def vertex_groups(self) -> Items[VertexGroup]: ...
@@ -106,7 +163,6 @@ class Object(Datablock, Protocol):
     def shape_key_remove(self, key: ShapeKey) -> None: ...
     def shape_key_clear(self) -> None: ...
     def keyframe_insert(self, data_path: str, *, frame: float, group: str) -> bool: ...
-    def id_properties_ui(self, name: str) -> PropertyLook: ...
     def evaluated_get(self, depsgraph: Depsgraph) -> Object: ...
     def to_mesh(self) -> Mesh: ...
     def to_mesh_clear(self) -> None: ...

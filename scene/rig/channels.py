@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
+from enum import Enum
 
-from ..blender_types import Datablock
+import bpy
+
+from ..blender_types import Datablock, WithProperties
+
+
+class Form(Enum):
+    """How a channel's value is kept: as it is, or as a part of a turn, in radians about one of a bone's three axes."""
+
+    PLAIN = "plain"
+    QUATERNION = "rotation_quaternion"
+    AXIS_ANGLE = "rotation_axis_angle"
 
 
 @dataclass(frozen=True)
@@ -16,29 +26,44 @@ class Place:
     path: str
     index: int = -1
 
+    @property
+    def is_property(self) -> bool:
+        """Whether it is a custom property."""
+        return self.path.endswith('"]')
+
+    def holder(self, owner: Datablock) -> tuple[WithProperties, str]:
+        """What has the number, of its owner or of a copy of it, and the number's name there."""
+        if self.is_property:
+            start = self.path.rindex('["')
+            whole, name = self.path[:start], bpy.utils.unescape_identifier(self.path[start + 2 : -2])
+        else:
+            whole, _, name = self.path.rpartition(".")
+        return owner.path_resolve(whole) if whole else owner, name
+
+    def read(self, owner: Datablock) -> float:
+        """The number, of its owner or of a copy of it."""
+        holder, name = self.holder(owner)
+        if self.is_property:
+            return float(holder[name])  # type: ignore[arg-type]
+        return float(getattr(holder, name) if self.index < 0 else getattr(holder, name)[self.index])
+
+    def write(self, value: float, owner: Datablock) -> None:
+        """Give the number of its owner, or of a copy of it, a value."""
+        holder, name = self.holder(owner)
+        if self.index >= 0:
+            getattr(holder, name)[self.index] = value
+        elif self.is_property:
+            holder[name] = value
+        else:
+            setattr(holder, name, value)
+
     def set(self, value: float) -> None:
         """Give it a value; a place that is gone is passed over."""
-        whole, name = _parted(self.path)
         try:
-            holder = self.owner.path_resolve(whole) if whole else self.owner
-            if self.index >= 0:
-                getattr(holder, name)[self.index] = value
-            elif name.startswith("["):
-                holder[json.loads(name[1:-1])] = value
-            else:
-                setattr(holder, name, value)
+            self.write(value, self.owner)
         except (ValueError, KeyError, AttributeError, IndexError):
             return
         self.owner.update_tag()
-
-
-def _parted(path: str) -> tuple[str, str]:
-    """A path as that of what holds the number, and the number's own name there: an attribute, or ["a property"]."""
-    if path.endswith('"]'):
-        start = path.rindex('["')
-        return path[:start], path[start:]
-    whole, _, name = path.rpartition(".")
-    return whole, name
 
 
 @dataclass(frozen=True)
@@ -48,9 +73,11 @@ class Channel:
     Attributes
     ----------
     name : as users know it: that of the shape key, or of the bone and what of it moves.
-    place : where it is.
-    low, high : its limits. resting : its value at rest, from low to high.
+    place : where it is. Of a part of a turn, `path` is the whole turn's and `index` the axis.
+    low, high : its limits. resting : its value at rest, from low to high; of a part of a turn 0.
     twins : other places that always get the same value: the key of this name on another object of the face.
+    neutral : what the NLA's Combine adds nothing to, or multiplies by: 1 for scales, else Blender's default.
+    form : how it is kept. turn : of a part of a turn, the whole as it is at rest: a quaternion (w, x, y, z).
     """
 
     name: str
@@ -59,6 +86,9 @@ class Channel:
     high: float
     resting: float = 0.0
     twins: tuple[Place, ...] = ()
+    neutral: float = 0.0
+    form: Form = Form.PLAIN
+    turn: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     @property
     def places(self) -> tuple[Place, ...]:

@@ -7,7 +7,7 @@ that is ours is these actions and the strips that play them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -20,6 +20,7 @@ from ..shape_mix import RIG_TAG
 from . import layers
 from .channels import Channel, Place
 from .layers import CLIP_TAG
+from .turns import keyed_values
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +71,7 @@ def write_rig_clip(
     above : on top of what plays already (`layers`); else as keyframes in the actions that play now.
     adding : what it shares frames with of our own is added to, not hidden.
     """
+    keyframes = replace(keyframes, values=keyed_values(keyframes.values))
     by_owner = _by_owner(keyframes.values)
     remove_rig_clips(head, [clip])
     written, said = [], []

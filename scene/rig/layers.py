@@ -43,7 +43,7 @@ class Layer:
     def written(self, place: Place, channel: Channel, moved: Floats) -> Floats:
         """(N,) values of keyframes, from values that count from rest."""
         below = self.combined and (place.path, max(place.index, 0)) in self.animated
-        return moved if below else channel.resting + moved
+        return (channel.neutral if below else channel.resting) + moved
 
 
 def layer_for(owner: Datablock, places: Sequence[tuple[Place, Channel]], *, adding: bool = False) -> Layer:
@@ -58,7 +58,16 @@ def layer_for(owner: Datablock, places: Sequence[tuple[Place, Channel]], *, addi
 def _keyed(actions: Sequence[Action], numbers: Sequence[tuple[str, int]]) -> frozenset[tuple[str, int]]:
     """Those of some (path, index) that actions key."""
     full = [action for action in actions if not is_empty(action)]
-    return frozenset((path, index) for path, index in numbers if any(curves_of(a, path, index) for a in full))
+    return frozenset(
+        (path, index)
+        for path, index in numbers
+        if any(curves_of(action, path, part) for action in full for part in _together(path, index))
+    )
+
+
+def _together(path: str, index: int) -> Sequence[int]:
+    """The numbers that Blender combines with one of a path: turns that are kept as four go together."""
+    return range(4) if path.endswith(("rotation_quaternion", "rotation_axis_angle")) else (index,)
 
 
 def _user_actions(owner: Datablock) -> list[Action]:

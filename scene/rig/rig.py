@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from ...arrays import Floats
 from ...errors import SceneError
+from ...progress import Work
 from ..faces import FaceSource
 from .channels import Channel
 
 if TYPE_CHECKING:
     from ...api import Controls, Retargeted
+
+#: What a rig shows with channels at values that count from rest, frame by frame: (T, V, 3) displacement, metres.
+Evaluate: TypeAlias = "Callable[[Sequence[Mapping[Channel, float]]], Work[Floats]]"
 
 
 @dataclass(frozen=True)
@@ -48,12 +52,14 @@ class Rig:
     source : the face, as it is at rest.
     entries : its K controls. effects : (K, V, 3) what a value of 1 does to the joined vertices of the face, metres.
     left_alone : name -> why, of what could have been a control.
+    evaluate : shows the controls at values together, where they do not simply add up.
     """
 
     source: FaceSource
     entries: tuple[Control, ...]
     effects: Floats
     left_alone: Mapping[str, str] = field(default_factory=dict)
+    evaluate: Evaluate | None = None
 
     def controls(self) -> Controls:
         """As `api.retarget` takes them.
