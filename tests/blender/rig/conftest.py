@@ -1,0 +1,50 @@
+"""A small rig on the default head: skull, jaw, corners of the mouth, brows."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+
+#: Bones in the skin, and the feature point that each is at.
+SMALL = {"corner.L": "8.3", "corner.R": "8.4", "brow.L": "4.1", "brow.R": "4.2"}
+
+
+@pytest.fixture
+def rigged(head: Any) -> SimpleNamespace:
+    """The default head on an armature: `head`, `rig`, and `bones`, which are posed."""
+    from risorius.scene.mesh import mesh_vertices
+    from risorius.scene.points.stored import stored_points
+
+    vertices = mesh_vertices(head.data)
+    points = {n: vertices[p] if isinstance(p, int) else np.asarray(p) for n, p in stored_points(head).items()}
+    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    bpy.context.collection.objects.link(rig)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    bone("skull", (0.0, 0.02, -0.05), (0.0, 0.02, 0.1), None)
+    bone("jaw", (0.0, 0.0, 0.0), points["2.1"], "skull")
+    for name, point in SMALL.items():
+        bone(name, points[point], points[point] + (0.0, -0.02, 0.0), "skull")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    weights = {n: np.exp(-((np.linalg.norm(vertices - points[p], axis=1) / 0.02) ** 2)) for n, p in SMALL.items()}
+    below = np.clip((points["2.2"][2] - vertices[:, 2]) / 0.01 + 0.5, 0.0, 1.0) * (vertices[:, 1] < 0.03)
+    weights["jaw"] = below * (1.0 - weights["corner.L"] - weights["corner.R"])
+    weights["skull"] = np.clip(1.0 - np.sum(list(weights.values()), axis=0), 0.0, 1.0)
+    for name, own in weights.items():
+        group = head.vertex_groups.new(name=name)
+        for vertex in np.flatnonzero(own > 1e-3):
+            group.add([int(vertex)], float(own[vertex]), "REPLACE")
+    head.modifiers.new("Armature", "ARMATURE").object = rig
+    bpy.context.view_layer.update()
+    return SimpleNamespace(head=head, rig=rig, bones=rig.pose.bones)
+
+
+def bone(name: str, at: Any, to: Any, parent: str | None) -> None:
+    """A bone of the armature that is being edited."""
+    bones = bpy.context.object.data.edit_bones
+    made = bones.new(name)
+    made.head, made.tail, made.parent = at, to, bones.get(parent or "")
