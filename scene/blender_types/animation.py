@@ -211,9 +211,6 @@ class DriverTarget(Protocol):
     id_type: str
     id: Datablock | None
     data_path: str
-    bone_target: str
-    transform_type: str
-    transform_space: str
 
 
 class DriverVariable(Protocol):
