@@ -12,7 +12,7 @@ from .progress import when_slow
 if TYPE_CHECKING:
     from ..api import Recording
 
-KINDS = ("openface", "arkit", "mediapipe", "landmarks", "faps")
+KINDS = ("openface", "py_feat", "arkit", "mediapipe", "landmarks", "faps")
 
 
 def add_recording(parser: argparse.ArgumentParser) -> None:
@@ -22,6 +22,8 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rate", type=float, help=about)
     about = "where the stream begins: seconds of the recording's own times, or a timecode (default: its first row)"
     parser.add_argument("--start", metavar="TIME", help=about)
+    about = "which face of a recording of several: its number, or its place in a frame (0, 1, ...)"
+    parser.add_argument("--face", type=int, metavar="N", help=about)
     parser.add_argument(
         "--aspect", type=_aspect, default=16.0 / 9.0, help="landmarks: WIDTH:HEIGHT of the image (default: 16:9)"
     )
@@ -41,6 +43,7 @@ def read_as_told(
         fps=fps,
         rate=arguments.rate,
         start=arguments.start,
+        face=arguments.face,
         aspect=arguments.aspect,
         neutral=None if arguments.neutral is None else tuple(arguments.neutral),
         strict=strict,

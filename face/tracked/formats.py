@@ -15,7 +15,7 @@ class StreamFormat(StrEnum):
     """What a file of FAPs, or of what trackers saw, may be.
 
     fap, fba, json, faps : the standard's text and bit stream; FAPs as JSON and as a CSV table, as Risorius writes them.
-    openface, arkit, mediapipe : scores of trackers, as CSV or JSON. landmarks : points of a face mesh.
+    openface, py_feat, arkit, mediapipe : scores of trackers, as CSV or JSON. landmarks : points of a face mesh.
     """
 
     FAP = "fap"
@@ -23,6 +23,7 @@ class StreamFormat(StrEnum):
     JSON = "json"
     FAPS = "faps"
     OPENFACE = "openface"
+    PY_FEAT = "py_feat"
     ARKIT = "arkit"
     MEDIAPIPE = "mediapipe"
     LANDMARKS = "landmarks"

@@ -10,6 +10,7 @@ from pathlib import Path
 from ...errors import FormatError
 from ...files import read_bytes
 from ...mpeg4.streams.capture import Samples, frames_of, read_json_document, read_table_file
+from ...mpeg4.streams.capture.delimited import decoded
 from ...mpeg4.streams.fap_file import looks_like_fap
 from ...mpeg4.streams.fba import begins_as_fba
 from .formats import READABLE, StreamFormat
@@ -43,7 +44,7 @@ def open_stream(path: str | Path, format: StreamFormat | None = None) -> Opened:
     FormatError : it cannot be read, or is none of the formats; says what it should contain.
     """
     file, data = Path(path), read_bytes(path)
-    ending, head = file.suffix.lower(), data[:HEAD].decode("utf-8-sig", errors="replace")
+    ending, head = file.suffix.lower(), (decoded(data) or data[:HEAD].decode("utf-8-sig", errors="replace"))[:HEAD]
     if format in (StreamFormat.FAP, StreamFormat.FBA):
         return Opened(file, format)
     if format is None and (begins_as_fba(data) or ending == ".fba"):
@@ -52,9 +53,9 @@ def open_stream(path: str | Path, format: StreamFormat | None = None) -> Opened:
         return Opened(file, StreamFormat.FAP)
     if format is StreamFormat.JSON or head.lstrip().startswith(("{", "[")) or ending in (".json", ".jsonl"):
         return _json(file, format)
-    if b"\0" in data[:HEAD]:
+    if "\0" in head:
         problem = f"is binary, and not a FAP stream or a recording: use {', '.join(READABLE)}"
-        raise FormatError(file, problem, offset=data.index(b"\0"))
+        raise FormatError(file, problem, offset=max(data.find(b"\0"), 0))
     table = read_table_file(file)
     unknown = FormatError(file, f"has none of the columns of {_listed(TABLES)}", line=1)
     return _recognised(file, format, table, TABLES, unknown)

@@ -48,6 +48,7 @@ def read_recording(
     fps: float | None = None,
     rate: float | None = None,
     start: float | str | None = None,
+    face: int | None = None,
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
     strict: bool = False,
@@ -64,6 +65,7 @@ def read_recording(
     rate : frames per second of a tracker's file; None: as its times, timecodes or frame numbers show, else 30.
     start : where the stream begins, in seconds of the recording's own times or as one of its timecodes; None: with its
         first row.
+    face : which face of a recording of several: its number in the column of faces, else its place in a frame.
     aspect : landmarks only: the picture's width over its height.
     neutral : landmarks only: seconds from and to which the face is neutral; None: its usual shape is.
     strict : .fba only: refuse any damage.
@@ -90,7 +92,7 @@ def read_recording(
         return Recording(_at(read_fap(path), fps), StreamFormat.FAP)
     if opened.samples is None:
         return Recording(_at(stream_of_document(path, opened.document), fps), StreamFormat.JSON)
-    samples = opened.samples(Told(rate, start, aspect, neutral))
+    samples = opened.samples(Told(rate, start, face, aspect, neutral))
     frames, per_second = samples.evenly(fps)
     stream = FapStream(frames=frames, fps=per_second, name=_name(opened), assumed=samples.assumed)
     return Recording(stream, opened.format, samples.assumed)
@@ -103,6 +105,7 @@ def read_stream(
     fps: float | None = None,
     rate: float | None = None,
     start: float | str | None = None,
+    face: int | None = None,
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
 ) -> FapStream:
@@ -114,7 +117,9 @@ def read_stream(
     >>> api.read_stream("take.csv").frames[:, 19 - 1].round().tolist()  # close_t_l_eyelid
     [0.0, 468.0, 937.0]
     """
-    return read_recording(path, format, fps=fps, rate=rate, start=start, aspect=aspect, neutral=neutral).stream
+    return read_recording(
+        path, format, fps=fps, rate=rate, start=start, face=face, aspect=aspect, neutral=neutral
+    ).stream
 
 
 def read_capture(
@@ -124,6 +129,7 @@ def read_capture(
     fps: float | None = None,
     rate: float | None = None,
     start: float | str | None = None,
+    face: int | None = None,
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
 ) -> FapStream:
@@ -135,7 +141,7 @@ def read_capture(
     >>> len(api.read_capture("still.csv").frames)
     3
     """
-    return read_stream(path, kind, fps=fps, rate=rate, start=start, aspect=aspect, neutral=neutral)
+    return read_stream(path, kind, fps=fps, rate=rate, start=start, face=face, aspect=aspect, neutral=neutral)
 
 
 def write_stream(

@@ -16,7 +16,7 @@ from ...mpeg4.streams.capture.landmark_file import (
 )
 from ...mpeg4.streams.capture.live_link import holds_arkit, read_arkit
 from ...mpeg4.streams.capture.mediapipe_scores import read_scores
-from ...mpeg4.streams.capture.openface import holds_openface, read_openface
+from ...mpeg4.streams.capture.openface import PY_FEAT, holds_openface, holds_py_feat, read_openface
 from .formats import StreamFormat
 from .mediapipe_landmarks import read_landmarks
 
@@ -32,6 +32,7 @@ class Told:
 
     rate: float | None = None
     start: float | str | None = None
+    face: int | None = None
     aspect: float = ASPECT
     neutral: tuple[float, float] | None = None
 
@@ -60,25 +61,33 @@ TABLES: tuple[Tracker[TableFile], ...] = (
         (StreamFormat.FAPS,),
         "FAPs (F03_open_jaw)",
         holds_faps,
-        lambda table, told: read_fap_csv(table, rate=told.rate, start=told.start),
+        lambda table, told: read_fap_csv(table, rate=told.rate, start=told.start, face=told.face),
     ),
     Tracker(
         (StreamFormat.LANDMARKS,),
         "landmarks (x_0)",
         holds_landmarks,
-        lambda table, told: _samples(landmarks_from_csv(table, aspect=told.aspect, rate=told.rate), told),
+        lambda table, told: _samples(
+            landmarks_from_csv(table, aspect=told.aspect, rate=told.rate, face=told.face), told
+        ),
+    ),
+    Tracker(
+        (StreamFormat.PY_FEAT,),
+        "Py-Feat (AU01)",
+        holds_py_feat,
+        lambda table, told: read_openface(table, rate=told.rate, start=told.start, face=told.face, preset=PY_FEAT),
     ),
     Tracker(
         (StreamFormat.OPENFACE,),
         "OpenFace (AU01_r)",
         holds_openface,
-        lambda table, told: read_openface(table, rate=told.rate, start=told.start),
+        lambda table, told: read_openface(table, rate=told.rate, start=told.start, face=told.face),
     ),
     Tracker(
         (StreamFormat.ARKIT, StreamFormat.MEDIAPIPE),
         "ARKit (jawOpen)",
         holds_arkit,
-        lambda table, told: read_arkit(table, rate=told.rate, start=told.start),
+        lambda table, told: read_arkit(table, rate=told.rate, start=told.start, face=told.face),
     ),
 )
 """CSV files, in the order in which they are looked for."""
@@ -88,13 +97,15 @@ RECORDINGS: tuple[Tracker[Frames], ...] = (
         (StreamFormat.MEDIAPIPE, StreamFormat.ARKIT),
         "blend shapes",
         lambda frames: _any_has("blendshapes", frames),
-        lambda frames, told: read_scores(frames, rate=told.rate, start=told.start),
+        lambda frames, told: read_scores(frames, rate=told.rate, start=told.start, face=told.face),
     ),
     Tracker(
         (StreamFormat.LANDMARKS,),
         "landmarks",
         lambda frames: _any_has("landmarks", frames),
-        lambda frames, told: _samples(landmarks_from_json(frames, aspect=told.aspect, rate=told.rate), told),
+        lambda frames, told: _samples(
+            landmarks_from_json(frames, aspect=told.aspect, rate=told.rate, face=told.face), told
+        ),
     ),
 )
 """JSON files with a list of frames, likewise."""

@@ -1,10 +1,13 @@
 """What trackers write, as FAPs: one file per format, by the tables of presets/capture/.
 
 shapes, columns                      mapping tables: blend shapes and action units in FAPs
+shape_names, scores                  what blend shapes are called, and on which scale they are
+faces                                one face of several
 times, rates, timecode               when rows are, and what that assumes: one model for every format
 row_names, stamps                    what tells that in tables, whatever it is called
 samples                              from these times to an even rate
 rotation                             rotations of a head as FAPs 48 to 50
+delimited                            which mark parts the cells of a line, and which the decimals
 table_file, json_file                CSV and JSON, with errors that name line and column or frame
 openface, live_link                  action units with pose and gaze; ARKit blend shapes
 mediapipe_scores, landmark_file      MediaPipe's blend shapes, and its landmarks (`face.tracked` reads FAPs off them)

@@ -7,7 +7,7 @@ gains, so that those that matter decide); else it is unknown, for an absent colu
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
@@ -17,6 +17,7 @@ import numpy as np
 from ....arrays import Floats
 from ....tables import read_toml
 from ...standard import FAP_COUNT
+from .shape_names import side_shares
 from .shapes import CAPTURE_PRESETS, load_shapes
 
 #: A FAP is stated where known columns carry more than this share of its squared gains.
@@ -30,9 +31,11 @@ class ColumnTable:
     Attributes
     ----------
     gains : column, in lower case -> (68,) FAP units per unit of its score; 0 where it says nothing.
+    halves : columns that stand for one side of another: that one, and (68,) the shares of its gains.
     """
 
     gains: Mapping[str, Floats]
+    halves: Mapping[str, tuple[str, Floats]] = field(default_factory=dict)
 
     def frames(self, columns: Mapping[str, Floats]) -> Floats:
         """(T, 68) FAPs of columns (T,), by name in any case; NaN where unknown, as NaN is in a column."""
@@ -41,19 +44,30 @@ class ColumnTable:
         total, seen, all_of_it = np.zeros((count, FAP_COUNT)), np.zeros((count, FAP_COUNT)), np.zeros(FAP_COUNT)
         for name, gain in self.gains.items():
             all_of_it += gain**2
-            if name not in known:
-                continue
-            there = ~np.isnan(known[name])
-            total += np.where(there, known[name], 0.0)[:, None] * gain
-            seen += there[:, None] * gain**2
+            parts = [(name, np.ones(FAP_COUNT))] + [
+                (half, shares) for half, (whole, shares) in self.halves.items() if whole == name and name not in known
+            ]
+            for part, shares in parts:
+                if part in known:
+                    there = ~np.isnan(known[part])
+                    total += np.where(there, known[part], 0.0)[:, None] * (gain * shares)
+                    seen += there[:, None] * (gain**2 * shares)
         stated = (all_of_it > 0.0) & (seen > MOST * all_of_it)
         return np.where(stated, total, np.nan)
 
 
 @lru_cache(maxsize=1)
 def arkit_columns() -> ColumnTable:
-    """The 52 blend shapes by their own names, at scores 0 to 1."""
-    return ColumnTable(_by_lower_name({name: np.nan_to_num(shape.frame) for name, shape in load_shapes().items()}))
+    """The 52 blend shapes, and single sides of those without sides ("browinnerup_l"), at scores from 0 to 1."""
+    shapes = load_shapes()
+    sideless = [name for name in shapes if not name.endswith(("Left", "Right"))]
+    halves = {
+        f"{name.lower()}_{side[0]}": (name.lower(), side_shares(side))
+        for name in sideless
+        for side in ("left", "right")
+    }
+    gains = {name: np.nan_to_num(shape.frame) for name, shape in shapes.items()}
+    return ColumnTable(_by_lower_name(gains), MappingProxyType(halves))
 
 
 @lru_cache(maxsize=8)

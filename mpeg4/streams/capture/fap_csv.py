@@ -6,6 +6,7 @@ F03_open_jaw to F68_pull_r_ear in FAP units (1e-5 rad for angles).
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,10 @@ import numpy as np
 from ....tables import write_csv
 from ...standard import FAP_COUNT, FAPS
 from ..fap_stream import FapStream
+from .faces import one_face
+from .row_names import tells_of_a_row
 from .samples import Samples
+from .scores import unread_words
 from .stamps import table_times
 from .table_file import TableFile
 
@@ -46,16 +50,21 @@ def holds_faps(table: TableFile) -> bool:
     return any(name in table for name in COLUMNS.values())
 
 
-def read_fap_csv(table: TableFile, *, rate: float | None = None, start: float | str | None = None) -> Samples:
+def read_fap_csv(
+    table: TableFile, *, rate: float | None = None, start: float | str | None = None, face: int | None = None
+) -> Samples:
     """The samples of a CSV of FAPs.
 
     Raises
     ------
     FormatError : a cell that is no number, or times that do not rise.
     """
+    table = one_face(table, face)
     frames = np.full((len(table.rows), FAP_COUNT), np.nan)
     for number, name in COLUMNS.items():
         if name in table:
             frames[:, number - 1] = table.numbers(name)
     times = table_times(table, rate)
-    return Samples.at_times(times, frames[times.rows], start=start)
+    others = [name for name in table.columns if name not in COLUMNS.values() and not tells_of_a_row(name)]
+    said = (*times.assumed, *unread_words(others))
+    return Samples.at_times(replace(times, assumed=said), frames[times.rows], start=start)

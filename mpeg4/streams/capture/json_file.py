@@ -16,9 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from ....errors import FormatError
+from ....errors import FormatError, ParameterError
 from ....files import read_bytes
 from ....tables import parsed_number
+from .delimited import decoded
 from .row_names import NUMBER_NAMES, RATE_NAMES, first_named, time_named
 from .timecode import date_seconds, is_timecode, timecode_stamps
 from .times import Stamps, Times, placed
@@ -105,10 +106,9 @@ def _stated_rate(document: Any) -> float | None:
 def read_json_document(path: str | Path) -> Any:
     """The whole file as JSON, or the list of its lines in JSON Lines; errors as `read_json_frames`."""
     file = Path(path)
-    try:
-        text = read_bytes(file).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
+    text = decoded(read_bytes(file))
+    if text is None:
+        raise FormatError(file, "is not UTF-8 text: save it as UTF-8")
     try:
         return json.loads(text)
     except (json.JSONDecodeError, RecursionError) as error:
@@ -158,6 +158,26 @@ def json_times(frames: list[JsonFrame], rate: float | None = None) -> Times:
         seconds = np.array([_seconds(frame, name) for frame in frames])
         stamps = replace(stamps, seconds=seconds, unit=unit)
     return placed(stamps, rate)
+
+
+def chosen_face(frames: list[JsonFrame], counts: list[int], face: int | None) -> int:
+    """Which of several faces is read, from 0 on.
+
+    Parameters
+    ----------
+    counts : faces of each frame.
+
+    Raises
+    ------
+    FormatError : several and none chosen; says how many. ParameterError : there is no such face.
+    """
+    most = max(counts, default=0)
+    if face is None and most > 1:
+        where = counts.index(most)
+        raise frames[where].refuse("faces", f"contains {most} faces: choose one (--face 0 to {most - 1})")
+    if face is not None and face not in range(max(most, 1)):
+        raise ParameterError("face", f"must be in 0..{max(most, 1) - 1}", face)
+    return face or 0
 
 
 def _number(frame: JsonFrame, name: str) -> float:

@@ -16,8 +16,9 @@ import numpy as np
 
 from ....arrays import Floats, Ints
 from ....errors import FormatError, ParameterError
-from .json_file import JsonFrame, json_times
-from .row_names import NUMBER_NAMES, first_named, time_named
+from .faces import one_face
+from .json_file import JsonFrame, chosen_face, json_times
+from .row_names import FACE_NAMES, NUMBER_NAMES, first_named, time_named
 from .stamps import table_times
 from .table_file import TableFile
 from .times import Times
@@ -27,7 +28,7 @@ NORMALISED = 4.0
 
 COLUMN = re.compile(r"(?:.*[_\W])?(?:([xyz])_?(\d+)|(\d+)_?([xyz]))", re.IGNORECASE)
 INDEX_NAMES = ("landmark", "landmark_id", "landmark_index", "index", "id")
-FEWEST, MOST = 468, 1000
+FEWEST, MOST, MOST_FACES = 468, 1000, 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +48,9 @@ class Landmarks:
     rows: Times | None = None
 
 
-def landmarks_from_json(frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, rate: float | None = None) -> Landmarks:
+def landmarks_from_json(
+    frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, rate: float | None = None, face: int | None = None
+) -> Landmarks:
     """The landmarks of a JSON file.
 
     Parameters
@@ -59,7 +62,11 @@ def landmarks_from_json(frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, 
     ------
     FormatError : no landmarks; an entry that is none: names the frame and the landmark.
     """
-    listed = [_listed(frame) for frame in frames]
+    faces = [_faces(frame) for frame in frames]
+    chosen = chosen_face(frames, [len(found) for found in faces], face)
+    listed = [
+        _listed(frame, found[chosen]) if chosen < len(found) else [] for frame, found in zip(frames, faces, strict=True)
+    ]
     count = max((len(entries) for entries in listed), default=0)
     if count < FEWEST:
         problem = f"has {count} landmarks per frame, but a face mesh has {FEWEST} or more: is this the right file?"
@@ -76,19 +83,33 @@ def landmarks_from_json(frames: list[JsonFrame], *, aspect: float = 16.0 / 9.0, 
     return Landmarks(times.seconds, _upright(raw, aspect)[times.rows], times)
 
 
-def _listed(frame: JsonFrame) -> list[Any]:
-    """The landmarks of the one face of a frame; none where no face was seen."""
+def _faces(frame: JsonFrame) -> list[Any]:
+    """The landmarks of each face of a frame; none where no face was seen."""
     found = frame.entry("landmarks")
+    while isinstance(found, list) and len(found) == 1:
+        found = found[0]
+    if found is None:
+        return []
+    if isinstance(found, list) and len(found) <= MOST_FACES and all(_is_face(face) for face in found):
+        return found
+    return [found]
+
+
+def _is_face(value: Any) -> bool:
+    """Whether a value is the landmarks of one face of several."""
+    if isinstance(value, dict):
+        value = value.get("landmark", value.get("landmarks"))
+    return isinstance(value, list) and len(value) >= FEWEST
+
+
+def _listed(frame: JsonFrame, found: Any) -> list[Any]:
+    """The landmarks of one face."""
     while isinstance(found, list) and len(found) == 1:
         found = found[0]
     if isinstance(found, dict):
         found = found.get("landmark", found.get("landmarks"))
-    if found is None:
-        return []
     if not isinstance(found, list):
         raise frame.refuse("landmarks", "must be a list")
-    if len(found) <= 16 and all(isinstance(face, list) and len(face) >= FEWEST for face in found):
-        raise frame.refuse("landmarks", f"contain {len(found)} faces: keep one face")
     return found
 
 
@@ -108,9 +129,15 @@ def holds_landmarks(table: TableFile) -> bool:
     return _is_long(table) or len(_wide_columns(table)) >= 3 * FEWEST
 
 
-def landmarks_from_csv(table: TableFile, *, aspect: float = 16.0 / 9.0, rate: float | None = None) -> Landmarks:
+def landmarks_from_csv(
+    table: TableFile, *, aspect: float = 16.0 / 9.0, rate: float | None = None, face: int | None = None
+) -> Landmarks:
     """The landmarks of a CSV file; parameters and errors as `landmarks_from_json`."""
-    raw, first = _long(table) if _is_long(table) else (_wide(table), np.arange(len(table.rows)))
+    if _is_long(table):
+        table, raw, first = _long(table, face)
+    else:
+        table = one_face(table, face)
+        raw, first = _wide(table), np.arange(len(table.rows))
     times = table_times(table.only(first), rate)
     return Landmarks(times.seconds, _upright(raw, aspect)[times.rows], times)
 
@@ -144,27 +171,49 @@ def _is_long(table: TableFile) -> bool:
     return all(axis in table for axis in "xyz") and any(name in table for name in INDEX_NAMES)
 
 
-def _long(table: TableFile) -> tuple[Floats, Ints]:
-    """(T, N, 3) landmarks of a table with a row per landmark, and the (T,) first row of each frame."""
+def _long(table: TableFile, face: int | None) -> tuple[TableFile, Floats, Ints]:
+    """One face of a table with a row per landmark, its (T, N, 3) landmarks and the (T,) first row of each frame."""
+    table = one_face(table, face) if first_named(table.columns, FACE_NAMES) is not None else table
     which = table.numbers(next(name for name in INDEX_NAMES if name in table))
-    named = first_named(table.columns, NUMBER_NAMES), time_named(table.columns)
-    name = named[0] or (named[1][0] if named[1] is not None else None)
-    frames = table.texts(name) if name is not None else ["0"] * len(which)
-    places: dict[str, int] = {}
+    frames = _frame_texts(table)
     for row, (landmark, frame) in enumerate(zip(which, frames, strict=True)):
         if not (0 <= landmark < MOST and landmark == int(landmark) and frame):
             raise FormatError(table.path, "must name its frame and its landmark (0, 1, ...)", line=table.lines[row])
-        places.setdefault(frame, row)
-    order = {frame: place for place, frame in enumerate(places)}
     count = int(which.max()) + 1
     if count < FEWEST:
         raise FormatError(table.path, f"has {count} landmarks per frame, but a face mesh has {FEWEST} or more")
-    if count * len(order) > 2 * len(which) + MOST:
+    order = {frame: place for place, frame in enumerate(dict.fromkeys(frames))}
+    place, mark = np.array([order[frame] for frame in frames]), which.astype(np.int64)
+    of_face = _which_time(place * MOST + mark)
+    several = int(of_face.max()) + 1
+    if several > 1 and face is None:
+        problem = f"contains up to {several} faces in one frame: choose one (--face 0 to {several - 1})"
+        raise FormatError(table.path, problem, line=table.lines[int((of_face == 1).argmax())])
+    if face is not None and first_named(table.columns, FACE_NAMES) is None and face not in range(several):
+        raise ParameterError("face", f"must be in 0..{several - 1}", face)
+    if count * len(order) * several > 2 * len(which) + MOST * several:
         raise FormatError(table.path, "has frames with most landmarks missing: correct the column of frames")
+    own = of_face == (face if face is not None and several > 1 else 0)
     raw = np.full((len(order), count, 3), np.nan)
-    place = np.array([order[frame] for frame in frames])
-    raw[place, which.astype(np.int64)] = np.stack([table.numbers(axis) for axis in "xyz"], axis=1)
-    return raw, np.array(list(places.values()), dtype=np.int64)
+    raw[place[own], mark[own]] = np.stack([table.numbers(axis) for axis in "xyz"], axis=1)[own]
+    return table, raw, np.array([int((place == frame).argmax()) for frame in range(len(order))], dtype=np.int64)
+
+
+def _frame_texts(table: TableFile) -> list[str]:
+    """What tells the frame of each row: its number, else its time; one frame where neither does."""
+    number, named = first_named(table.columns, NUMBER_NAMES), time_named(table.columns)
+    name = number or (named[0] if named is not None else None)
+    return table.texts(name) if name is not None else ["0"] * len(table.rows)
+
+
+def _which_time(keys: Ints) -> Ints:
+    """(T,) how often each key has been there before."""
+    order = np.argsort(keys, kind="stable")
+    first = np.r_[True, np.diff(keys[order]) != 0]
+    begins = np.maximum.accumulate(np.where(first, np.arange(len(keys)), 0))
+    times = np.empty(len(keys), dtype=np.int64)
+    times[order] = np.arange(len(keys)) - begins
+    return times
 
 
 def _upright(raw: Floats, aspect: float) -> Floats:

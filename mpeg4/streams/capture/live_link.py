@@ -7,15 +7,20 @@ right shoulder) and stand in presets/capture/live_link.toml, for versions of the
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from ....arrays import Bools, Floats
 from ....errors import FormatError
-from ....tables import read_toml
-from .columns import arkit_columns
+from ....tables import TomlTable, read_toml
+from .faces import one_face
+from .row_names import tells_of_a_row
 from .samples import Samples
+from .scores import faps_of_scores, unread_words
+from .shape_names import means_nothing, shape_named
 from .shapes import CAPTURE_PRESETS, fap_frame
 from .stamps import table_times
 from .table_file import TableFile
@@ -26,33 +31,46 @@ COUNT = "BlendShapeCount"
 
 def holds_arkit(table: TableFile) -> bool:
     """Whether a CSV has columns of ARKit's blend shapes."""
-    return any(name in table for name in arkit_columns().gains)
+    return any(shape_named(name) is not None for name in table.columns)
 
 
 def read_arkit(
-    table: TableFile, *, rate: float | None = None, start: float | str | None = None, preset: Path | None = None
+    table: TableFile,
+    *,
+    rate: float | None = None,
+    start: float | str | None = None,
+    face: int | None = None,
+    preset: Path | None = None,
 ) -> Samples:
     """The samples of a table of ARKit blend shapes.
 
     Parameters
     ----------
-    rate, start : see `times.placed` and `times.Times.since_first`.
+    rate, start : see `times.placed` and `times.Times.since_first`. face : see `faces.one_face`.
     preset : the table of rotations; by default presets/capture/live_link.toml.
 
     Raises
     ------
-    FormatError : no column of a blend shape; a timecode that is none; times that do not rise.
+    FormatError : no column of a blend shape; a score that is none; a timecode that is none; times that do not rise.
     """
-    columns = arkit_columns()
-    scores = table.several(name for name in table.columns if name.lower() in columns.gains)
-    if not scores:
+    table = one_face(table, face)
+    rotations = read_toml(preset or CAPTURE_PRESETS / "live_link.toml")
+    turns, silent = rotations.tables("rotations"), {name.lower() for name in rotations.texts("silent")}
+    turned = {name.lower() for name in turns} | silent
+    shapes = [name for name in table.columns if shape_named(name) is not None]
+    others = [
+        name
+        for name in table.columns
+        if name not in shapes and name.lower() not in turned and not tells_of_a_row(name) and not means_nothing(name)
+    ]
+    if not shapes:
         raise FormatError(table.path, "has no column of an ARKit blend shape, such as jawOpen", line=1)
-    frames = columns.frames(scores)
-    turned = _rotations(table, preset or CAPTURE_PRESETS / "live_link.toml")
-    frames = np.where(np.isnan(frames), turned, frames)
+    frames, assumed, unread = faps_of_scores(table.several(shapes), table.refusal)
+    frames = np.where(np.isnan(frames), _rotations(table, turns), frames)
     frames[_faceless(table)] = np.nan
     times = table_times(table, rate)
-    return Samples.at_times(times, frames[times.rows], start=start)
+    said = (*times.assumed, *assumed, *unread_words([*others, *unread]))
+    return Samples.at_times(replace(times, assumed=said), frames[times.rows], start=start)
 
 
 def _faceless(table: TableFile) -> Bools:
@@ -62,10 +80,10 @@ def _faceless(table: TableFile) -> Bools:
     return np.asarray(table.numbers(COUNT) <= 0.0)
 
 
-def _rotations(table: TableFile, preset: Path) -> Floats:
+def _rotations(table: TableFile, turns: Mapping[str, TomlTable]) -> Floats:
     """(T, 68) FAPs of the columns of rotations; NaN elsewhere."""
     frames = np.full((len(table.rows), 68), np.nan)
-    for name, row in read_toml(preset).tables("rotations").items():
+    for name, row in turns.items():
         if name not in table:
             continue
         gains = fap_frame(row)

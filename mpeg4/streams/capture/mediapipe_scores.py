@@ -6,51 +6,77 @@ Tables of them in CSV are read as any table of ARKit blend shapes (`live_link`).
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ....arrays import Floats
 from ....errors import FormatError
-from .columns import arkit_columns
-from .json_file import JsonFrame, json_times
+from .json_file import JsonFrame, chosen_face, json_times
 from .rotation import head_faps
 from .samples import Samples
+from .scores import faps_of_scores, unread_words
+from .shape_names import means_nothing, shape_named
 
 SCORE_NAMES = ("category_name", "categoryName", "displayName", "name")
 
 
-def read_scores(frames: list[JsonFrame], *, rate: float | None = None, start: float | str | None = None) -> Samples:
+def read_scores(
+    frames: list[JsonFrame],
+    *,
+    rate: float | None = None,
+    start: float | str | None = None,
+    face: int | None = None,
+) -> Samples:
     """The samples of frames with blend shapes, and the head's pose where they have a transformation matrix.
+
+    Parameters
+    ----------
+    rate, start : see `times.placed` and `times.Times.since_first`. face : which of several, from 0 on.
 
     Raises
     ------
-    FormatError : no frame has blend shapes, or an entry that is none: names the frame.
+    FormatError : no frame has blend shapes, or an entry that is none: names the frame. Several faces: says how many.
+    ParameterError : there is no such face.
     """
-    scores = [_scores(frame) for frame in frames]
-    known = {name for score in scores for name in score} & set(arkit_columns().gains)
-    if not known:
+    faces = [_faces(frame) for frame in frames]
+    chosen = chosen_face(frames, [len(found) for found in faces], face)
+    scores = [
+        _scores(frame, found[chosen]) if chosen < len(found) else {} for frame, found in zip(frames, faces, strict=True)
+    ]
+    names = dict.fromkeys(name for score in scores for name in score)
+    if not any(shape_named(name) for name in names):
         raise FormatError(
             frames[0].path, "has no blend shapes with ARKit's names: turn on output_face_blendshapes in MediaPipe"
         )
-    columns = {name: np.array([score.get(name, math.nan) for score in scores]) for name in known}
-    values = arkit_columns().frames(columns)
-    values[:, 47:50] = head_faps(np.stack([rotation_of(frame) for frame in frames]))
+    columns = {
+        name: np.array([score.get(name, math.nan) for score in scores]) for name in names if not means_nothing(name)
+    }
+    values, assumed, unread = faps_of_scores(columns, lambda row, name, problem: frames[row].refuse(name, problem))
+    values[:, 47:50] = head_faps(np.stack([rotation_of(frame, chosen) for frame in frames]))
     times = json_times(frames, rate)
-    return Samples.at_times(times, values[times.rows], start=start)
+    said = (*times.assumed, *assumed, *unread_words(unread))
+    return Samples.at_times(replace(times, assumed=said), values[times.rows], start=start)
 
 
-def _scores(frame: JsonFrame) -> dict[str, float]:
-    """Score by name in lower case; empty where no face was seen."""
+def _faces(frame: JsonFrame) -> list[Any]:
+    """The blend shapes of each face of a frame; none where no face was seen."""
     found: Any = frame.entry("blendshapes")
-    while isinstance(found, list) and len(found) == 1 and not _is_score(found[0]):
-        found = found[0]
+    if found is None:
+        return []
+    if isinstance(found, list) and not any(_is_score(entry) for entry in found):
+        several = [face for face in found if isinstance(face, list) or (isinstance(face, dict) and "score" not in face)]
+        return several if len(several) == len(found) else [found]
+    return [found]
+
+
+def _scores(frame: JsonFrame, found: Any) -> dict[str, float]:
+    """Score by name of one face."""
     if isinstance(found, dict) and isinstance(found.get("categories"), list):
         found = found["categories"]
-    if found is None:
-        return {}
-    if isinstance(found, dict):
-        return {str(name).lower(): frame.number_at(f"blendshapes.{name}", score) for name, score in found.items()}
+    if isinstance(found, dict) and not _is_score(found):
+        return {str(name): frame.number_at(f"blendshapes.{name}", score) for name, score in found.items()}
     if not isinstance(found, list):
         raise frame.refuse("blendshapes", "must be an object of name and score, or a list of categories")
     scores = {}
@@ -58,7 +84,7 @@ def _scores(frame: JsonFrame) -> dict[str, float]:
         if not isinstance(entry, dict) or not _is_score(entry):
             raise frame.refuse("blendshapes", f"must contain a name and a score, but it contains {str(entry)[:40]!r}")
         name = next(str(entry[key]) for key in SCORE_NAMES if entry.get(key))
-        scores[name.lower()] = frame.number_at(f"blendshapes.{name}", entry["score"])
+        scores[name] = frame.number_at(f"blendshapes.{name}", entry["score"])
     return scores
 
 
@@ -67,13 +93,23 @@ def _is_score(entry: Any) -> bool:
     return isinstance(entry, dict) and "score" in entry and any(entry.get(key) for key in SCORE_NAMES)
 
 
-def rotation_of(frame: JsonFrame) -> Floats:
+def _is_matrix(value: Any) -> bool:
+    """Whether a value is one of several matrices, not a row of one."""
+    return isinstance(value, dict) or (
+        isinstance(value, list)
+        and (len(value) == 16 or (isinstance(value[:1], list) and len(value) == 4 and isinstance(value[0], list)))
+    )
+
+
+def rotation_of(frame: JsonFrame, face: int = 0) -> Floats:
     """(3, 3) rotation of the head in left, up and forward; NaN where the frame has no transformation matrix.
 
     MediaPipe's matrix carries its face model (x to the subject's left, y up, z out of the face) before a camera that
     looks along -z: the axes of the head. Python's API gives it by rows, JavaScript's by columns.
     """
     matrix: Any = frame.entry("matrix")
+    if isinstance(matrix, list) and len(matrix) > 1 and all(_is_matrix(one) for one in matrix):
+        matrix = matrix[face] if face < len(matrix) else None
     while isinstance(matrix, list) and len(matrix) == 1:
         matrix = matrix[0]
     if isinstance(matrix, dict):

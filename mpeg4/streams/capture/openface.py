@@ -1,20 +1,30 @@
-"""OpenFace 2: CSV of action unit intensities, head pose and gaze.
+"""OpenFace 2 and Py-Feat: CSV of action unit intensities; of OpenFace head pose and gaze, too.
 
-Its axes are the camera's: x to the right of the image (the subject's left), y down, z away from the camera; angles in
-rad, rotations Rx Ry Rz, right-handed in these axes. Source: OpenFace's page "Output Format" and the code that makes
-its rotations (RotationHelpers.h).
+OpenFace's axes are the camera's: x to the right of the image (the subject's left), y down, z away from the camera;
+angles in rad, rotations Rx Ry Rz, right-handed in these axes. Source: OpenFace's page "Output Format" and the code that
+makes its rotations (RotationHelpers.h).
 """
 
 from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
 from ....arrays import Floats
 from ....errors import FormatError
+from ....tables import read_toml
 from ...standard import ANGLE_UNIT, FAP_COUNT
 from .columns import load_columns
+from .faces import one_face
 from .rotation import euler_matrix, head_faps, in_head_axes
+from .row_names import tells_of_a_row
 from .samples import Samples
+from .scores import unread_words
+from .shapes import CAPTURE_PRESETS
 from .stamps import table_times
 from .table_file import TableFile
 
@@ -26,6 +36,8 @@ CAMERA_AXES: Floats = np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1
 
 POSE = ("pose_Rx", "pose_Ry", "pose_Rz")
 GAZE = ("gaze_angle_x", "gaze_angle_y")
+CONFIDENCES = ("confidence", "FaceScore")
+OPENFACE, PY_FEAT = CAPTURE_PRESETS / "openface.toml", CAPTURE_PRESETS / "py_feat.toml"
 #: FAPs 23 to 26 by column: the right eye is gaze_0, which lies to the left of the image.
 EYES = ((24, 26, "gaze_0"), (23, 25, "gaze_1"))
 
@@ -35,38 +47,66 @@ def holds_openface(table: TableFile) -> bool:
     return "pose_Rx" in table or any(name in table for name in load_columns().gains)
 
 
+def holds_py_feat(table: TableFile) -> bool:
+    """Whether a CSV has columns of Py-Feat."""
+    return any(name in table for name in load_columns(PY_FEAT).gains)
+
+
 def read_openface(
-    table: TableFile, *, rate: float | None = None, start: float | str | None = None, sure: float = SURE
+    table: TableFile,
+    *,
+    rate: float | None = None,
+    start: float | str | None = None,
+    face: int | None = None,
+    sure: float = SURE,
+    preset: Path = OPENFACE,
 ) -> Samples:
-    """The samples of an OpenFace CSV.
+    """The samples of a CSV of OpenFace, or of Py-Feat.
 
     Parameters
     ----------
-    rate, start : see `times.placed` and `times.Times.since_first`.
+    rate, start : see `times.placed` and `times.Times.since_first`. face : see `faces.one_face`.
     sure : frames below this confidence, and those without success, are unknown.
+    preset : the table of columns.
 
     Raises
     ------
-    FormatError : no action units and no pose; several faces; times that do not rise.
+    FormatError : no action units and no pose; an intensity that is none; several faces; times that do not rise.
     """
-    columns = load_columns()
+    table, columns = one_face(table, face), load_columns(preset)
     scores = table.several(name for name in table.columns if name.lower() in columns.gains)
     if not scores and not all(name in table for name in POSE):
         raise FormatError(table.path, "has neither AUxx_r columns nor pose_Rx: run FeatureExtraction with -aus", line=1)
-    if "face_id" in table and len(set(table.texts("face_id"))) > 1:
-        raise FormatError(table.path, "contains several faces (face_id): keep the rows of one face")
-    frames = np.full((len(table.rows), FAP_COUNT), np.nan)
-    if scores:
-        frames = columns.frames(scores)
+    _check_range(table, scores, read_toml(preset).number("most", above=0.0))
+    frames = columns.frames(scores) if scores else np.full((len(table.rows), FAP_COUNT), np.nan)
     pose = in_head_axes(_rotations(table), CAMERA_AXES)
     frames[:, 47:50] = head_faps(pose)
     frames[:, 22:26] = _gaze(table, pose)
-    if "confidence" in table:
-        frames[~(table.numbers("confidence") >= sure)] = np.nan
+    for name in CONFIDENCES:
+        if name in table:
+            frames[~(table.numbers(name) >= sure)] = np.nan
     if "success" in table:
         frames[~(table.numbers("success") > 0.0)] = np.nan
     times = table_times(table, rate)
-    return Samples.at_times(times, frames[times.rows], start=start)
+    said = (*times.assumed, *unread_words(_unread(table, scores, preset)))
+    return Samples.at_times(replace(times, assumed=said), frames[times.rows], start=start)
+
+
+def _check_range(table: TableFile, scores: Mapping[str, Floats], most: float) -> None:
+    """Refuse intensities that no tracker writes."""
+    for name, values in scores.items():
+        with np.errstate(invalid="ignore"):
+            beyond = np.flatnonzero((values > most) | (values < -most))
+        if len(beyond):
+            problem = f"must be an intensity of at most {most:g}, but it is {values[beyond[0]]:g}: correct or remove it"
+            raise table.refusal(int(beyond[0]), name, problem)
+
+
+def _unread(table: TableFile, scores: Mapping[str, Floats], preset: Path) -> list[str]:
+    """Columns that the format does not have, or that state something which is not read."""
+    silent = [re.compile(pattern, re.IGNORECASE) for pattern in read_toml(preset).texts("silent")]
+    others = (name for name in table.columns if name not in scores and not tells_of_a_row(name))
+    return [name for name in others if not any(pattern.fullmatch(name) for pattern in silent)]
 
 
 def _rotations(table: TableFile) -> Floats:

@@ -12,8 +12,8 @@ import numpy as np
 
 from ....arrays import Floats, Ints
 from ....errors import FormatError
-from ....files import read_bytes
-from ....tables import numbered_lines, parsed_number, row_cells, split_cells
+from ....tables import parsed_number
+from .delimited import cells_of, has_decimal_commas, lines_and_mark, read_text
 from .row_names import tells_of_a_row
 
 #: What trackers write for "no value".
@@ -28,12 +28,14 @@ class TableFile:
     ----------
     path : the file. columns : names as in the heading, without blanks around them.
     rows : cells of each row, as many as there are columns. lines : 1-based line of each row.
+    decimal_commas : whether numbers have commas before their decimals.
     """
 
     path: Path
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     lines: tuple[int, ...]
+    decimal_commas: bool = False
 
     def __contains__(self, name: str) -> bool:
         return name.lower() in self._places
@@ -43,7 +45,13 @@ class TableFile:
         if len(rows) == len(self.rows):
             return self
         chosen = [(self.rows[row], self.lines[row]) for row in rows]
-        return TableFile(self.path, self.columns, tuple(row for row, _ in chosen), tuple(line for _, line in chosen))
+        return TableFile(
+            self.path,
+            self.columns,
+            tuple(row for row, _ in chosen),
+            tuple(line for _, line in chosen),
+            self.decimal_commas,
+        )
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -75,11 +83,15 @@ class TableFile:
         """One cell."""
         if text.lower() in UNKNOWN:
             return math.nan
-        value = parsed_number(text)
+        value = parsed_number(text.replace(".", "").replace(",", ".") if self.decimal_commas else text)
         if value is None or not math.isfinite(value):
             problem = f"must be a number, but it is {text[:40]!r}"
             raise FormatError(self.path, problem, line=self.lines[row], column=name)
         return float(value)
+
+    def refusal(self, row: int, name: str, problem: str) -> FormatError:
+        """The error for one cell."""
+        return FormatError(self.path, problem, line=self.lines[row], column=name)
 
     def several(self, names: Iterable[str]) -> dict[str, Floats]:
         """Those of the named columns that the file has."""
@@ -87,39 +99,34 @@ class TableFile:
 
 
 def read_table_file(path: str | Path) -> TableFile:
-    """A CSV file (comma, semicolon or tab; UTF-8 or Latin-1), with its heading in the first line that says something.
+    """A table as text, with its heading in the first line that says something; see `delimited`.
 
     Raises
     ------
     FormatError : names the file, the line and the remedy.
     """
     file = Path(path)
-    lines = numbered_lines(_text(file))
+    lines, mark = lines_and_mark(read_text(file))
     if not lines:
         raise FormatError(file, "is empty: it must begin with a line of column names")
     if len(lines) == 1:
         raise FormatError(file, "has a heading but no rows: nothing was recorded")
-    mark = max(",;\t", key=lines[0][1].count)
-    columns = tuple(split_cells(file, *lines[0], separator=mark))
-    rows = tuple(_row(file, columns, *line, separator=mark) for line in lines[1:])
-    return TableFile(file, columns, rows, tuple(number for number, _ in lines[1:]))
+    (_, heading), *others = cells_of(file, lines, mark)
+    rows = tuple(_row(file, tuple(heading), number, cells) for number, cells in others)
+    return TableFile(file, tuple(heading), rows, tuple(number for number, _ in others), has_decimal_commas(rows))
 
 
-def _row(file: Path, columns: tuple[str, ...], number: int, line: str, *, separator: str) -> tuple[str, ...]:
-    """The cells of one line; a line that ends before anything that was seen in its frame, states nothing of that."""
-    cells = split_cells(file, number, line, separator=separator)
-    stated = sum(1 for cell in cells if cell)
-    if len(cells) < len(columns) and stated and all(tells_of_a_row(name) for name in columns[: len(cells)]):
-        return (*cells, *[""] * (len(columns) - len(cells)))
-    return row_cells(file, len(columns), number, line, separator=separator)
-
-
-def _text(file: Path) -> str:
-    """The file's text."""
-    data = read_bytes(file)
-    if b"\0" in data:
-        raise FormatError(file, "is binary, not a CSV file", offset=data.index(b"\0"))
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("latin-1")
+def _row(file: Path, columns: tuple[str, ...], number: int, cells: list[str]) -> tuple[str, ...]:
+    """As many cells as there are columns; a row that ends before all that was seen in its frame states none of it."""
+    count = len(columns)
+    while len(cells) > count and cells[-1] == "":
+        cells.pop()
+    if len(cells) < count and any(cells) and all(tells_of_a_row(name) for name in columns[: len(cells)]):
+        return (*cells, *[""] * (count - len(cells)))
+    if len(cells) == count:
+        return tuple(cells)
+    if len(cells) >= 2 * count - 1 and count > 1:
+        remedy = "if decimals have commas, separate the columns with semicolons"
+    else:
+        remedy = "is the file cut off here?"
+    raise FormatError(file, f"has {len(cells)} cells, but the heading has {count}: {remedy}", line=number)

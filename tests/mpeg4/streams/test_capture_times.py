@@ -17,11 +17,12 @@ OPEN = api.load_shapes()["jawOpen"].frame[2]
 
 @pytest.fixture
 def take(tmp_path: Path) -> Write:
-    """A table with the named columns of time, whose jaw opens by a thousandth from row to row."""
+    """A table with the named columns of time, whose jaw opens by a ten-thousandth from row to row."""
 
     def write(columns: dict[str, Sequence[object]], *, shape: str = "jawOpen") -> Path:
         count = len(next(iter(columns.values())))
-        rows = [",".join([*(str(column[row]) for column in columns.values()), f"{row / 1000}"]) for row in range(count)]
+        values = [[str(column[row]) for column in columns.values()] for row in range(count)]
+        rows = [",".join([*cells, f"{row / 10000}"]) for row, cells in enumerate(values)]
         path = tmp_path / "take.csv"
         path.write_text("\n".join([",".join([*columns, shape]), *rows]) + "\n")
         return path
@@ -43,7 +44,7 @@ def gaps(stream: api.FapStream) -> list[int]:
 
 def rows_of(stream: api.FapStream) -> list[float]:
     """Which row of the file each frame is."""
-    return [round(float(value), 6) for value in stream.frames[:, 2] / OPEN * 1000]
+    return [round(float(value), 6) for value in stream.frames[:, 2] / OPEN * 10000]
 
 
 # ---- timecodes -----------------------------------------------------------------------------------------
@@ -214,7 +215,7 @@ def test_the_jitter_of_a_webcam_keeps_the_usual_rate_and_the_times(take: Write) 
     stream = api.read_stream(take({"timestamp": [f"{time:.5f}" for time in times - times[0]]}))
     assert stream.fps == 30.0
     expected = np.interp(np.arange(len(stream.frames)) / 30, times - times[0], np.arange(200.0))
-    np.testing.assert_allclose(stream.frames[:, 2] / OPEN * 1000, expected, atol=0.01)
+    np.testing.assert_allclose(stream.frames[:, 2] / OPEN * 10000, expected, atol=0.01)
 
 
 def test_a_row_without_a_time_is_left_out_and_one_that_falls_back_is_refused(take: Write) -> None:

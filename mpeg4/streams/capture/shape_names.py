@@ -1,0 +1,84 @@
+"""What trackers and engines call ARKit's blend shapes: one place for every format.
+
+"eyeBlinkLeft", "EyeBlinkLeft", "eyeBlink_L", "eye_blink_left", "blendShapes.EyeBlinkLeft", "Head|eyeBlink.L" are one
+shape. A shape without sides may be given for one of them ("browInnerUp_L"): then it stands for that side's motion.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from ....arrays import Floats
+from ...standard import FAP_COUNT, FAPS
+from .row_names import plain_name
+from .shapes import load_shapes
+
+#: What stands before a shape's name, and behind it, beside the object that it is of.
+BEFORE = ("blendshapes", "blendshape", "blend", "bs", "arkit", "shape", "face", "morph", "weight", "value")
+BEHIND = ("value", "weight", "score", "coefficient")
+SIDES = {"l": "left", "r": "right", "left": "left", "right": "right"}
+
+#: Names that stand for nothing that moves.
+NOTHING = ("neutral", "basis", "default")
+
+
+@dataclass(frozen=True)
+class Named:
+    """A column that is a blend shape: its name in arkit.toml in lower case, and a side where the shape has none."""
+
+    shape: str
+    side: str | None = None
+
+
+@lru_cache(maxsize=1)
+def _known() -> frozenset[str]:
+    """The names of arkit.toml in lower case."""
+    return frozenset(name.lower() for name in load_shapes())
+
+
+@lru_cache(maxsize=4096)
+def shape_named(name: str) -> Named | None:
+    """The blend shape that a name means; None where it means none."""
+    parts = [part for part in re.split(r"[.:/|>]+", name.strip()) if part.strip()]
+    if len(parts) > 1 and plain_name(parts[-1]) in SIDES:
+        parts = [*parts[:-2], parts[-2] + "_" + parts[-1]]
+    plain = plain_name(parts[-1]) if parts else ""
+    for stem in _stems(plain):
+        if stem in _known():
+            return Named(stem)
+        for mark, side in SIDES.items():
+            if stem.endswith(mark):
+                whole = stem.removesuffix(mark)
+                if whole + side in _known():
+                    return Named(whole + side)
+                if whole in _known():
+                    return Named(whole, side)
+            if len(mark) > 1 and stem.startswith(mark) and stem.removeprefix(mark) + side in _known():
+                return Named(stem.removeprefix(mark) + side)
+    return None
+
+
+def means_nothing(name: str) -> bool:
+    """Whether a name stands for a face at rest."""
+    return plain_name(name) in NOTHING
+
+
+def _stems(plain: str) -> list[str]:
+    """A plain name, and what it is without what stands before or behind."""
+    stems = [plain]
+    stems += [stem.removeprefix(before) for stem in stems for before in BEFORE if stem.startswith(before)]
+    return stems + [stem.removesuffix(behind) for stem in stems for behind in BEHIND if stem.endswith(behind)]
+
+
+def side_shares(side: str) -> Floats:
+    """(68,) how much of a shape without sides one side has of each FAP: all of its own, half of those of the middle."""
+    own, other = ("_l_", "_r_") if side == "left" else ("_r_", "_l_")
+    shares = np.full(FAP_COUNT, 0.5)
+    for number, fap in FAPS.items():
+        name = f"_{fap.name}_"
+        shares[number - 1] = 1.0 if own in name else 0.0 if other in name else 0.5
+    return shares

@@ -1,0 +1,178 @@
+"""What files hold: names in every habit, scales, several faces, and what is not read."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from risorius import api
+from risorius.errors import FormatError, ParameterError
+
+SHAPES = api.load_shapes()
+
+
+def read(path: Path, text: str, **options: object) -> api.FapStream:
+    """The stream of a file with that text."""
+    path.write_text(text)
+    return api.read_stream(path, **options)  # type: ignore[arg-type]
+
+
+def table(path: Path, columns: dict[str, object], count: int = 3, **options: object) -> api.FapStream:
+    """The stream of a table whose columns each have one value."""
+    rows = [",".join([f"{0.04 * n:.2f}", *map(str, columns.values())]) for n in range(count)]
+    return read(path, "\n".join([",".join(["timestamp", *columns]), *rows]), **options)
+
+
+# ---- names ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["eyeBlinkLeft", "EyeBlinkLeft", "eyeBlink_L", "eye_blink_left", "blendShapes.EyeBlinkLeft", "EYEBLINKLEFT",
+     "Head|eyeBlink.L", "ARKit_eyeBlinkLeft", "bs_eyeBlinkLeft", "eyeBlink_Left", "left_eye_blink", "Eye Blink Left",
+     "blendShape.eyeBlinkL"],
+)  # fmt: skip
+def test_a_shape_in_every_habit_of_naming(name: str, tmp_path: Path) -> None:
+    stream = table(tmp_path / "a.csv", {name: 1.0, "jawOpen": 0.0, "eyeSquintLeft": 0.0, "eyeWideLeft": 0.0})
+    assert stream.frames[0, 19 - 1] == pytest.approx(SHAPES["eyeBlinkLeft"].frame[19 - 1])
+    assert stream.assumed == ()
+    document = [{"t": 0.04 * n, "blendshapes": {name: 1.0, "jawOpen": 0.0}} for n in range(3)]
+    assert read(tmp_path / "a.json", json.dumps(document)).frames[0, 19 - 1] > 900.0
+
+
+def test_one_side_of_a_shape_without_sides_moves_that_side(tmp_path: Path) -> None:
+    left = table(
+        tmp_path / "a.csv", {"browInnerUp_L": 1.0, "browInnerUp_R": 0.0, "browDownLeft": 0, "browDownRight": 0}
+    )
+    assert left.frames[0, 31 - 1] == pytest.approx(SHAPES["browInnerUp"].frame[31 - 1])
+    assert left.frames[0, 32 - 1] == pytest.approx(0.0)
+    whole = {"cheekPuff": 1.0, "browInnerUp": 0.5, "browDownLeft": 0, "browDownRight": 0}
+    halves = {f"{name}_{side}": value for name, value in whole.items() if "Down" not in name for side in "LR"}
+    expected = table(tmp_path / "b.csv", whole)
+    found = table(tmp_path / "c.csv", {**halves, "browDownLeft": 0, "browDownRight": 0})
+    np.testing.assert_allclose(found.frames, expected.frames, atol=1e-9)
+
+
+def test_names_that_are_not_known_are_listed(tmp_path: Path) -> None:
+    stream = table(
+        tmp_path / "a.csv", {"jawOpen": 0.5, "earWiggle": 1.0, "_neutral": 0.9, "mood": 0, "LeftEyeRoll": 0.1}
+    )
+    assert stream.assumed == ("not read: earWiggle, mood",)
+    document = [{"t": 0.04 * n, "blendshapes": {"jawOpen": 0.0, "_neutral": 1.0, "earWiggle": 1.0}} for n in range(3)]
+    assert read(tmp_path / "a.json", json.dumps(document)).assumed == ("not read: earWiggle",)
+
+
+def test_a_second_column_of_the_same_shape_is_listed(tmp_path: Path) -> None:
+    stream = table(tmp_path / "a.csv", {"head.jawOpen": 0.5, "teeth.jawOpen": 0.1})
+    assert stream.frames[0, 2] == pytest.approx(0.5 * SHAPES["jawOpen"].frame[2])
+    assert stream.assumed == ("not read: teeth.jawOpen",)
+
+
+# ---- scale ---------------------------------------------------------------------------------------------
+
+
+def test_per_cent_are_told_by_the_whole_file_and_said(tmp_path: Path) -> None:
+    stream = table(tmp_path / "a.csv", {"jawOpen": 80, "eyeBlinkLeft": 0.6, "mouthPucker": 12})
+    assert stream.frames[0, 2] > 0.7 * SHAPES["jawOpen"].frame[2] - 100.0
+    assert stream.frames[0, 2] < 1.1 * SHAPES["jawOpen"].frame[2]
+    assert stream.assumed == ("its scores go up to 80: taken as per cent",)
+    document = [{"t": 0.04 * n, "blendshapes": {"jawOpen": 25.0 * n}} for n in range(5)]
+    stream = read(tmp_path / "a.json", json.dumps(document))
+    assert stream.frames[4, 2] == pytest.approx(SHAPES["jawOpen"].frame[2])
+
+
+@pytest.mark.parametrize("score", [50.0, 2.5, -30.0])
+def test_a_score_beyond_its_scale_is_refused_by_row(score: float, tmp_path: Path) -> None:
+    rows = [f"{0.04 * n:.2f},{score if n == 7 else 0.1 * (n % 9)},0.3" for n in range(30)]
+    with pytest.raises(FormatError, match="line 9, column jawOpen: must be a score from 0 to 1, but it is"):
+        read(tmp_path / "a.csv", "\n".join(["timestamp,jawOpen,eyeBlinkLeft", *rows]))
+
+
+def test_scores_a_little_over_one_are_kept(tmp_path: Path) -> None:
+    stream = table(tmp_path / "a.csv", {"jawOpen": 1.2})
+    assert stream.frames[0, 2] == pytest.approx(1.2 * SHAPES["jawOpen"].frame[2])
+
+
+def test_per_cent_beyond_a_hundred_and_a_half_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match="column mouthPucker: must be a score from 0 to 100, but it is 800"):
+        table(tmp_path / "a.csv", {"jawOpen": 80, "mouthPucker": 800})
+
+
+def test_intensities_beyond_the_scale_of_openface_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match="column AU12_r: must be an intensity of at most 6, but it is 80"):
+        table(tmp_path / "a.csv", {"AU12_r": 80})
+
+
+# ---- faces ---------------------------------------------------------------------------------------------
+
+
+def test_rows_of_several_faces_are_refused_or_one_is_chosen(tmp_path: Path) -> None:
+    rows = [f"{frame},{face},{0.04 * frame:.2f},{face + 1}" for frame in range(5) for face in (0, 3)]
+    text = "\n".join(["frame,face_id,timestamp,AU26_r", *rows])
+    with pytest.raises(FormatError, match=r"contains 2 faces \(face_id 0, 3\): choose one \(--face\)"):
+        read(tmp_path / "a.csv", text)
+    one, other = (read(tmp_path / "a.csv", text, face=face) for face in (0, 3))
+    assert len(one.frames) == len(other.frames) == 5
+    assert other.frames[0, 2] == pytest.approx(4.0 * one.frames[0, 2])
+    with pytest.raises(ParameterError, match="face must be one of 0, 3"):
+        read(tmp_path / "a.csv", text, face=1)
+
+
+def test_rows_that_share_a_frame_are_several_faces(tmp_path: Path) -> None:
+    rows = [f"{frame},{0.1 * (face + 1)}" for frame in range(5) for face in range(3)]
+    text = "\n".join(["frame,jawOpen", *rows])
+    with pytest.raises(FormatError, match="contains up to 3 faces in one frame"):
+        read(tmp_path / "a.csv", text)
+    assert read(tmp_path / "a.csv", text, face=2).frames[0, 2] == pytest.approx(0.3 * SHAPES["jawOpen"].frame[2])
+
+
+def test_two_lists_of_blend_shapes_are_two_faces(tmp_path: Path) -> None:
+    faces = [[{"categoryName": "jawOpen", "score": score}] for score in (0.1, 0.5)]
+    text = json.dumps([{"t": 0.04 * n, "faceBlendshapes": faces} for n in range(3)])
+    with pytest.raises(FormatError, match=r"frame 0, faces: contains 2 faces: choose one \(--face 0 to 1\)"):
+        read(tmp_path / "a.json", text)
+    assert read(tmp_path / "a.json", text, face=1).frames[0, 2] == pytest.approx(0.5 * SHAPES["jawOpen"].frame[2])
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_landmarks_of_a_second_face_do_not_replace_the_first(named: bool, tmp_path: Path) -> None:
+    points = np.random.default_rng(1).uniform(0.2, 0.8, (2, 468, 3)).round(4)
+    rows = [
+        f"{frame}{f',{face}' if named else ''},{n},{x},{y},{z}"
+        for frame in range(3)
+        for face in range(2)
+        for n, (x, y, z) in enumerate(points[face])
+    ]
+    text = "\n".join([f"frame{',face_id' if named else ''},landmark,x,y,z", *rows])
+    with pytest.raises(FormatError, match="2 faces"):
+        read(tmp_path / "a.csv", text)
+    from risorius.mpeg4.streams.capture import landmarks_from_csv, read_table_file
+
+    for face in range(2):
+        found = landmarks_from_csv(read_table_file(tmp_path / "a.csv"), aspect=1.0, face=face)
+        np.testing.assert_allclose(found.positions[1], points[face] * [1.0, -1.0, -1.0])
+
+
+def test_a_single_face_is_face_0(tmp_path: Path) -> None:
+    assert len(table(tmp_path / "a.csv", {"face_id": 0, "jawOpen": 0.5}, face=0).frames) == 3
+    with pytest.raises(ParameterError, match="face must be 0, the only face"):
+        table(tmp_path / "a.csv", {"face_id": 0, "jawOpen": 0.5}, face=1)
+
+
+# ---- Py-Feat and OpenFace's single images -----------------------------------------------------------------
+
+
+def test_py_feat(shared: Path) -> None:
+    stream = api.read_stream(shared / "samples" / "trackers" / "pyfeat" / "Feat_Test.csv")
+    smile = SHAPES["mouthSmileLeft"].frame[59 - 1] + SHAPES["mouthSmileRight"].frame[59 - 1]
+    assert stream.frames[0, 59 - 1] > 0.5 * smile  # AU12 is 0.96, the picture is said to be happy at 0.99
+    assert "not read: Pitch, Roll, Yaw" in stream.assumed
+
+
+def test_single_images_of_openface_need_no_frame_and_no_time(tmp_path: Path) -> None:
+    text = "face, confidence, pose_Rx, pose_Ry, pose_Rz, AU12_r, AU15_r, AU12_c\n0, 0.98, 0.1, 0, 0, 2.5, 0, 1\n"
+    stream = read(tmp_path / "a.csv", text)
+    assert stream.frames[0, 48 - 1] == pytest.approx(1e4)
+    assert stream.frames[0, 59 - 1] > 0.0
