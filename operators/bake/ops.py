@@ -2,26 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
-from bpy.props import StringProperty
+from bpy.props import BoolProperty, StringProperty
 
 from ...progress import Work
-from ...scene import bake
+from ...scene import bake, refusals
 from ...scene.bake import shape_keys
 from ...scene.bake.notes import BakeKind
 from ...scene.points.found import Finding
 from ...scene.points.kept import has_points, read_kept
+from ...scene.rig import remove_rig_clips
+from ...scene.rig.beside import adding_up
+from ...scene.rig.clips import rig_clips
+from ...scene.rig.kept import Followed
 from ..active import active_object, face_reason, target_of
 from ..annotated import Annotated
 from ..base import RisoriusOperator, WorkOperator
 from ..blender_classes import Operator
-from ..blender_types import Context
+from ..blender_types import Context, Object
 from ..emotion.performance import performance_of
 from ..points.first import with_points
 from ..points.look import turn_to_face
 from ..points.show import show_finding
-from .settings import stale_clips, timing_of
+from .destination import bake_reason, destination_again
+from .settings import stale_clips, stale_rig_clips, timing_of
 from .work import expression_work, motion_work, silent_reason, strips_work
+
+
+def tell(operator: RisoriusOperator, obj: Object, results: Sequence[bake.BakeResult]) -> None:
+    """Report what bakes have to say, each line once: what wants something done as warnings."""
+    for line in dict.fromkeys(line for result in results for line in result.told):
+        operator.report({"INFO"}, line)
+    remarks = [remark for result in results for remark in result.remarks]
+    for remark in dict.fromkeys([*remarks, *adding_up(obj)]):
+        operator.report({"WARNING"}, remark)
 
 
 class BakeOperator(WorkOperator[bake.BakeResult | Finding]):
@@ -31,8 +47,8 @@ class BakeOperator(WorkOperator[bake.BakeResult | Finding]):
 
     @classmethod
     def refusal(cls, context: Context) -> str | None:
-        """Only on a face that can be written to."""
-        return face_reason(context.object)
+        """Only on a face on which it can be baked to what is chosen."""
+        return bake_reason(context.object)
 
     def work(self, context: Context) -> Work[bake.BakeResult | Finding]:
         """Find the face if need be, then bake."""
@@ -52,12 +68,15 @@ class BakeOperator(WorkOperator[bake.BakeResult | Finding]):
         """Name what was written, and remark on what the user should know."""
         if isinstance(result, Finding):
             return show_finding(self, context, result)
-        for remark in result.remarks:
-            self.report({"WARNING"}, remark)
+        tell(self, active_object(context), [result])
         self.show_apex(context)
         if self._is_new:
             turn_to_face(context, read_kept(active_object(context)))
         first, last = result.frame_range
+        if result.told:
+            said = f": {Followed.of(result.followed).line} off" if result.followed is not None else ""
+            count = f"{len(result.keys)} control{'s' * (len(result.keys) != 1)}"
+            return f"Baked {result.clip} to {count}{said}, frames {first:g} to {last:g}"
         keys = f"{len(result.keys)} shape keys" if len(result.keys) > 1 else f"shape key {result.keys[0]}"
         within = f", within {result.error * 1000.0:.2f} mm" if result.error > 0.0 else ""
         return f"Baked {result.clip}: {keys}{within}, frames {first:g} to {last:g}, action {result.action}"
@@ -93,8 +112,8 @@ frame"""
 
     @classmethod
     def refusal(cls, context: Context) -> str | None:
-        """Only on a face that can be written to, and where something moves."""
-        return face_reason(context.object) or silent_reason(active_object(context))
+        """Only where it can be baked, and something moves."""
+        return bake_reason(context.object) or silent_reason(active_object(context))
 
     def baking(self, context: Context) -> Work[bake.BakeResult]:
         """Simulate the face and write its motion."""
@@ -111,8 +130,8 @@ class RISORIUS_OT_bake_strips(BakeOperator, Operator):
 
     @classmethod
     def refusal(cls, context: Context) -> str | None:
-        """Only on a face that can be written to, and with clips."""
-        reason = face_reason(context.object)
+        """Only where it can be baked, and with clips."""
+        reason = bake_reason(context.object)
         if reason is None and not active_object(context).risorius.timeline.clips:
             return "The timeline has no clips yet: add one with +"
         return reason or silent_reason(active_object(context))
@@ -133,29 +152,35 @@ class RISORIUS_OT_bake_again(BakeOperator, Operator):
     @classmethod
     def refusal(cls, context: Context) -> str | None:
         """Only where something is out of date."""
-        reason = face_reason(context.object) or silent_reason(active_object(context))
-        if reason is None and not stale_clips(active_object(context), context.scene):
-            return "Everything baked is up to date"
-        return reason
+        reason = refusals.reason(context.object, writing=False) or silent_reason(active_object(context))
+        if reason is not None:
+            return reason
+        obj, scene = active_object(context), context.scene
+        if stale_clips(obj, scene):
+            return face_reason(obj)
+        return None if stale_rig_clips(obj, scene) else "Everything baked is up to date"
 
     def baking(self, context: Context) -> Work[bake.BakeResult]:
-        """Bake each kind that is out of date, as it was baked before."""
+        """Bake each kind that is out of date, as it was baked before and to what it was baked to."""
         obj, scene = active_object(context), context.scene
-        kinds = set(stale_clips(obj, scene).values())
-        result: bake.BakeResult | None = None
-        for kind, work in (
-            (BakeKind.EXPRESSION, expression_work),
-            (BakeKind.STRIP, strips_work),
-            (BakeKind.MOTION, motion_work),
-        ):
-            if kind in kinds:
-                result = yield from work(obj, scene)
-        assert result is not None
-        return result
+        stale = {("", kind) for kind in stale_clips(obj, scene).values()}
+        stale |= {(note.onto, note.kind) for note in stale_rig_clips(obj, scene).values()}
+        works = {
+            BakeKind.EXPRESSION: expression_work,
+            BakeKind.STRIP: strips_work,
+            BakeKind.MOTION: motion_work,
+        }
+        results: list[bake.BakeResult] = []
+        for onto in sorted({onto for onto, _ in stale}):
+            for kind, work in works.items():
+                if (onto, kind) in stale:
+                    results.append((yield from work(obj, scene, destination_again(obj, onto))))
+        return results[0] if len(results) == 1 else bake.joined(results)
 
 
 class RISORIUS_OT_clear(RisoriusOperator, Operator):
-    """Remove the shape keys and actions that Risorius has baked on this face. Your own keys stay"""
+    """Remove the shape keys and actions that Risorius has baked on this face, and clips from your own keys and bones. \
+Your own keys, bones and animation stay"""
 
     bl_idname = "risorius.clear"
     bl_label = "Clear Bake"
@@ -166,16 +191,31 @@ class RISORIUS_OT_clear(RisoriusOperator, Operator):
         str,
         StringProperty(name="Name", description="Bake to remove. Empty: all bakes of this face", options={"SKIP_SAVE"}),
     ]
+    on_rig: Annotated[
+        bool,
+        BoolProperty(
+            name="On the Rig",
+            description="Remove the clip of this name from your own keys and bones, not the new shape keys",
+            default=False,
+            options={"SKIP_SAVE"},
+        ),
+    ]
 
     @classmethod
     def refusal(cls, context: Context) -> str | None:
         """Only where there is something to clear."""
-        if not shape_keys.has_own(context.object):
+        obj = context.object
+        if obj is None or not (shape_keys.has_own(obj) or rig_clips(obj)):
             return "Nothing has been baked on this face yet"
         return None
 
     def run(self, context: Context) -> str:
         """Remove it."""
-        removed = bake.clear(target_of(active_object(context)), clips=[self.clip] if self.clip else None)
-        what = self.clip or "everything baked"
-        return f"Cleared {what} on {active_object(context).name}: {len(removed)} shape key{'s' * (len(removed) != 1)}"
+        obj, clips, removed = active_object(context), [self.clip] if self.clip else None, []
+        if not self.on_rig and shape_keys.has_own(obj):
+            keys = bake.clear(target_of(obj), clips=clips)
+            removed.append(f"{len(keys)} shape key{'s' * (len(keys) != 1)}")
+        if self.on_rig or not self.clip:
+            taken = remove_rig_clips(obj, clips)
+            removed += [f"{len(taken)} clip{'s' * (len(taken) != 1)} on the rig"] if taken else []
+        return f"Cleared {self.clip or 'everything baked'} on {obj.name}: {' and '.join(removed)}"

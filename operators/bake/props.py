@@ -1,8 +1,8 @@
-"""When and under what name an expression is baked."""
+"""When, under what name and to what an expression is baked."""
 
 from __future__ import annotations
 
-from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ...mpeg4.timing import load_timings
 from ..annotated import Annotated
@@ -19,7 +19,7 @@ def seconds(name: str, description: str, default: float, **options: object) -> o
 
 
 class RISORIUS_PG_bake(PropertyGroup):
-    """Name and timing of the next bake."""
+    """Name, destination and timing of the next bake."""
 
     clip: Annotated[
         str,
@@ -27,6 +27,69 @@ class RISORIUS_PG_bake(PropertyGroup):
             name="Name",
             description="Name of the shape keys and the action. Empty: the name of the emotion. A bake with the"
             " same name is replaced",
+        ),
+    ]
+    onto: Annotated[
+        str,
+        EnumProperty(
+            name="Bake To",
+            description="What the next bake keys",
+            items=(
+                (
+                    "NEW",
+                    "New Keys",
+                    "Add new shape keys that show exactly what the muscles do. Your own keys stay as they are",
+                ),
+                (
+                    "KEYS",
+                    "My Keys",
+                    "Animate the shape keys that the face already has, whatever their names. No key is added or "
+                    "changed. Shows what these keys can show",
+                ),
+                (
+                    "BONES",
+                    "My Bones",
+                    "Animate the bones and custom properties of the rig that the face already has. No shape key is "
+                    "added. Shows what these bones can show",
+                ),
+            ),
+            default="NEW",
+        ),
+    ]
+    above: Annotated[
+        bool,
+        BoolProperty(
+            name="On Top",
+            description="Play on top of the animation that is there, as a layer that can be taken off again. If off, "
+            "write the keyframes into the action that plays, in place of its own between the first and the last",
+            default=True,
+        ),
+    ]
+    symmetric: Annotated[
+        bool,
+        BoolProperty(
+            name="Symmetric",
+            description="Give left and right controls the same value, even where the expression is uneven",
+            default=False,
+        ),
+    ]
+    smooth: Annotated[
+        float,
+        FloatProperty(
+            name="Smooth",
+            description="How smooth a baked motion is over time. 1 suits most motions, 0 computes each frame by itself",
+            default=1.0,
+            min=0.0,
+            soft_max=10.0,
+            precision=2,
+        ),
+    ]
+    details: Annotated[
+        bool,
+        BoolProperty(
+            name="Details",
+            description="Show for each clip on your rig which controls carry it, and which movements show too little",
+            default=True,
         ),
     ]
     start: Annotated[

@@ -10,14 +10,17 @@ import numpy as np
 from ...scene.bake import shape_keys
 from ...scene.bake.action import Curve
 from ...scene.bake.motion import CueMotion
-from ...scene.bake.notes import BakeKind, read_notes
+from ...scene.bake.notes import BakeKind, Note, read_notes
 from ...scene.bake.timing import ClipTiming, scene_fps
+from ...scene.rig.destinations import BakeTo
+from ...scene.rig.kept import kept_clips
 from ...scene.shape_mix import resting_values
 from ..active import target_of
 from ..blender_types import Object, Scene
 from ..emotion.performance import Performance, performance_of
 from ..emotion.profile import Wanted, title_of, wanted_of
 from ..tissue.props import tissue_of
+from .destination import Destination, destination_again
 
 MOTION_SUFFIX = " motion"
 #: What the motion of a whole timeline is called unless the user names it.
@@ -57,18 +60,25 @@ def motion_of(obj: Object, performance: Performance) -> CueMotion:
     return CueMotion(performance.cues, hands, tissue_of(obj), performance.liveliness)
 
 
-def expression_settings(obj: Object, scene: Scene) -> str:
+def expression_settings(obj: Object, scene: Scene, where: Destination) -> str:
     """Digest of what an expression bake is made of."""
-    return _digest(_look(wanted_of(obj)), timing_of(obj, scene), creases_wanted(obj), *_resting(obj))
+    return _digest(_look(wanted_of(obj)), timing_of(obj, scene), _besides(obj, where), *_resting(obj))
 
 
-def motion_settings(obj: Object, performance: Performance) -> str:
+def _besides(obj: Object, where: Destination, *, moving: bool = False) -> object:
+    """What else a bake is made of: creases with new keys; onto a rig, how."""
+    if where.to is BakeTo.NEW:
+        return creases_wanted(obj)
+    return where.to.value, where.onto.symmetric, round(where.onto.smooth, 6) if moving else 0.0
+
+
+def motion_settings(obj: Object, performance: Performance, where: Destination) -> str:
     """Digest of what a motion bake is made of."""
     motion = motion_of(obj, performance)
     return _digest(
         (performance.first_frame, performance.fps, performance.titles),
         *(motion.cues, motion.contractions, motion.tissue, motion.liveliness),
-        *(obj.risorius.emotion.drive, creases_wanted(obj), *_resting(obj)),
+        *(obj.risorius.emotion.drive, _besides(obj, where, moving=True), *_resting(obj)),
     )
 
 
@@ -84,33 +94,51 @@ def strip_curve(performance: Performance, number: int) -> Curve:
     return Curve(frames, performance.shares_at(frames)[:, number], linear=True)
 
 
-def strip_settings(obj: Object, performance: Performance, number: int) -> str:
+def strip_settings(obj: Object, performance: Performance, number: int, where: Destination) -> str:
     """Digest of what one strip is made of: its expression, and the curve that overlaps leave it."""
     curve = strip_curve(performance, number)
     times = curve.frames.tobytes(), curve.values.tobytes(), curve.linear
-    return _digest(_look(performance.wanted[number]), times, creases_wanted(obj), *_resting(obj))
+    return _digest(_look(performance.wanted[number]), times, _besides(obj, where), *_resting(obj))
 
 
 def stale_clips(obj: Object, scene: Scene) -> Mapping[str, BakeKind]:
-    """The baked clips that a bake now would make otherwise, and how they were baked."""
-    notes = read_notes(shape_keys.own_face(obj.data))
+    """The baked clips of new shape keys that a bake now would make otherwise, and how they were baked."""
+    return {clip: note.kind for clip, note in _stale(obj, scene, read_notes(shape_keys.own_face(obj.data))).items()}
+
+
+def stale_rig_clips(obj: Object, scene: Scene) -> Mapping[str, Note]:
+    """The clips on the rig that a bake now would make otherwise, and what their bake has noted."""
+    notes = {clip: kept.note for clip, kept in kept_clips(obj).items()}
+    return _stale(obj, scene, {clip: note for clip, note in notes.items() if note is not None})
+
+
+def _stale(obj: Object, scene: Scene, notes: Mapping[str, Note]) -> dict[str, Note]:
+    """Those of some notes that a bake now, onto the same, would make otherwise."""
     if not notes:
         return {}
     performance = performance_of(obj, scene)
-    now = {
-        BakeKind.EXPRESSION: {clip_name(obj): expression_settings(obj, scene)},
-        BakeKind.MOTION: {clip_name(obj, motion=True): motion_settings(obj, performance)} if performance.cues else {},
-        BakeKind.STRIP: {
-            title: strip_settings(obj, performance, number) for number, title in enumerate(performance.titles)
-        },
-    }
+    now = {onto: _settings_now(obj, scene, performance, onto) for onto in {note.onto for note in notes.values()}}
     stale = {}
     for clip, note in notes.items():
-        wanted = now[note.kind].get(clip)
+        wanted = now[note.onto][note.kind].get(clip)
         gone = note.kind is BakeKind.STRIP and wanted is None and bool(obj.risorius.timeline.clips)
         if gone or (wanted is not None and wanted != note.settings):
-            stale[clip] = note.kind
+            stale[clip] = note
     return stale
+
+
+def _settings_now(
+    obj: Object, scene: Scene, performance: Performance, onto: str
+) -> Mapping[BakeKind, Mapping[str, str]]:
+    """Kind of bake -> clip -> digest, of all that a bake now makes of what it would key."""
+    where = destination_again(obj, onto)
+    motion = {clip_name(obj, motion=True): motion_settings(obj, performance, where)} if performance.cues else {}
+    strips = enumerate(performance.titles)
+    return {
+        BakeKind.EXPRESSION: {clip_name(obj): expression_settings(obj, scene, where)},
+        BakeKind.MOTION: motion,
+        BakeKind.STRIP: {title: strip_settings(obj, performance, number, where) for number, title in strips},
+    }
 
 
 def _look(wanted: Wanted) -> tuple[object, ...]:

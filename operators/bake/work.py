@@ -1,15 +1,20 @@
-"""The three bakes: an expression, a motion, a strip for each clip; made of what is chosen on a face."""
+"""The bakes: an expression, a motion, a strip for each clip, a stream; made of what is chosen on a face."""
 
 from __future__ import annotations
 
 from ...progress import Work
 from ...scene import bake
+from ...scene.bake.motion import Motion
 from ...scene.bake.notes import BakeKind, Note
 from ...scene.bake.strips import ClipShape, bake_strips
+from ...scene.rig import bake_expression_onto, bake_motion_onto
+from ...scene.rig.destinations import BakeTo, find_rig
+from ...scene.rig.strips import bake_strips_onto
 from ..active import target_of
 from ..blender_types import Object, Scene
 from ..emotion.performance import performance_of
 from ..emotion.profile import wanted_of
+from .destination import Destination, destination_of
 from .settings import (
     clip_name,
     creases_wanted,
@@ -30,50 +35,85 @@ def silent_reason(obj: Object) -> str | None:
     return None
 
 
-def expression_work(obj: Object, scene: Scene) -> Work[bake.BakeResult]:
-    """Pose the face as the Emotion panel says and write its shape."""
-    wanted = wanted_of(obj)
-    return bake.bake_expression(
-        target_of(obj, scene),
+def expression_work(obj: Object, scene: Scene, where: Destination | None = None) -> Work[bake.BakeResult]:
+    """Pose the face as the Emotion panel says and write it where it is to go."""
+    where, wanted = where or destination_of(obj), wanted_of(obj)
+    target, timing = target_of(obj, scene), timing_of(obj, scene)
+    note = Note(BakeKind.EXPRESSION, expression_settings(obj, scene, where), onto=where.noted)
+    if where.to is BakeTo.NEW:
+        return bake.bake_expression(
+            target,
+            wanted.faps,
+            clip=clip_name(obj),
+            timing=timing,
+            drive=wanted.drive,
+            emotion=wanted.profile.weights,
+            contractions=wanted.contractions,
+            creases=creases_wanted(obj),
+            note=note,
+        )
+    return bake_expression_onto(
+        target,
         wanted.faps,
+        find_rig(where.to),
         clip=clip_name(obj),
-        timing=timing_of(obj, scene),
+        timing=timing,
+        onto=where.onto,
         drive=wanted.drive,
         emotion=wanted.profile.weights,
         contractions=wanted.contractions,
-        creases=creases_wanted(obj),
-        note=Note(BakeKind.EXPRESSION, expression_settings(obj, scene)),
+        note=note,
     )
 
 
-def motion_work(obj: Object, scene: Scene) -> Work[bake.BakeResult]:
+def motion_work(obj: Object, scene: Scene, where: Destination | None = None) -> Work[bake.BakeResult]:
     """Simulate what is laid out on the face and write its motion, with a marker where each expression begins."""
-    performance = performance_of(obj, scene)
+    where, performance = where or destination_of(obj), performance_of(obj, scene)
     markers = [(title, performance.span(number)[0]) for number, title in enumerate(performance.titles)]
-    return bake.bake_motion(
-        target_of(obj, scene),
-        motion_of(obj, performance),
-        clip=clip_name(obj, motion=True),
-        start=performance.first_frame,
-        fps=performance.fps,
-        drive=obj.risorius.emotion.drive,
-        creases=creases_wanted(obj),
-        note=Note(BakeKind.MOTION, motion_settings(obj, performance), tuple(markers)),
+    note = Note(BakeKind.MOTION, motion_settings(obj, performance, where), tuple(markers), where.noted)
+    clip, motion = clip_name(obj, motion=True), motion_of(obj, performance)
+    return stream_work(obj, scene, motion, clip=clip, start=performance.first_frame, where=where, note=note)
+
+
+def stream_work(
+    obj: Object,
+    scene: Scene,
+    motion: Motion,
+    *,
+    clip: str,
+    start: float,
+    where: Destination | None = None,
+    note: Note | None = None,
+) -> Work[bake.BakeResult]:
+    """Simulate a motion at the scene's rate and write it where it is to go."""
+    where, target = where or destination_of(obj), target_of(obj, scene)
+    fps, drive = bake.scene_fps(scene), obj.risorius.emotion.drive
+    if where.to is BakeTo.NEW:
+        creases = creases_wanted(obj)
+        return bake.bake_motion(
+            target, motion, clip=clip, start=start, fps=fps, drive=drive, creases=creases, note=note
+        )
+    rig = find_rig(where.to)
+    return bake_motion_onto(
+        target, motion, rig, clip=clip, start=start, fps=fps, onto=where.onto, drive=drive, note=note
     )
 
 
-def strips_work(obj: Object, scene: Scene) -> Work[bake.BakeResult]:
-    """Pose the face for each clip and write shapes, actions and strips."""
-    performance = performance_of(obj, scene)
+def strips_work(obj: Object, scene: Scene, where: Destination | None = None) -> Work[bake.BakeResult]:
+    """Pose the face for each clip and write actions and strips where they are to go."""
+    where, performance = where or destination_of(obj), performance_of(obj, scene)
     shapes = [
         ClipShape(
             title,
             wanted.faps,
             strip_curve(performance, number),
-            strip_settings(obj, performance, number),
+            strip_settings(obj, performance, number, where),
             wanted.profile.weights,
             wanted.contractions,
         )
         for number, (title, wanted) in enumerate(zip(performance.titles, performance.wanted, strict=True))
     ]
-    return bake_strips(target_of(obj, scene), shapes, drive=obj.risorius.emotion.drive, creases=creases_wanted(obj))
+    target, drive = target_of(obj, scene), obj.risorius.emotion.drive
+    if where.to is BakeTo.NEW:
+        return bake_strips(target, shapes, drive=drive, creases=creases_wanted(obj))
+    return bake_strips_onto(target, shapes, find_rig(where.to), onto=where.onto, drive=drive, noted=where.noted)

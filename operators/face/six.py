@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from typing import TYPE_CHECKING
+
 import bpy
 
 from ...progress import Work
@@ -9,7 +12,12 @@ from ...scene import bake
 from ...scene.bake import performance, shape_keys
 from ...scene.points.found import Finding
 from ...scene.points.kept import read_kept
-from ..active import active_object, face_reason, target_of
+from ...scene.rig import bake_expressions_onto
+from ...scene.rig.baking import Expression
+from ...scene.rig.destinations import BakeTo, find_rig
+from ..active import active_object, target_of
+from ..bake.destination import bake_reason, destination_of
+from ..bake.ops import tell
 from ..bake.settings import creases_wanted
 from ..base import WorkOperator
 from ..blender_classes import Operator
@@ -18,10 +26,13 @@ from ..points.first import with_points
 from ..points.look import turn_to_face
 from ..points.show import show_finding
 
+if TYPE_CHECKING:
+    from ...api import Cue
+
 
 class RISORIUS_OT_bake_six(WorkOperator[list[bake.BakeResult] | Finding], Operator):
-    """Bake joy, surprise, fear, anger, sadness and disgust as one shape key each, one after another on the \
-timeline. If the mesh has no feature points yet, find the face first"""
+    """Bake joy, surprise, fear, anger, sadness and disgust one after another on the timeline: as one shape key each, \
+or to your own keys or bones as the Bake panel says. If the mesh has no feature points yet, find the face first"""
 
     bl_idname = "risorius.bake_six"
     bl_label = "Bake Six Emotions"
@@ -30,8 +41,8 @@ timeline. If the mesh has no feature points yet, find the face first"""
 
     @classmethod
     def refusal(cls, context: Context) -> str | None:
-        """Only on a face that can be written to."""
-        return face_reason(context.object)
+        """Only on a face on which it can be baked to what is chosen."""
+        return bake_reason(context.object)
 
     def work(self, context: Context) -> Work[list[bake.BakeResult] | Finding]:
         """Find the face if need be, then bake all six."""
@@ -42,8 +53,12 @@ timeline. If the mesh has no feature points yet, find the face first"""
         obj, target = active_object(context), target_of(active_object(context), context.scene)
         cues, before = performance.cues_of(performance.ARCHETYPES), set(shape_keys.read_own(obj.data).clips)
         fps, creases = bake.scene_fps(context.scene), creases_wanted(obj)
+        where, start = destination_of(obj), context.scene.frame_start
+        if where.to is not BakeTo.NEW:
+            expressions = [_expression(cue, start, fps) for cue in cues]
+            return (yield from bake_expressions_onto(target, expressions, find_rig(where.to), onto=where.onto))
         try:
-            return (yield from performance.pose_all(target, cues, fps, creases, first_frame=context.scene.frame_start))
+            return (yield from performance.pose_all(target, cues, fps, creases, first_frame=start))
         except GeneratorExit:
             made = set(shape_keys.read_own(obj.data).clips) - before
             if made:
@@ -54,14 +69,24 @@ timeline. If the mesh has no feature points yet, find the face first"""
         """Put them on the timeline, and show the first at its apex."""
         if isinstance(result, Finding):
             return show_finding(self, context, result)
-        for remark in dict.fromkeys(remark for one in result for remark in one.remarks):
-            self.report({"WARNING"}, remark)
         obj, scene, apex = active_object(context), context.scene, result[0].frame_range
-        last = performance.line_up(target_of(obj), result)
+        on_rig = any(one.followed is not None for one in result)
+        last = math.ceil(result[-1].frame_range[1]) if on_rig else performance.line_up(target_of(obj), result)
+        tell(self, obj, result)
         if not bpy.app.background:
             scene.frame_set(round(sum(apex) / 2.0))
             turn_to_face(context, read_kept(obj))
         if last > scene.frame_end:
             self.report({"WARNING"}, f"The scene ends at frame {scene.frame_end}: set End to {last} to play all six")
         frames = f"frames {scene.frame_start} to {last}"
+        if on_rig:
+            shares = [f"{one.clip} {one.followed.explained:.0%}" for one in result if one.followed is not None]
+            return f"{obj.name}: six emotions on its own controls, {frames}: {', '.join(shares)}"
         return f"{obj.name}: six emotions, {frames}; press the space bar over the viewport to play"
+
+
+def _expression(cue: Cue, start: int, fps: float) -> Expression:
+    """A cue as a clip on a rig, from the scene's first frame on."""
+    first = start + cue.start * fps
+    timing = bake.ClipTiming(cue.onset, cue.apex, cue.offset, start=first, fps=fps)
+    return Expression(str(cue.profile.word), cue.profile.frame(), timing, cue.peak, cue.profile.weights)

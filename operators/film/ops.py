@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import bpy
@@ -13,7 +14,10 @@ from ...scene.bake import shape_keys, tracks
 from ...scene.pictures import film
 from ...scene.pictures.look import Camera, Engine, Look
 from ...scene.points.found import Finding
-from ..active import active_object, face_reason, target_of
+from ...scene.rig import remove_rig_clips
+from ...scene.rig.kept import kept_clips
+from ..active import active_object, target_of
+from ..bake.destination import bake_reason
 from ..bake.work import motion_work
 from ..base import RisoriusOperator, WorkOperator
 from ..blender_classes import Operator
@@ -40,7 +44,7 @@ class RISORIUS_OT_render_film(WorkOperator[film.FilmResult | Finding], Operator)
     def refusal(cls, context: Context) -> str | None:
         """Only for meshes that can be read, with something to show or to bake."""
         reason = refusals.reason(context.object, writing=False)
-        return face_reason(active_object(context)) if reason is None and not moves(active_object(context)) else reason
+        return bake_reason(active_object(context)) if reason is None and not moves(active_object(context)) else reason
 
     def work(self, context: Context) -> Work[film.FilmResult | Finding]:
         """Bake what is laid out where nothing moves the face yet, then render and encode.
@@ -57,7 +61,10 @@ class RISORIUS_OT_render_film(WorkOperator[film.FilmResult | Finding], Operator)
         try:
             return (yield from part_of(rendering(context), BAKING, 1.0))
         except GeneratorExit:
-            bake.clear(target_of(obj), clips=[baked.clip])
+            if baked.followed is None:
+                bake.clear(target_of(obj), clips=[baked.clip])
+            else:
+                remove_rig_clips(obj, [baked.clip])
             raise
 
     def finish(self, context: Context, result: film.FilmResult | Finding) -> str:
@@ -159,7 +166,10 @@ def absolute(name: str, suffix: str, *, keep: tuple[str, ...]) -> Path:
 def frame_range(context: Context) -> tuple[int, int]:
     """First and last frame: of the clips that the face plays, or of the scene."""
     scene = context.scene
-    played = tracks.played_frames(active_object(context).data.shape_keys)
-    if scene.risorius.film.frames == "CLIP" and played is not None:
-        return played
+    obj = active_object(context)
+    played = tracks.played_frames(obj.data.shape_keys)
+    spans = [(math.floor(kept.frames[0]), math.ceil(kept.frames[1])) for kept in kept_clips(obj).values()]
+    spans += [played] if played is not None else []
+    if scene.risorius.film.frames == "CLIP" and spans:
+        return min(first for first, _ in spans), max(last for _, last in spans)
     return int(scene.frame_start), int(scene.frame_end)

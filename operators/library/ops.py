@@ -11,15 +11,15 @@ from bpy.props import EnumProperty, StringProperty
 from ...errors import FormatError, SceneError
 from ...mpeg4.preset_file import PresetKind, read_preset, write_preset
 from ...progress import Work
-from ...scene.bake.baking import BakeResult, bake_motion
+from ...scene.bake.baking import BakeResult
 from ...scene.bake.motion import FapMotion, at_rate
 from ...scene.bake.timing import scene_fps
 from ...scene.blender_types import Event
 from ...scene.points.found import Finding
-from ..active import active_object, face_reason, target_of
+from ..active import active_object, face_reason
 from ..annotated import Annotated
 from ..bake.ops import BakeOperator
-from ..bake.settings import creases_wanted
+from ..bake.work import stream_work
 from ..base import RisoriusOperator
 from ..blender_classes import ImportHelper, Operator
 from ..blender_types import Context
@@ -161,16 +161,8 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, Operator):
         obj, path = active_object(context), Path(bpy.path.abspath(self.filepath))
         recording = api.read_recording(path)
         stream, self._assumed = recording.stream, recording.assumed
-        fps = scene_fps(context.scene)
-        frames = at_rate(stream.expanded(), stream.fps, fps)
+        frames = at_rate(stream.expanded(), stream.fps, scene_fps(context.scene))
         if len(frames) == 0:
             raise FormatError(path, "contains no frames")
-        return bake_motion(
-            target_of(obj),
-            FapMotion(frames),
-            clip=path.stem,
-            start=float(context.scene.frame_current),
-            fps=fps,
-            drive=obj.risorius.emotion.drive,
-            creases=creases_wanted(obj),
-        )
+        start = float(context.scene.frame_current)
+        return stream_work(obj, context.scene, FapMotion(frames), clip=path.stem, start=start)

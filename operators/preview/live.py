@@ -21,6 +21,7 @@ from ...scene.live import preview
 from ...scene.live.held_faces import REST
 from ...scene.live.live_face import LiveFace
 from ...scene.points.kept import has_points
+from ...scene.rig.clips import rig_clips
 from ..active import all_objects, ready_reason, target_of
 from ..blender_types import Context, Object, Scene, WindowManager
 from ..emotion.performance import performance_of
@@ -174,7 +175,7 @@ def play(obj: Object, face: LiveFace, scene: Scene) -> None:
 def play_or_rest(obj: Object, face: LiveFace, scene: Scene) -> None:
     """Show `obj` as it is laid out, or as it is where that is baked or cannot be shown."""
     try:
-        if shape_keys.has_own(obj) or ready_reason(obj) is not None or not face.is_of(target_of(obj)):
+        if shape_keys.has_own(obj) or rig_clips(obj) or ready_reason(obj) is not None or not face.is_of(target_of(obj)):
             rest(obj)
         else:
             play(obj, face, scene)

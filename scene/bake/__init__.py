@@ -11,9 +11,9 @@ tracks                      how clips play: as the keys' action, or on NLA track
 remarks                     what an animator should know about a bake
 """
 
-from .baking import BakeResult, bake_expression, bake_motion
+from .baking import BakeResult, bake_expression, bake_motion, joined
 from .target import Target
 from .timing import ClipTiming, scene_fps
 from .writing import clear
 
-__all__ = ["BakeResult", "ClipTiming", "Target", "bake_expression", "bake_motion", "clear", "scene_fps"]
+__all__ = ["BakeResult", "ClipTiming", "Target", "bake_expression", "bake_motion", "clear", "joined", "scene_fps"]

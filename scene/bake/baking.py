@@ -5,7 +5,7 @@ Everything is computed before anything is written, so an error or a cancelled ba
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -156,6 +156,21 @@ def bake_motion(
     marks = crease_marks.prepare(source, creases)
     written = write_baked(target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks, note=note)
     return _result(clip, written, target, source, missed, error=packed.error)
+
+
+def joined(results: Sequence[BakeResult]) -> BakeResult:
+    """Several results told as one."""
+    starts, ends = zip(*(result.frame_range for result in results), strict=True)
+    return BakeResult(
+        ", ".join(result.clip for result in results),
+        ", ".join(result.action for result in results),
+        tuple(dict.fromkeys(key for result in results for key in result.keys)),
+        max(result.error for result in results),
+        (min(starts), max(ends)),
+        remarks=tuple(dict.fromkeys(remark for result in results for remark in result.remarks)),
+        told=tuple(dict.fromkeys(line for result in results for line in result.told)),
+        left_alone={name: why for result in results for name, why in result.left_alone.items()},
+    )
 
 
 def _result(

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import TYPE_CHECKING
 
 import bpy
@@ -16,8 +15,8 @@ from ...progress import Work
 from .. import bake
 from ..bake.motion import CueMotion, FapMotion
 from ..bake.performance import clip_names, line_up, pose_all
-from ..rig.baking import Expression, FindRig, Onto, bake_expressions_onto, bake_motion_onto
-from ..rig.keys import key_rig
+from ..rig.baking import Expression, Onto, bake_expressions_onto, bake_motion_onto
+from ..rig.destinations import BakeTo, find_rig
 from ..rig.report import Report, clip_report
 from .subjects import Subject
 
@@ -25,15 +24,6 @@ if TYPE_CHECKING:
     from ...api import Cue
 
 
-class BakeTo(StrEnum):
-    """What is keyed: new shape keys, the character's own ones, or the bones and properties of its rig."""
-
-    NEW = "new"
-    KEYS = "keys"
-
-
-#: How the controls of a rig are found.
-RIGS: Mapping[BakeTo, FindRig] = {BakeTo.KEYS: key_rig}
 #: How a clip is put onto a rig where nothing else is said.
 USUAL = Onto()
 
@@ -103,7 +93,7 @@ class Destination:
             )
             for clip, cue in zip(clip_names(cues), cues, strict=True)
         ]
-        results = yield from bake_expressions_onto(face.target, expressions, RIGS[self.to], onto=self.onto)
+        results = yield from bake_expressions_onto(face.target, expressions, find_rig(self.to), onto=self.onto)
         reports = [
             clip_report(result, each.faps, strength=each.peak)
             for result, each in zip(results, expressions, strict=True)
@@ -116,7 +106,9 @@ class Destination:
         if self.to is BakeTo.NEW:
             made = yield from bake.bake_motion(face.target, motion, clip=clip, start=start, creases=creases)
             return Baked([made], (), made.frame_range[1])
-        moved = yield from bake_motion_onto(face.target, motion, RIGS[self.to], clip=clip, start=start, onto=self.onto)
+        moved = yield from bake_motion_onto(
+            face.target, motion, find_rig(self.to), clip=clip, start=start, onto=self.onto
+        )
         return Baked([moved], (clip_report(moved, _requested(motion)),), moved.frame_range[1])
 
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
+import numpy as np
 import pytest
 from risorius.operators import requirements
 from risorius.operators.classes import CLASSES
@@ -31,7 +32,7 @@ class Spy:
 
     def prop(self, data: Any, name: str, **options: Any) -> None:
         assert name in data.bl_rna.properties, f"{data} has no {name}"
-        unknown = set(options) - {"text", "icon", "slider", "expand", "toggle", "placeholder"}
+        unknown = set(options) - {"text", "icon", "slider", "expand", "toggle", "placeholder", "emboss"}
         assert not unknown
         self.seen.append(("prop", name))
 
@@ -155,3 +156,44 @@ def test_all_words_can_be_chosen_and_keep_their_number(head: Any) -> None:
     for name, *_ in items:
         head.risorius.emotion.word = name
         assert head.risorius.emotion.word == name
+
+
+def test_a_face_with_keys_of_its_own_is_asked_once_and_shows_how_to_bake_to_them(head: Any) -> None:
+    for number in range(12):
+        head.shape_key_add(name=f"morph {number}")
+    assert ("label", "Has 11 keys: try My Keys") in drawn()["RISORIUS_PT_bake"]
+    assert ("prop", "creases") in drawn()["RISORIUS_PT_bake"]
+    head.risorius.bake.onto = "KEYS"
+    shown = drawn()["RISORIUS_PT_bake"]
+    assert [name for kind, name in shown if kind == "prop"][:5] == ["clip", "onto", "above", "symmetric", "smooth"]
+    assert ("prop", "creases") not in shown
+    head.risorius.bake.onto = "NEW"
+    assert "try My Keys" not in str(drawn()["RISORIUS_PT_bake"])
+    assert ("prop", "above") not in drawn()["RISORIUS_PT_bake"]
+
+
+def test_what_keeps_a_face_from_being_baked_to_its_keys_is_said(head: Any) -> None:
+    head.risorius.bake.onto = "KEYS"
+    assert ("label", "Has no shape keys of its own") in drawn()["RISORIUS_PT_bake"]
+
+
+def test_clips_on_the_rig_say_how_far_it_follows_and_each_can_be_taken_off(head: Any) -> None:
+    from risorius.scene.rig.channels import Channel, Place
+    from risorius.scene.rig.clips import Keyframes, write_rig_clip
+    from risorius.scene.rig.kept import Followed, keep
+    from risorius.scene.shape_mix import data_path
+
+    head.shape_key_add(name="Basis")
+    head.shape_key_add(name="smile").value = 0.0
+    channel = Channel("smile", Place(head.data.shape_keys, data_path("smile")), 0.0, 1.0)
+    frames = Keyframes(np.array([1.0, 10.0, 20.0]), {channel: np.array([0.0, 1.0, 0.0])})
+    carriers = ("mouthSmileLeft", "mouthSmileRight", "browInnerUp", "cheekPuff")
+    missing = ("open_jaw", "depress_chin", "raise_b_midlip_o")
+    keep(write_rig_clip(head, "joy", frames).actions, Followed(0.934, 0.00102, carriers, missing))
+    shown = drawn()["RISORIUS_PT_bake"]
+    assert ("label", "93%, 1.0 mm") in shown
+    assert ("label", "With mouthSmileLeft +3") in shown
+    assert ("label", "Little open_jaw, depress_chin +1") in shown
+    assert [name for kind, name in shown if kind == "operator"].count("risorius.clear") == 2
+    head.risorius.bake.details = False
+    assert "mouthSmileLeft" not in str(drawn()["RISORIUS_PT_bake"])

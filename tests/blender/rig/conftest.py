@@ -1,4 +1,4 @@
-"""A small rig on the default head: skull, jaw, corners of the mouth, brows."""
+"""The default head with controls of its own: a small rig of skull, jaw, mouth corners and brows; shape keys."""
 
 from __future__ import annotations
 
@@ -8,9 +8,22 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
+import risorius.api as api
 
 #: Bones in the skin, and the feature point that each is at.
 SMALL = {"corner.L": "8.3", "corner.R": "8.4", "brow.L": "4.1", "brow.R": "4.2"}
+#: Shape key -> FAPs that it shows at 1: such as users draw, some with left and right apart, under any names.
+DRAWN = {
+    "Jaw Drop": {3: 400.0},
+    "smile_L": {6: 200.0, 12: 150.0, 59: 150.0},
+    "smile_R": {7: 200.0, 13: 150.0, 60: 150.0},
+    "Frown": {12: -150.0, 13: -150.0, 59: -150.0, 60: -150.0},
+    "browUp": {31: 150.0, 32: 150.0, 33: 150.0, 34: 150.0, 35: 150.0, 36: 150.0},
+    "browDown": {31: -150.0, 32: -150.0, 37: 80.0, 38: 80.0},
+    "lids": {19: 400.0, 20: 400.0},
+    "wide": {19: -250.0, 20: -250.0},
+    "nose": {61: 100.0, 62: 100.0},
+}
 
 
 @pytest.fixture
@@ -48,3 +61,29 @@ def bone(name: str, at: Any, to: Any, parent: str | None) -> None:
     bones = bpy.context.object.data.edit_bones
     made = bones.new(name)
     made.head, made.tail, made.parent = at, to, bones.get(parent or "")
+
+
+@pytest.fixture(scope="session")
+def drawn_shapes() -> dict[str, np.ndarray]:
+    """Name -> (V, 3) what each key adds to the default head, metres."""
+    face = api.default_face()
+    shapes = {}
+    for name, faps in DRAWN.items():
+        frame = np.full(68, np.nan)
+        for number, value in faps.items():
+            frame[number - 1] = value
+        shapes[name] = np.asarray(face.pose(frame, drive="exact").positions) - face.vertices
+    return shapes
+
+
+@pytest.fixture
+def drawn_head(head: Any, drawn_shapes: dict[str, np.ndarray]) -> Any:
+    """The default head with those keys."""
+    head.shape_key_add(name="Basis")
+    rest = np.empty(3 * len(head.data.vertices))
+    head.data.vertices.foreach_get("co", rest)
+    for name, moved in drawn_shapes.items():
+        key = head.shape_key_add(name=name, from_mix=False)
+        key.value = 0.0
+        key.data.foreach_set("co", rest + moved.ravel())
+    return head
