@@ -43,6 +43,7 @@ from .face.products.creases import Creases
 from .face.retarget.controls import Controls
 from .face.retarget.retargeting import Retargeted, Retargeting, Take, retarget
 from .face.retarget.shortfall import Shortfall
+from .face.retarget.weight_csv import write_weight_csv
 from .face.simulate import Clip
 from .face.tracked.formats import READABLE as READABLE_STREAMS
 from .face.tracked.formats import WRITABLE as WRITABLE_STREAMS
@@ -218,6 +219,7 @@ __all__ = [
     "write_fap_json",
     "write_fba",
     "write_stream",
+    "write_weight_csv",
 ]
 
 

@@ -10,7 +10,8 @@ recognition    recognise
 streams        fap
 recordings     options of reading a recording, and what was assumed to read it
 animation_tables    tables
-capture        import, export
+capture        import
+exports        export
 track          track
 options        what several verbs share
 faps           FAPs for people and as JSON
@@ -27,8 +28,9 @@ import sys
 
 from ..errors import RisoriusError
 from .animation_tables import add_table_verb
-from .capture import add_capture_verbs
+from .capture import add_capture_verb
 from .emotions import add_emotion_verbs
+from .exports import add_export_verb
 from .faces import add_face_verbs
 from .films import add_film_verbs
 from .recognition import add_recognition_verb
@@ -79,6 +81,7 @@ def _parser() -> argparse.ArgumentParser:
     add_track_verb(verbs)
     add_film_verbs(verbs)
     add_face_verbs(verbs)
-    add_capture_verbs(verbs)
+    add_capture_verb(verbs)
+    add_export_verb(verbs)
     add_recognition_verb(verbs)
     return parser

@@ -20,6 +20,7 @@ modifiers             modifiers of ours among those of the user's
 node_graph            node groups built in a few words
 materials             materials and worlds with nodes
 gltf                  a face with its clips as glTF
+laid_out             what such a file is made of: copies with each clip on a track of its name
 points                feature points on objects: found, kept, bound, shown
 bake                  shape keys, actions and strips
 rig                   the controls that a character already has, measured and keyed

@@ -9,4 +9,5 @@ normal         a motion and the controls' effects as normal equations of least s
 bounded        least squares over time within bounds, smooth and sparing
 mirrored       which controls are each other's mirror image
 shortfall      what the controls cannot show, FAP by FAP
+weight_csv     values of controls over time as a table
 """

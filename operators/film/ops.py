@@ -10,7 +10,8 @@ import bpy
 from ...errors import SceneError
 from ...progress import Work, part_of
 from ...scene import bake, gltf, refusals
-from ...scene.bake import shape_keys, tracks
+from ...scene.bake import tracks
+from ...scene.laid_out import is_baked
 from ...scene.pictures import film
 from ...scene.pictures.look import Camera, Engine, Look
 from ...scene.points.found import Finding
@@ -90,7 +91,7 @@ class RISORIUS_OT_export_gltf(RisoriusOperator, Operator):
     def refusal(cls, context: Context) -> str | None:
         """Only where something is baked."""
         reason = refusals.reason(context.object, writing=False)
-        if reason is None and not shape_keys.has_own(context.object):
+        if reason is None and not is_baked(context.object):
             return "Nothing has been baked on this face yet"
         return reason
 
@@ -100,7 +101,7 @@ class RISORIUS_OT_export_gltf(RisoriusOperator, Operator):
         path = absolute(chosen.model, ".glb", keep=(".glb", ".gltf"))
         target = target_of(active_object(context), context.scene)
         exported = gltf.export_gltf(target.objects(), path, morph_normals=chosen.morph_normals)
-        for remark in target.remarks():
+        for remark in (*exported.remarks, *target.remarks()):
             self.report({"WARNING"}, remark)
         return f"Exported {', '.join(exported.clips)} to {exported.path}"
 

@@ -1,13 +1,14 @@
-"""From a face to a file of shape keys that engines know by name."""
+"""From a face to a file for engines: shape keys that they know by name, or the clips that are baked on it."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from ...errors import ParameterError
 from ...progress import Report, run
 from ..blendshape_keys import WrittenKeys, write_blendshapes
-from ..gltf import write_gltf
+from ..gltf import Exported, export_gltf, write_gltf
 from ..pictures.film import refuse_unwritable_output
 from .files import save
 from .inputs import Input
@@ -15,6 +16,7 @@ from .subjects import subject
 
 #: Files that are written.
 SUFFIXES = (".blend", ".glb")
+GLTF_SUFFIXES = (".glb", ".gltf")
 
 
 def blendshape_file(
@@ -52,3 +54,27 @@ def blendshape_file(
     else:
         write_gltf(path, written.keys, export_animations=False, export_morph_normal=morph_normals)
     return written
+
+
+def gltf_file(
+    out: str | Path, *, mesh: str | Path, object_name: str | None = None, morph_normals: bool = True
+) -> Exported:
+    """Export the face of a .blend with all its clips, as the button does.
+
+    Parameters
+    ----------
+    out : the .glb or .gltf to write.
+    mesh, object_name : see `inputs.Input`.
+    morph_normals : as for `gltf.export_gltf`.
+
+    Raises
+    ------
+    RisoriusError : nothing has been written then.
+    """
+    path = Path(out)
+    if path.suffix.lower() not in GLTF_SUFFIXES:
+        raise ParameterError("out", f"must end in {' or '.join(GLTF_SUFFIXES)}", str(out))
+    refuse_unwritable_output(path)
+    face = run(subject(Input.of(mesh, object_name=object_name)))
+    exported = export_gltf(face.target.objects(), path, morph_normals=morph_normals)
+    return replace(exported, remarks=face.remarks + exported.remarks + face.target.remarks())

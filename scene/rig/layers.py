@@ -181,7 +181,7 @@ def take_off(action: Action) -> None:
 
     What nothing animates any more goes back to rest.
     """
-    for owner in _players(action):
+    for owner in players(action):
         animation = owner.animation_data
         if animation is None:
             continue
@@ -211,7 +211,7 @@ def _settle(owner: Datablock, action: Action) -> None:
             Place(owner, path, index).set(resting)
 
 
-def _players(action: Action) -> list[Datablock]:
+def players(action: Action) -> list[Datablock]:
     """The datablocks that play an action."""
     users = bpy.data.user_map(subset=[action])[action]
     return [user for user in users if getattr(user, "animation_data", None) is not None]

@@ -15,8 +15,9 @@ from gltf_validator import validate
 from risorius.errors import SceneError
 from risorius.scene import gltf
 from risorius.scene import mesh as meshes
-from risorius.scene.gltf import clips_of, export_gltf, write_gltf
+from risorius.scene.gltf import export_gltf, write_gltf
 from risorius.scene.jobs.shapes import blendshape_file
+from risorius.scene.laid_out import clips_of
 
 
 @pytest.fixture
@@ -165,6 +166,12 @@ def test_the_users_own_keys_keep_their_values(joy_and_fear: Any, tmp_path: Path)
     mesh = written["meshes"][0]
     weights = dict(zip(mesh["extras"]["targetNames"], mesh["weights"], strict=True))
     assert weights == {"joy": 0.0, "fear": 0.0, "younger": 0.5}
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    bpy.ops.import_scene.gltf(filepath=str(tmp_path / "face.glb"))
+    (face,) = (obj for obj in bpy.data.objects if obj.type == "MESH")
+    bpy.context.scene.frame_set(10)
+    assert face.data.shape_keys.animation_data.action is not None
+    assert face.data.shape_keys.key_blocks["younger"].value == pytest.approx(0.5)
 
 
 def test_a_file_without_the_face_is_not_called_exported(

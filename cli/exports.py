@@ -1,0 +1,199 @@
+"""Verb for what engines use: export csv, shapes, gltf, weights."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import FormatError
+from .films import needing_blender, silent_blender
+from .options import Verbs, add_scene, face_of, scene_options, verb
+from .progress import ShowProgress
+from .recordings import add_recording, read_as_told
+from .result import Result, UsageError
+
+if TYPE_CHECKING:
+    from ..api import Controls, Face
+
+#: Files of `export shapes` that need Blender; .npz does not.
+BLENDER_SUFFIXES = (".blend", ".glb")
+KINDS = {
+    "csv": "FAPs as a table",
+    "shapes": "shape keys for engines",
+    "gltf": "the clips that are baked in a .blend",
+    "weights": "values of shape keys over time",
+}
+
+
+def add_export_verb(verbs: Verbs) -> None:
+    """Add export to the verbs."""
+    exporting = verb(verbs, "export", _export)
+    about = "; ".join(f"{kind}: {what}" for kind, what in KINDS.items())
+    exporting.add_argument("what", choices=tuple(KINDS), help=about)
+    about = "csv, weights: a FAP stream or a tracker's recording"
+    exporting.add_argument("source", type=Path, nargs="*", help=about)
+    about = "csv, weights: .csv; shapes: .npz, or in Blender .blend or .glb; gltf: .glb or .gltf"
+    exporting.add_argument("--out", type=Path, required=True, help=about)
+    add_scene(exporting)
+    names = "shapes: arkit, ict_facekit, oculus_visemes, or a .toml file (default: arkit)"
+    exporting.add_argument("--names", default="arkit", help=names)
+    about = "shapes, gltf: targets move the normals, too (default: they do; the file is larger)"
+    exporting.add_argument("--morph-normals", action=argparse.BooleanOptionalAction, default=True, help=about)
+    add_recording(exporting)
+    exporting.add_argument("--replace", action="store_true", help="shapes: replace keys with the same names")
+    about = "weights: .npz of the shape keys, as `export shapes` writes it: names (N,), displacement (N, V, 3)"
+    exporting.add_argument("--shapes", type=Path, help=about)
+    about = "weights: left and right get the same value"
+    exporting.add_argument("--symmetric", action="store_true", help=about)
+
+
+def _export(arguments: argparse.Namespace) -> Result:
+    """Write FAPs as a table, a face's shape keys or clips for engines, or values of shape keys over time."""
+    exports = {"csv": _export_csv, "shapes": _export_shapes, "gltf": _export_gltf, "weights": _export_weights}
+    return exports[arguments.what](arguments)
+
+
+def _export_csv(arguments: argparse.Namespace) -> Result:
+    """A stream as CSV."""
+    from .. import api
+
+    recording = read_as_told(_source(arguments), arguments)
+    stream = recording.stream
+    api.write_fap_csv(arguments.out, stream)
+    data = {"frames": len(stream.frames), "fps": stream.fps, "assumed": list(recording.assumed), "out": arguments.out}
+    return Result(data, [f"wrote {arguments.out}: {len(stream.frames)} frames at {stream.fps:g} per second"])
+
+
+def _source(arguments: argparse.Namespace) -> Path:
+    """The stream to export."""
+    if len(arguments.source) != 1:
+        problem = f"export {arguments.what} needs one input file: a .fap, or a tracker's .csv or .json"
+        raise UsageError(problem)
+    source: Path = arguments.source[0]
+    return source
+
+
+def _export_shapes(arguments: argparse.Namespace) -> Result:
+    """Shape keys of a face."""
+    if arguments.source:
+        raise UsageError("export shapes takes no input file: set the face with --mesh and --points")
+    suffix = arguments.out.suffix.lower()
+    if suffix == ".npz":
+        made = _shapes_to_npz(arguments)
+    elif suffix in BLENDER_SUFFIXES:
+        made = _shapes_in_blender(arguments)
+    else:
+        raise UsageError(f"--out must end in .npz, {' or '.join(BLENDER_SUFFIXES)}")
+    keys, remarks = made["keys"], made["remarks"]
+    lines = [f"wrote {arguments.out}: {len(keys)} shape keys", *keys, *(f"note: {remark}" for remark in remarks)]
+    return Result({**made, "out": arguments.out}, lines)
+
+
+def _shapes_to_npz(arguments: argparse.Namespace) -> dict[str, tuple[str, ...]]:
+    """Write names (N,) and displacements (N, V, 3) in metres as NumPy's file; returns what there is to say."""
+    from .. import api
+
+    scene_options(arguments)  # refuses --object where nothing has objects
+    face = face_of(arguments)
+    shapes = api.arkit_shapes(face, arguments.names)
+    moved = np.stack([positions - face.vertices for positions in shapes.values()])
+    try:
+        np.savez_compressed(arguments.out, names=np.array(list(shapes)), displacement=moved.astype(np.float32))
+    except OSError as error:
+        problem = f"cannot be written ({error.strerror}): choose a folder you may write to"
+        raise FormatError(arguments.out, problem) from error
+    remarks = tuple(f"{name}: {why}" for name, why in shapes.unmet.items())
+    return {"keys": tuple(shapes), "replaced": (), "remarks": remarks}
+
+
+def _shapes_in_blender(arguments: argparse.Namespace) -> dict[str, tuple[str, ...]]:
+    """Write them by Blender; returns what there is to say."""
+    options = scene_options(arguments) | {
+        name: getattr(arguments, name) for name in ("names", "replace", "morph_normals")
+    }
+    with needing_blender():
+        from ..scene.jobs.shapes import blendshape_file
+    with silent_blender():
+        written = blendshape_file(arguments.out, **options, progress=ShowProgress())
+    return {"keys": written.keys, "replaced": written.replaced, "remarks": written.remarks}
+
+
+def _export_gltf(arguments: argparse.Namespace) -> Result:
+    """The clips of a face in a .blend."""
+    if arguments.source or arguments.mesh is None or arguments.mesh.suffix.lower() != ".blend":
+        raise UsageError("export gltf exports what is baked in a .blend: set it with --mesh")
+    if arguments.points is not None:
+        raise UsageError("--points has no meaning for export gltf")
+    with needing_blender():
+        from ..scene.jobs.shapes import gltf_file
+    with silent_blender():
+        made = gltf_file(
+            arguments.out,
+            mesh=arguments.mesh,
+            object_name=arguments.object_name,
+            morph_normals=arguments.morph_normals,
+        )
+    lines = [f"wrote {made.path}: {', '.join(made.clips)}", *(f"note: {remark}" for remark in made.remarks)]
+    return Result({"out": made.path, "clips": made.clips, "remarks": made.remarks}, lines)
+
+
+def _export_weights(arguments: argparse.Namespace) -> Result:
+    """A stream as values of shape keys over time."""
+    from .. import api
+
+    if arguments.shapes is None:
+        raise UsageError("export weights needs --shapes, with the face's shape keys")
+    scene_options(arguments)  # refuses --object where nothing has objects
+    stream = read_as_told(_source(arguments), arguments).stream
+    face = face_of(arguments)
+    controls, frames = _controls_of(arguments.shapes, face), stream.expanded()
+    motion = face.simulation(frames, stream.fps)
+    found = api.retarget(face, controls, motion, fps=stream.fps, requested=frames, symmetric=arguments.symmetric)
+    values = np.zeros((len(found.values), len(controls)))
+    values[:, [controls.names.index(name) for name in found.names]] = found.values
+    api.write_weight_csv(arguments.out, controls.names, values, fps=stream.fps)
+    off_mm = 1000.0 * float(found.off[int(np.argmax(found.moved))])
+    missing = {api.fap(short.number).name: {"asked": short.asked, "shown": short.shown} for short in found.missing}
+    data = {
+        "frames": len(values),
+        "fps": stream.fps,
+        "names": list(controls.names),
+        "explained": found.explained,
+        "off_mm": off_mm,
+        "carriers": dict(found.carriers),
+        "missing": missing,
+        "unmet": {api.fap(number).name: why for number, why in found.unmet.items()},
+        "still": list(found.still),
+        "same": dict(found.same),
+        "out": arguments.out,
+    }
+    lines = [
+        f"wrote {arguments.out}: {len(values)} frames at {stream.fps:g} per second of {len(controls)} shape keys",
+        f"they show {found.explained:.0%} of the motion, {off_mm:.1f} mm off at its peak",
+        *(f"note: too little of {short.line}" for short in found.missing),
+        *(f"note: {line}" for line in api.unmet_lines(found.unmet)),
+    ]
+    return Result(data, lines)
+
+
+def _controls_of(path: Path, face: Face) -> Controls:
+    """The shape keys of a .npz as controls from 0 to 1.
+
+    Raises
+    ------
+    FormatError : it cannot be read, or is not of this face.
+    """
+    from .. import api
+
+    rule = f"must have names (N,) and displacement (N, {len(face.vertices)}, 3), as `export shapes` writes them"
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            names, effects = [str(name) for name in stored["names"]], np.asarray(stored["displacement"], np.float64)
+    except (OSError, ValueError, KeyError, TypeError, EOFError) as problem:
+        raise FormatError(path, f"cannot be read as shape keys ({problem}): it {rule}") from problem
+    if effects.shape != (len(names), len(face.vertices), 3):
+        raise FormatError(path, f"{rule}, but displacement is {effects.shape}")
+    return api.Controls(tuple(names), effects, np.zeros(len(names)), np.ones(len(names)))
