@@ -32,11 +32,21 @@ def add_words(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
     parser.add_argument("words", nargs=nargs, metavar="WORD", help="emotion words, shown one after another")
 
 
+def _variant(text: str) -> int | str:
+    """A variant of the paper's by its number, or a way of showing an emotion by its name."""
+    return int(text) if text.isdigit() else text
+
+
 def add_strength(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--activation", type=float, help="how strongly the emotion is felt, 1 to 7 (default: the word's own)"
     )
-    parser.add_argument("--variant", type=int, help="number of the emotion's variant in the paper")
+    parser.add_argument(
+        "--variant",
+        type=_variant,
+        help="number of the emotion's variant in the paper, or how it shows: anger bared or pressed, "
+        "joy open or closed, fear drawn or raised, disgust shut or open",
+    )
 
 
 def add_fps(parser: argparse.ArgumentParser) -> None:

@@ -84,7 +84,7 @@ class Poser:
             goal=plan.goal.copy(),
             achieved=achieved,
             reasons=reasons,
-            unmet=unmet(self.anatomy, request.faps, achieved, reasons),
+            unmet=unmet(self.anatomy, plan.wanted, achieved, reasons),
         )
 
     def sketch(self, request: Request, memory: Memory) -> Sketch:

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Floats
 from ..errors import ParameterError
-from ..mpeg4 import ARCHETYPES, FAP_COUNT
+from ..mpeg4 import ARCHETYPES, FAP_COUNT, Feeling
 from .drive.request import ByHand, Contractions, Drive, EmotionShares, Request
 
 
@@ -65,7 +65,7 @@ def checked_drive(drive: str | Drive) -> Drive:
         raise ParameterError("drive", f"must be one of {', '.join(Drive)}", drive) from None
 
 
-def checked_emotion(emotion: EmotionShares | None) -> dict[str, float] | None:
+def checked_emotion(emotion: EmotionShares | None) -> Feeling | None:
     """Archetype shares with known names."""
     if emotion is None:
         return None
@@ -76,4 +76,5 @@ def checked_emotion(emotion: EmotionShares | None) -> dict[str, float] | None:
     for name, share in emotion.items():
         if not (np.isfinite(share) and share >= 0.0):
             raise ParameterError(f"emotion {name}", "must be a share of 0 or more", share)
-    return {str(name): float(share) for name, share in emotion.items()}
+    felt = Feeling.of(emotion)
+    return Feeling(felt, activation=felt.activation, strength=felt.strength, prototypes=felt.prototypes)

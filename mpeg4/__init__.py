@@ -24,7 +24,8 @@ from .emotions.emotion_presets import WORDS, load_emotions
 from .emotions.expressions import default_variant, expression, find_word, neighbours
 from .emotions.features import FEATURES, Feature, faps_from_features
 from .emotions.intermediate import between
-from .emotions.profile import ARCHETYPES, Archetype, Profile, Signs
+from .emotions.profile import ARCHETYPES, AS_PRINTED, Archetype, Feeling, Profile, Signs
+from .emotions.prototypes import Prototype, check_prototype, load_prototypes
 from .emotions.recognition import Beliefs, Rule, recognise, recognise_features, recognise_words, shown_strength
 from .emotions.wheel import ACTIVATION_MAX, ACTIVATION_MIN
 from .emotions.words import TABLE_WORDS, Word
@@ -71,6 +72,7 @@ __all__ = [
     "ACTIVATION_MIN",
     "ANGLE_UNIT",
     "ARCHETYPES",
+    "AS_PRINTED",
     "BASE_WORDS",
     "EXPRESSIONS",
     "FAPS",
@@ -105,11 +107,13 @@ __all__ = [
     "FapuDefinition",
     "Feature",
     "FeaturePoint",
+    "Feeling",
     "Filling",
     "Liveliness",
     "Motion",
     "Overlay",
     "Profile",
+    "Prototype",
     "Ramp",
     "Rule",
     "Side",
@@ -121,6 +125,7 @@ __all__ = [
     "Word",
     "archetype",
     "between",
+    "check_prototype",
     "decode_fba",
     "default_variant",
     "drawn_within",
@@ -136,6 +141,7 @@ __all__ = [
     "find_word",
     "initial_profile",
     "load_emotions",
+    "load_prototypes",
     "load_timings",
     "neighbours",
     "read_fap",

@@ -42,7 +42,7 @@ class Choice:
     activation: float
     word: str | None = None
     angle: float | None = None
-    variant: int | None = None
+    variant: int | str | None = None
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -146,7 +146,8 @@ def _choice_lines(choice: Choice) -> list[str]:
     by_word = choice.angle is None
     lines = [f"word = {toml_text(choice.word or '')}" if by_word else f"angle = {toml_number(choice.angle or 0.0)}"]
     lines += [f"activation = {toml_number(choice.activation)}"]
-    lines += [f"variant = {choice.variant}"] if choice.variant is not None else []
+    variant = toml_text(choice.variant) if isinstance(choice.variant, str) else choice.variant
+    lines += [f"variant = {variant}"] if variant is not None else []
     return lines + ([f"seed = {choice.seed}"] if choice.seed else [])
 
 
@@ -177,6 +178,11 @@ EMOTION_KEYS = ("word", "angle", "activation", "variant", "seed")
 CLIP_KEYS = ("start", "onset", "apex", "offset", "peak", "ramp", "name", "mute")
 
 
+def _variant(table: TomlTable) -> int | str:
+    """A variant of the paper's by its number, or a way of showing an emotion by its name."""
+    return table.text("variant") if isinstance(table.cells["variant"], str) else table.integer("variant")
+
+
 def _choice(table: TomlTable, *others: str) -> Choice:
     """An emotion, in a table that may have other keys."""
     table.only(*EMOTION_KEYS, *others)
@@ -185,7 +191,7 @@ def _choice(table: TomlTable, *others: str) -> Choice:
             table.number("activation"),
             word=table.text("word") if "word" in table else None,
             angle=table.number("angle") if "angle" in table else None,
-            variant=table.integer("variant") if "variant" in table else None,
+            variant=_variant(table) if "variant" in table else None,
             seed=table.integer("seed", 0),
         )
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ParameterError
-from ...mpeg4 import ARCHETYPES, FAP_COUNT, Cue, Liveliness, Overlay, sequence, strengths
+from ...mpeg4 import ARCHETYPES, FAP_COUNT, Cue, Feeling, Liveliness, Overlay, sequence, strengths
 from .drives import DRIVES
 from .natural.planning import LID_FAPS
 from .plan import Plan, blended
@@ -21,7 +21,8 @@ def stream_plans(stream: Floats, drive: Drive, weights: Floats | None) -> Iterat
     for step, faps in enumerate(stream):
         emotion = None
         if weights is not None and (total := float(weights[step].sum())) > 0.0:
-            emotion = {str(a): float(w) / total for a, w in zip(ARCHETYPES, weights[step], strict=True)}
+            shares = {a: float(w) / total for a, w in zip(ARCHETYPES, weights[step], strict=True)}
+            emotion = Feeling(shares, strength=min(total, 1.0))
         yield DRIVES[drive].plan(Request(faps, drive, emotion))
 
 
@@ -47,7 +48,7 @@ def cue_plans(
         raise ParameterError("contractions", f"must be one set for each of the {len(cues)} cues", len(hands))
     stream = sequence(cues, fps=fps)
     overlay = (liveliness or Liveliness()).over(len(stream), fps)
-    apexes = [Request(cue.profile.frame(cue.seed), drive, cue.profile.weights) for cue in cues]
+    apexes = [Request(cue.profile.frame(cue.seed), drive, Feeling.of(cue.profile.weights)) for cue in cues]
     plans = [DRIVES[drive].plan(apex) for apex in apexes] if drive is Drive.NATURAL else []
     for step, (faps, weights) in enumerate(zip(stream, strengths(cues, fps=fps), strict=True)):
         shares = (weights / max(1.0, weights.sum())).tolist()

@@ -12,6 +12,8 @@ from .request import Request, silent_faps
 
 #: What differs by less than a share and some FAP units counts as asked: after its range was heeded, after others were.
 AS_HELD, AS_WEIGHED = (0.02, 1.0), (0.1, 5.0)
+#: A FAP of which the emotion leaves less than this share is not asked any more.
+AS_SILENT = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,6 +25,7 @@ class Plan:
     request : what is asked.
     goal : (68,) what the face is to do, FAP units; NaN where nothing is known of the FAP.
     evened : (68,) what is asked, small differences of left and right evened, FAP units; NaN where silent.
+    meant : (68,) what is asked once what the emotion's action units do is heeded, FAP units; NaN where silent.
     limited : (68,) that, held within the anatomical range, FAP units; NaN where silent.
     muscles : muscle name (with side) -> amount in metres that is expected of it, for what no FAP sees.
     units : half unit name -> amount, why the silent FAPs are what they are.
@@ -31,6 +34,7 @@ class Plan:
     request: Request
     goal: Floats
     evened: Floats
+    meant: Floats
     limited: Floats
     muscles: Mapping[str, float] = field(default_factory=dict)
     units: Mapping[str, float] = field(default_factory=dict)
@@ -38,16 +42,28 @@ class Plan:
     @classmethod
     def as_asked(cls, request: Request) -> Plan:
         """The plan to do what is asked, and nothing else."""
-        return cls(request, request.faps, request.faps, request.faps)
+        return cls(request, request.faps, request.faps, request.faps, request.faps)
+
+    @property
+    def wanted(self) -> Floats:
+        """(68,) what is asked of the face, FAP units; NaN where silent, or where the emotion goes against it."""
+        faps = self.request.faps
+        against = ~np.isnan(self.meant) & ((np.abs(self.meant) < AS_SILENT * np.abs(faps)) | (self.meant * faps < 0.0))
+        return np.where(against, np.nan, faps)
 
     def reason(self, number: int) -> str:
         """In words, why a FAP's goal is what it is."""
-        goal, evened, limited = (float(faps[number - 1]) for faps in (self.goal, self.evened, self.limited))
+        each = (self.goal, self.evened, self.meant, self.limited)
+        goal, evened, meant, limited = (float(faps[number - 1]) for faps in each)
         if np.isnan(goal):
             return "not planned"
-        if np.isnan(evened):
+        if np.isnan(evened) and not np.isnan(meant):
+            return "not in the profile; the emotion shows it"
+        if np.isnan(meant):
             return "not in the profile; it follows from the action units that explain the request"
-        if _differ(limited, evened, AS_HELD):
+        if _differ(meant, evened, AS_HELD):
+            return "the emotion shows it otherwise than the profile"
+        if _differ(limited, meant, AS_HELD):
             return "limited by its anatomical range"
         if _differ(goal, limited, AS_WEIGHED):
             return "balanced against other requests"
@@ -74,12 +90,13 @@ def blended(request: Request, plans: Sequence[Plan], weights: Sequence[float]) -
     shown = [(plan, weight / total) for plan, weight in zip(plans, weights, strict=True) if weight > 0.0]
     if not shown:
         rest = np.where(np.isnan(plans[0].goal), np.nan, 0.0)
-        return Plan(request, rest, silent_faps(), silent_faps())
+        return Plan(request, rest, silent_faps(), silent_faps(), silent_faps())
     shares = np.array([share for _, share in shown])
     return Plan(
         request,
         goal=_mixed([plan.goal for plan, _ in shown], shares),
         evened=_mixed([plan.evened for plan, _ in shown], shares),
+        meant=_mixed([plan.meant for plan, _ in shown], shares),
         limited=_mixed([plan.limited for plan, _ in shown], shares),
         muscles=_summed([(plan.muscles, share) for plan, share in shown]),
         units=_summed([(plan.units, share) for plan, share in shown]),

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ...arrays import Floats
-from ...mpeg4 import FAP_COUNT, Archetype
+from ...mpeg4 import FAP_COUNT, Archetype, Feeling
 
 #: Archetype -> share of an expression, 0..1; an `Archetype` is its own name (a StrEnum).
 EmotionShares: TypeAlias = Mapping[Archetype, float] | Mapping[str, float]
@@ -56,7 +56,7 @@ class Request:
 
     faps: Floats
     drive: Drive = Drive.NATURAL
-    emotion: EmotionShares | None = None
+    emotion: Feeling | None = None
     by_hand: tuple[ByHand, ...] = ()
 
 

@@ -55,9 +55,7 @@ def sewn_among(vertices: Floats, polygons: Polygons, places: Mapping[str, Floats
     return run(sewn_among_steps(vertices, polygons, places))
 
 
-def sewn_among_steps(
-    vertices: Floats, polygons: Polygons, places: Mapping[str, Floats]
-) -> Work[frozenset[str]]:
+def sewn_among_steps(vertices: Floats, polygons: Polygons, places: Mapping[str, Floats]) -> Work[frozenset[str]]:
     """As `sewn_among`, bit by bit."""
     try:
         frame = head_frame_of({name: np.asarray(place) for name, place in with_pupils(places, vertices).items()})

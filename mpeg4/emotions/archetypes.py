@@ -17,7 +17,7 @@ from ...errors import ParameterError
 from ...resources import STANDARD
 from ...tables import read_csv
 from ..standard import FAP_COUNT, FAPS
-from .profile import ARCHETYPES, Archetype, Profile, Range, Signs, check_archetype, check_signs
+from .profile import ARCHETYPES, AS_PRINTED, Archetype, Profile, Range, Signs, check_archetype, check_signs
 
 
 class Verified(StrEnum):
@@ -235,4 +235,5 @@ def _profile(
         word=None,
         variants=variants,
         signs=signs,
+        prototypes={emotion: AS_PRINTED},
     )

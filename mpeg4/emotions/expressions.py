@@ -10,7 +10,8 @@ from ...errors import ParameterError
 from .archetypes import BASE_WORDS, archetype
 from .emotion_presets import WORDS
 from .intermediate import between
-from .profile import ARCHETYPES, Archetype, Profile, Signs, check_archetype
+from .profile import ARCHETYPES, AS_PRINTED, Archetype, Profile, Signs, check_archetype
+from .prototypes import check_prototype
 from .wheel import ANGLE_TOLERANCE, check_activation, check_angle, turn
 from .words import Word
 
@@ -22,7 +23,7 @@ def expression(
     *,
     activation: float | None = None,
     angle: float | None = None,
-    variants: Mapping[str, int] | int | None = None,
+    variants: Mapping[str, int | str] | int | str | None = None,
     signs: str = Signs.MPEG4,
     words: Mapping[str, Word] | None = None,
 ) -> Profile:
@@ -37,7 +38,10 @@ def expression(
     word : an emotion word of `words`; an archetype's name is one too. Upper case and outer blanks do not matter.
     activation : 1..7; by default the word's own.
     angle : degrees, instead of a word; needs an activation.
-    variants : archetype -> variant of Table 5, where not the preset's; a bare number serves a word of one category.
+    variants : archetype -> variant of Table 5 (a number), where not the preset's: the natural drive then shows what it
+        says and no more; or the way in which faces show the emotion in the natural drive (a name: anger "bared" or
+        "pressed", joy "open" or "closed"; presets/prototypes.toml). A bare number or name serves a word of one
+        category.
     signs : "mpeg4" (default) or "paper".
     words : the words to choose from; by default those that come with Risorius. `load_emotions` reads a user's own.
 
@@ -56,7 +60,20 @@ def expression(
     >>> {str(name): round(share, 2) for name, share in between.weights.items()}
     {'joy': 0.47, 'fear': 0.53}
     """
-    known = WORDS if words is None else words
+    numbers, ways = _numbers_and_ways(variants)
+    plain = _expression(word, activation, angle, numbers, signs, WORDS if words is None else words)
+    return _shown_as(plain, numbers, ways)
+
+
+def _expression(
+    word: str | None,
+    activation: float | None,
+    angle: float | None,
+    variants: Mapping[str, int] | int | None,
+    signs: str,
+    known: Mapping[str, Word],
+) -> Profile:
+    """The ranges of an expression; see `expression`."""
     if (word is None) == (angle is None):
         raise ParameterError("expression", "needs either a word or an angle", (word, angle))
     if word is None:
@@ -76,6 +93,37 @@ def expression(
     if entry.neighbours is not None and entry.angle is not None:
         return _mixed(*entry.neighbours, entry.angle, level, chosen, signs).named(entry.name)
     return _at_angle(check_angle(entry.angle or 0.0), level, chosen, signs).named(entry.name)
+
+
+def _numbers_and_ways(
+    variants: Mapping[str, int | str] | int | str | None,
+) -> tuple[Mapping[str, int] | int | None, Mapping[str, str] | str | None]:
+    """Variants that are numbers of Table 5, and those that are names of ways of showing an emotion."""
+    if isinstance(variants, str):
+        return None, variants
+    if variants is None or isinstance(variants, int):
+        return variants, None
+    numbers = {name: int(variant) for name, variant in variants.items() if not isinstance(variant, str)}
+    return numbers or None, {name: way for name, way in variants.items() if isinstance(way, str)}
+
+
+def _shown_as(
+    profile: Profile, numbers: Mapping[str, int] | int | None, ways: Mapping[str, str] | str | None
+) -> Profile:
+    """An expression shown as its word means, but for variants of Table 5 and ways that were asked for."""
+    asked: dict[Archetype, str] = {}
+    if isinstance(ways, str):
+        if profile.category is None:
+            rule = "must map archetypes to names for an expression between two, such as {'anger': 'pressed'}"
+            raise ParameterError("variants", rule, ways)
+        asked[profile.category] = check_prototype(profile.category, ways)
+    if isinstance(ways, Mapping):
+        asked.update({check_archetype(name): check_prototype(name, way) for name, way in ways.items()})
+    if isinstance(numbers, Mapping):
+        asked.update({check_archetype(name): AS_PRINTED for name in numbers})
+    elif numbers is not None and profile.category is not None:
+        asked[profile.category] = AS_PRINTED
+    return replace(profile, prototypes=asked)
 
 
 def find_word(word: str, words: Mapping[str, Word] = WORDS) -> Word:

@@ -64,6 +64,7 @@ def between(first: Profile, second: Profile, *, activation: float, angle: float)
         variants=_variants(first, second),
         category=next(iter(weights)) if len(weights) == 1 else None,
         signs=first.signs,
+        prototypes={**first.prototypes, **second.prototypes},
     )
 
 

@@ -65,6 +65,40 @@ def check_signs(signs: str) -> Signs:
         raise ParameterError("signs", f"must be one of {', '.join(Signs)}", signs) from None
 
 
+#: The way of showing an archetype that is its profile alone, as the paper prints it.
+AS_PRINTED = "paper"
+
+
+class Feeling(dict[Archetype, float]):
+    """Archetype -> share of it in an expression, and how strongly it is felt. Equal to any mapping of the same shares.
+
+    Attributes
+    ----------
+    activation : Whissell's, 1..7; None: each archetype's own.
+    strength : how much of it shows, 0..1: less while it comes and goes.
+    prototypes : archetype -> which of the ways of showing it (presets/prototypes.toml), or "paper": as its
+        profile says and no otherwise. Others as usual.
+    """
+
+    def __init__(
+        self,
+        shares: Mapping[Archetype, float] | Mapping[str, float],
+        *,
+        activation: float | None = None,
+        strength: float = 1.0,
+        prototypes: Mapping[Archetype, str] | Mapping[str, str] | None = None,
+    ) -> None:
+        super().__init__({check_archetype(name): float(share) for name, share in shares.items()})
+        self.activation = None if activation is None else check_activation(activation)
+        self.strength = strength
+        self.prototypes: Mapping[str, str] = {str(name): way for name, way in (prototypes or {}).items()}
+
+    @classmethod
+    def of(cls, shares: Mapping[Archetype, float] | Mapping[str, float]) -> Feeling:
+        """Shares as they are felt; those without an activation at each archetype's own."""
+        return shares if isinstance(shares, cls) else cls(shares)
+
+
 @dataclass(frozen=True)
 class Profile:
     """An expression as ranges of FAPs.
@@ -76,11 +110,14 @@ class Profile:
         It is the profile's own copy; treat it as read-only.
     activation : Whissell's activation, 1..7, at which the ranges hold.
     angle : direction on the wheel in degrees, [0, 360).
-    weights : archetype -> share of it in this expression; sums to 1 (empty only for the neutral face).
+    weights : archetype -> share of it in this expression; sums to 1 (empty only for the neutral face). It knows the
+        profile's activation and prototypes, so that `Face.pose(frame, emotion=profile.weights)` does.
     category : the archetype whose degree this is; None between archetypes and for the neutral face.
     word : the emotion word it was made for, if any.
     variants : archetype -> number of the Table 5 variant it was made from, where there is one.
     signs : the sign convention of the ranges. Faces and recognition expect MPEG-4's.
+    prototypes : archetype -> the way in which a face shows it in the natural drive, where not the usual one; "paper" is
+        as the ranges say and no otherwise.
 
     Raises
     ------
@@ -96,6 +133,7 @@ class Profile:
     word: str | None = None
     variants: Mapping[Archetype, int] = field(default_factory=dict)
     signs: Signs = Signs.MPEG4
+    prototypes: Mapping[Archetype, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Check and normalise every field."""
@@ -116,10 +154,11 @@ class Profile:
             "ranges": checked,
             "activation": check_activation(self.activation),
             "angle": check_angle(self.angle),
-            "weights": weights,
+            "weights": Feeling(weights, activation=self.activation, prototypes=self.prototypes),
             "category": None if self.category is None else check_archetype(self.category),
             "variants": {check_archetype(name): int(number) for name, number in self.variants.items()},
             "signs": check_signs(self.signs),
+            "prototypes": {check_archetype(name): way for name, way in self.prototypes.items()},
         }
         for name, value in normalised.items():
             object.__setattr__(self, name, value)

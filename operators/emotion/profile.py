@@ -48,8 +48,13 @@ def profile_of(emotion: RISORIUS_PG_emotion) -> Profile:
 
     if emotion.by == "WHEEL":
         return api.expression(angle=math.degrees(emotion.angle), activation=emotion.activation)
-    variant = None if emotion.variant == DEFAULT_VARIANT else int(emotion.variant)
-    return api.expression(emotion.word, activation=emotion.activation, variants=variant)
+    return api.expression(emotion.word, activation=emotion.activation, variants=variant_of(emotion))
+
+
+def variant_of(emotion: RISORIUS_PG_emotion) -> int | str | None:
+    """The chosen variant of the paper by its number, way of showing the emotion by its name, or None for the usual."""
+    chosen = str(emotion.variant)
+    return None if chosen == DEFAULT_VARIANT else int(chosen) if chosen.isdigit() else chosen
 
 
 def frame_of(profile: Profile, seed: int) -> Floats:

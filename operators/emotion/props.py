@@ -13,6 +13,7 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty
 from ...mpeg4.emotions.archetypes import BASE_WORDS, VARIANTS
 from ...mpeg4.emotions.emotion_presets import WORDS
 from ...mpeg4.emotions.profile import ARCHETYPES
+from ...mpeg4.emotions.prototypes import load_prototypes
 from ..annotated import Annotated
 from ..blender_classes import PropertyGroup
 from ..blender_types import Context
@@ -24,6 +25,20 @@ _variant_items: dict[str, list[tuple[str, str, str, int]]] = {}
 
 FIRST_WORD = "joy"
 DEFAULT_VARIANT = "DEFAULT"
+#: Numbers of ways of showing an emotion begin here, those of the paper's variants before.
+FIRST_WAY = 100
+#: Way of showing an emotion -> what it does.
+WAYS = {
+    "open": "Lips part and teeth show",
+    "closed": "Lips stay closed",
+    "shut": "Lips stay closed",
+    "bared": "The upper lip rises and teeth show",
+    "pressed": "Lips are pressed together",
+    "drawn": "Brows are drawn together and rise in the middle",
+    "raised": "Brows rise from end to end",
+    "drop": "The jaw drops",
+    "plain": "Brows rise in the middle and the mouth corners sink",
+}
 FALLBACK_ACTIVATION = 4.0
 #: A whole turn, radians.
 WHOLE = 2.0 * math.pi
@@ -74,14 +89,17 @@ def word_items(owner: RISORIUS_PG_emotion, context: Context) -> list[tuple[str, 
 
 
 def variant_items(owner: RISORIUS_PG_emotion, context: Context) -> list[tuple[str, str, str, int]]:
-    """The variants of the word's category in the paper's table of profiles; only the default between categories."""
+    """Ways of showing the word's category, and its variants in the paper; only the default between categories."""
     entry = WORDS.get(owner.word)
     category = entry.category if entry is not None else None
     key = str(category or "")
     if key not in _variant_items:
-        items = [(DEFAULT_VARIANT, "Default", "The variant that fits this word best", 0)]
+        items = [(DEFAULT_VARIANT, "Default", "As people show this emotion most", 0)]
+        for place, way in enumerate(load_prototypes()[category] if category is not None else ()):
+            items.append((way, way.capitalize(), WAYS.get(way, way), FIRST_WAY + place))
         for number in VARIANTS[category] if category is not None else ():
-            items.append((str(number), f"{key.capitalize()} {number}", f"Variant {number} of {key}", int(number) + 1))
+            said = f"Variant {number} of {key} in the paper, and no more"
+            items.append((str(number), f"{key.capitalize()} {number}", said, int(number) + 1))
         _variant_items[key] = items
     return _variant_items[key]
 

@@ -14,6 +14,7 @@ from ...resources import PRESETS
 from ...scene.bake.timing import scene_fps
 from ..blender_types import Context, Object, Scene
 from ..changes import changed, retimed
+from ..emotion.profile import variant_of
 from ..emotion.props import DEFAULT_VARIANT, RISORIUS_PG_emotion
 from ..muscles.props import by_hand_of
 from ..timeline.props import RISORIUS_PG_clip, RISORIUS_PG_timeline
@@ -58,8 +59,7 @@ def choice_of(emotion: RISORIUS_PG_emotion) -> Choice:
     if emotion.by == "WHEEL":
         angle = math.degrees(emotion.angle) % 360.0
         return Choice(round(emotion.activation, 6), angle=round(angle, 4), seed=emotion.seed)
-    variant = None if emotion.variant == DEFAULT_VARIANT else int(emotion.variant)
-    return Choice(round(emotion.activation, 6), emotion.word, variant=variant, seed=emotion.seed)
+    return Choice(round(emotion.activation, 6), emotion.word, variant=variant_of(emotion), seed=emotion.seed)
 
 
 def _clip_of(clip: RISORIUS_PG_clip, start: float) -> Clip:

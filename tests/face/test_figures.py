@@ -36,7 +36,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "drive/natural/mixture.py": (10.0,),  # a bound that is never met
     "drive/natural/planning.py": (0.01,),  # units that are not worth naming
     "drive/natural/recognition.py": (0.01,),  # shares that are not worth naming
-    "drive/plan.py": (0.02, 0.1, 5.0),  # when a goal is told as it was asked
+    "drive/plan.py": (0.02, 0.1, 5.0, 0.1),  # when a goal is told as it was asked; when an emotion is against it
     "face.py": (25.0, 25.0, 25.0),  # frames per second
     "figures.py": (1e-3, 1e6, 180.0),  # units
     "mechanisms/bulge.py": (6.0,),  # a triangle's share of a divergence

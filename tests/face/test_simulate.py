@@ -38,6 +38,7 @@ def sudden(face: Face, word: str, frames: int, **options: Any) -> np.ndarray:
     asked = np.repeat(profile.frame()[None], frames, axis=0)
     asked[0] *= 0.0
     weights = np.array([[profile.weights.get(name, 0.0) for name in api.ARCHETYPES]] * frames)
+    weights[0] = 0.0
     return np.asarray(face.simulate(asked, emotions=weights, **options).positions)
 
 
@@ -95,7 +96,7 @@ def test_cheek_and_chin_overshoot_slightly_and_the_forehead_does_not(
     moving = sudden(face, word, 15)
     for point in loose:
         assert 0.01 < overshoot(moving, face.points[point].vertices[0]) < 0.08
-    for point in ("4.1", "4.2", "4.3", "4.4"):
+    for point in ("4.1", "4.2", "4.3", "4.4") if word == "surprise" else ():  # joy leaves the brows where they are
         vertex = face.points[point].vertices[0]
         assert np.linalg.norm(moving[-1, vertex] - moving[0, vertex]) > 2e-3
         assert overshoot(moving, vertex) < 0.001
@@ -127,7 +128,7 @@ def test_constant_frames_stay_still(face: Face) -> None:
 
 
 def test_the_emotion_word_matters_to_a_stream(face: Face) -> None:
-    sadness = api.archetype("sadness", 0)
+    sadness = api.expression("sadness")
     frames = np.repeat(sadness.frame()[None], 2, axis=0)
     weights = np.zeros((2, len(api.ARCHETYPES)))
     weights[:, list(api.ARCHETYPES).index(api.Archetype.SADNESS)] = 1.0

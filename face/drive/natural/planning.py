@@ -19,6 +19,7 @@ from ...figures import Length, read_figures
 from ..plan import Plan
 from ..request import Request
 from .conflicts import doubts, smiling_eyes_spared
+from .meaning import Meaning
 from .mixture import Mixture, Weighed
 from .ranges import carried_by_jaw, held
 from .recognition import Shown
@@ -50,6 +51,7 @@ class Natural:
     def __init__(self, data: Synergies | None = None) -> None:
         self.data = load_synergies() if data is None else data
         self._mixture = Mixture(self.data)
+        self._meaning = Meaning(self.data)
         numbers = self.data.numbers
         brow = np.where(np.isin(numbers, BROW_CHEEK_FAPS), SPREAD.brow, SPREAD.mouth)
         self._spread = np.where(np.isin(numbers, LID_FAPS), SPREAD.lid, brow)
@@ -57,7 +59,8 @@ class Natural:
     def plan(self, request: Request) -> Plan:
         """The plan for a request; where no emotion is given, it is recognised."""
         data, spread = self.data, self._spread
-        faps, asymmetric = evened(request.faps)
+        even, asymmetric = evened(request.faps)
+        faps = self._meaning.meant(even, request.emotion) if request.emotion else even
         asked = ~np.isnan(faps[data.numbers - 1])
         wanted = np.nan_to_num(faps[data.numbers - 1] * data.per_fap)
         carried = carried_by_jaw(data, wanted)
@@ -74,7 +77,8 @@ class Natural:
         return Plan(
             request,
             goal=self._faps(np.clip(goal, np.minimum(least, limited), np.maximum(most, limited))),
-            evened=faps,
+            evened=even,
+            meant=faps,
             limited=self._faps(np.where(asked, limited, np.nan)),
             muscles=self._hidden(amounts),
             units={n: float(a) for n, a in zip(data.unit_names, amounts, strict=True) if a > LEAST_TOLD},

@@ -6,9 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ....arrays import Floats
-from ....mpeg4 import recognise
+from ....mpeg4 import Feeling, recognise
 from ...figures import Share, read_figures
-from ..request import EmotionShares
 from .symmetry import mirrored
 
 
@@ -39,7 +38,7 @@ class Shown:
     certainty: float
 
     @classmethod
-    def by_word(cls, emotion: EmotionShares) -> Shown:
+    def by_word(cls, emotion: Feeling) -> Shown:
         """A given word's shares."""
         shares = {str(name): float(share) for name, share in emotion.items() if share > 0.0}
         return cls(shares, 1.0 if shares else 0.0)

@@ -41,6 +41,7 @@ class Synergies:
     numbers : (m,) FAP numbers. low, high : (m,) anatomical range, metres on the template.
     low_linear, high_linear : (m,) share of the range up to which a request passes unchanged.
     units : (m, k) metres per amount of each half unit; `unit_names` (k,) as "AU12_l", "AU27".
+    shown : (m, k) the same of units that an emotion word shows.
     unit_spread : unit -> usual amount, of units that need more of a reason than others.
     sums : (k, s) amounts of half units per strength of each half sum; `sum_names` (s,) as "joy_l".
     hidden : unit -> muscle -> metres of muscle amount per amount of the unit.
@@ -52,6 +53,7 @@ class Synergies:
     low_linear: Floats
     high_linear: Floats
     units: Floats
+    shown: Floats
     unit_names: tuple[str, ...]
     unit_spread: Mapping[str, float]
     sums: Floats
@@ -83,11 +85,11 @@ def _range(row: CsvRow) -> tuple[int, float, float, float, float]:
     return number, low, high, low_linear, high_linear
 
 
-def _units(entries: Mapping[str, KeyedTable], row_of: Mapping[int, int]) -> dict[str, Floats]:
-    """Half unit -> (m,) metres per amount."""
+def _units(entries: Mapping[str, KeyedTable], row_of: Mapping[int, int], key: str = "faps") -> dict[str, Floats]:
+    """Half unit -> (m,) metres per amount, from the figures under a key, or the usual ones where there are none."""
     columns: dict[str, Floats] = {}
     for unit, entry in entries.items():
-        faps = entry.table("faps")
+        faps = entry.table(key if key in entry else "faps")
         for half in ("_l", "_r") if entry.flag("paired") else ("",):
             column = np.zeros(len(row_of))
             for name in faps:
@@ -139,7 +141,8 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
     numbers, low, high, low_linear, high_linear = (np.array(column) for column in zip(*ranges, strict=True))
     table = read_toml(folder / "synergies.toml")
     entries = table.tables("units")
-    units = _units(entries, {int(number): row for row, number in enumerate(numbers)})
+    row_of = {int(number): row for row, number in enumerate(numbers)}
+    units, shown = _units(entries, row_of), _units(entries, row_of, "shown")
     sums = _sums(table, tuple(units))
     return Synergies(
         numbers=numbers.astype(np.int64),
@@ -148,6 +151,7 @@ def load_synergies(folder: Path = ANATOMY) -> Synergies:
         low_linear=low_linear,
         high_linear=high_linear,
         units=np.column_stack(list(units.values())),
+        shown=np.column_stack(list(shown.values())),
         unit_names=tuple(units),
         unit_spread={name: unit.number("spread", above=0.0) for name, unit in entries.items() if "spread" in unit},
         sums=np.column_stack(list(sums.values())),
