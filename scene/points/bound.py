@@ -18,7 +18,6 @@ from mathutils.interpolate import poly_3d_calc
 
 from ...arrays import Floats, Ints
 from ...face.mesh.point_files import PointTable
-from ...physics.mesh import triangulate
 from ...polygons import PolygonTable
 from .. import mesh as meshes
 from ..blender_types import Mesh, SearchTree
@@ -53,6 +52,8 @@ class Surface:
         for last in _last:
             if last.digest == digest and np.array_equal(last.vertices, vertices):
                 return last
+        from ...physics.mesh import triangulate
+
         triangles = triangulate(PolygonTable(*meshes.polygon_arrays(mesh)))
         tree = BVHTree.FromPolygons(vertices.tolist(), triangles.tolist(), all_triangles=True)
         _last[:] = [cls(vertices, triangles, mesh_counts(mesh), digest, tree)]
