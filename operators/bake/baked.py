@@ -1,6 +1,12 @@
-"""What has been baked, in the panel: clips of new shape keys, and clips on the rig with how far it follows."""
+"""What has been baked, in the panel: clips of new shape keys, and clips on the rig with how far it follows.
+
+Of several clips on the rig, those at the current frame say more.
+"""
 
 from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
 
 from ...scene.bake import shape_keys
 from ...scene.rig.kept import Followed, kept_clips
@@ -26,16 +32,13 @@ def draw_baked(layout: UILayout, context: Context) -> None:
         for clip, keys in clips.items():
             _draw_clip(box, clip, f"{len(keys)} key{'s' * (len(keys) != 1)}", stale=clip in stale, on_rig=False)
     if on_rig:
-        chosen, box = obj.risorius.bake, layout.box().column(align=True)
-        row = box.row(align=True)
-        row.prop(chosen, "details", text="", icon="TRIA_DOWN" if chosen.details else "TRIA_RIGHT", emboss=False)
-        row.label(text="On your rig: shown, off")
+        box, now = layout.box().column(align=True), float(scene.frame_current)
+        box.label(text="On your own controls")
         for clip, kept in on_rig.items():
-            followed = kept.followed
-            _draw_clip(
-                box, clip, followed.line if followed is not None else "", stale=clip in stale_on_rig, on_rig=True
-            )
-            if chosen.details and followed is not None:
+            followed, (first, last) = kept.followed, kept.frames
+            state = followed.line if followed is not None else ""
+            _draw_clip(box, clip, state, stale=clip in stale_on_rig, on_rig=True)
+            if followed is not None and (len(on_rig) == 1 or first <= now <= last):
                 _draw_details(box, followed)
     if stale or stale_on_rig:
         layout.operator(RISORIUS_OT_bake_again.bl_idname, icon="FILE_REFRESH")
@@ -52,20 +55,19 @@ def _draw_clip(box: UILayout, clip: str, state: str, *, stale: bool, on_rig: boo
 
 
 def _draw_details(box: UILayout, followed: Followed) -> None:
-    """Which controls carry a clip, and what is missing."""
+    """Which controls carry a clip, and what shows too little."""
     column = box.column(align=True)
     column.active = False
-    if followed.carriers:
-        column.label(text=listed("With", followed.carriers), icon="BLANK1")
-    if followed.missing:
-        column.label(text=listed("Little", followed.missing), icon="BLANK1")
+    for what, names in (("Mostly", followed.carriers), ("Too little", followed.missing)):
+        for line in listed(what, names):
+            column.label(text=line, icon="BLANK1")
 
 
-def listed(what: str, names: tuple[str, ...], room: int = LINE - STEP) -> str:
-    """As many of some names as fit on a line, and how many more there are."""
+def listed(what: str, names: Sequence[str], *, width: int = LINE - STEP, lines: int = 2) -> list[str]:
+    """As many of some names as fit on a few lines, and how many more there are."""
     for count in range(len(names), 0, -1):
-        more = len(names) - count
-        text = f"{what} {', '.join(names[:count])}" + (f" +{more}" if more else "")
-        if len(text) <= room:
-            return text
-    return f"{what} {names[0]}"[:room]
+        more = f" +{len(names) - count}" if count < len(names) else ""
+        wrapped = textwrap.wrap(f"{what}: {', '.join(names[:count])}{more}", width)
+        if len(wrapped) <= lines:
+            return wrapped
+    return []

@@ -74,7 +74,7 @@ class BakeOperator(WorkOperator[bake.BakeResult | Finding]):
             turn_to_face(context, read_kept(active_object(context)))
         first, last = result.frame_range
         if result.told:
-            said = f": {Followed.of(result.followed).line} off" if result.followed is not None else ""
+            said = f": {Followed.of(result.followed).line}" if result.followed is not None else ""
             count = f"{len(result.keys)} control{'s' * (len(result.keys) != 1)}"
             return f"Baked {result.clip} to {count}{said}, frames {first:g} to {last:g}"
         keys = f"{len(result.keys)} shape keys" if len(result.keys) > 1 else f"shape key {result.keys[0]}"

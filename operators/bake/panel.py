@@ -51,7 +51,7 @@ class RISORIUS_PT_bake(MeshSidebar, Panel):
         obj, chosen = active_object(context), active_object(context).risorius.bake
         layout.prop(chosen, "onto")
         if may_have_controls(obj):
-            layout.label(text=f"Has {user_keys(obj)} keys: try My Keys", icon="INFO")
+            layout.label(text=f"Has {user_keys(obj)} shape keys: try My Keys", icon="INFO")
         if destination_of(obj).to is BakeTo.NEW:
             return
         column = layout.column(align=True)

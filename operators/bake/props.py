@@ -84,14 +84,6 @@ class RISORIUS_PG_bake(PropertyGroup):
             precision=2,
         ),
     ]
-    details: Annotated[
-        bool,
-        BoolProperty(
-            name="Details",
-            description="Show for each clip on your rig which controls carry it, and which movements show too little",
-            default=True,
-        ),
-    ]
     start: Annotated[
         int,
         IntProperty(name="Start Frame", description="Frame at which the expression starts", default=1),

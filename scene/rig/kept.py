@@ -47,7 +47,7 @@ class Followed:
     @property
     def line(self) -> str:
         """Share and millimetres."""
-        return f"{self.explained:.0%}, {1000.0 * self.off:.1f} mm"
+        return f"{self.explained:.0%}, {1000.0 * self.off:.1f} mm off"
 
 
 @dataclass(frozen=True)

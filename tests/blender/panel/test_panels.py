@@ -161,7 +161,7 @@ def test_all_words_can_be_chosen_and_keep_their_number(head: Any) -> None:
 def test_a_face_with_keys_of_its_own_is_asked_once_and_shows_how_to_bake_to_them(head: Any) -> None:
     for number in range(12):
         head.shape_key_add(name=f"morph {number}")
-    assert ("label", "Has 11 keys: try My Keys") in drawn()["RISORIUS_PT_bake"]
+    assert ("label", "Has 11 shape keys: try My Keys") in drawn()["RISORIUS_PT_bake"]
     assert ("prop", "creases") in drawn()["RISORIUS_PT_bake"]
     head.risorius.bake.onto = "KEYS"
     shown = drawn()["RISORIUS_PT_bake"]
@@ -191,9 +191,14 @@ def test_clips_on_the_rig_say_how_far_it_follows_and_each_can_be_taken_off(head:
     missing = ("open_jaw", "depress_chin", "raise_b_midlip_o")
     keep(write_rig_clip(head, "joy", frames).actions, Followed(0.934, 0.00102, carriers, missing))
     shown = drawn()["RISORIUS_PT_bake"]
-    assert ("label", "93%, 1.0 mm") in shown
-    assert ("label", "With mouthSmileLeft +3") in shown
-    assert ("label", "Little open_jaw, depress_chin +1") in shown
+    assert ("label", "93%, 1.0 mm off") in shown
+    at = shown.index(("label", "Mostly: mouthSmileLeft,"))
+    lines = ["mouthSmileRight, browInnerUp +1", "Too little: open_jaw,", "depress_chin, raise_b_midlip_o"]
+    assert [text for _, text in shown[at + 1 : at + 4]] == lines
     assert [name for kind, name in shown if kind == "operator"].count("risorius.clear") == 2
-    head.risorius.bake.details = False
-    assert "mouthSmileLeft" not in str(drawn()["RISORIUS_PT_bake"])
+    keep(write_rig_clip(head, "late", Keyframes(frames.frames + 100.0, frames.values)).actions, Followed(0.5, 0.0))
+    assert "mouthSmileLeft" in str(drawn()["RISORIUS_PT_bake"])
+    bpy.context.scene.frame_set(60)
+    shown = drawn()["RISORIUS_PT_bake"]
+    assert ("label", "93%, 1.0 mm off") in shown
+    assert "mouthSmileLeft" not in str(shown), "of several clips, those at the current frame say more"

@@ -244,3 +244,56 @@ def test_without_keys_of_its_own_the_buttons_say_so(head: Any) -> None:
     head.risorius.bake.onto = "BONES"
     with pytest.raises(RuntimeError, match="has no armature: bake to New Keys or My Keys"):
         bpy.ops.risorius.bake_motion()
+
+
+def test_bones_are_baked_to_again_and_taken_off(rigged: Any) -> None:
+    head, bones = rigged.head, rigged.bones
+    bones["jaw"].rotation_mode = "XYZ"
+    bpy.context.view_layer.objects.active = head
+    head.risorius.bake.onto, head.risorius.emotion.word = "BONES", "surprise"
+    before = posed(bones)
+    assert bpy.ops.risorius.bake_expression() == {"FINISHED"}
+    kept = kept_clips(head)["surprise"]
+    assert kept.note.onto == "bones"
+    assert kept.followed.explained > 0.3
+    bpy.context.scene.frame_set(20)
+    shown = posed(bones)
+    assert np.abs(shown - before).max() > 0.01
+    assert bpy.ops.risorius.bake_expression() == {"FINISHED"}
+    bpy.context.scene.frame_set(20)
+    np.testing.assert_allclose(posed(bones), shown, atol=1e-5)
+    assert kept_clips(head)["surprise"].followed.explained == pytest.approx(kept.followed.explained, abs=1e-6)
+    assert bpy.ops.risorius.clear() == {"FINISHED"}
+    bpy.context.view_layer.update()
+    np.testing.assert_allclose(posed(bones), before, atol=1e-6)
+    assert rigged.rig.animation_data is None or rigged.rig.animation_data.action is None
+    assert head.data.shape_keys is None
+
+
+def test_new_keys_rest_on_the_face_without_the_clips_on_its_bones(rigged: Any) -> None:
+    head = rigged.head
+    bpy.context.view_layer.objects.active = head
+    head.risorius.bake.onto, head.risorius.emotion.word = "BONES", "surprise"
+    bpy.ops.risorius.bake_expression()
+    bpy.context.scene.frame_set(20)
+    head.risorius.bake.onto, head.risorius.emotion.word = "NEW", "joy"
+    bpy.ops.risorius.bake_expression()
+    at_apex = key_change(head, "joy")
+    bpy.ops.risorius.clear()
+    bpy.context.scene.frame_set(20)
+    bpy.ops.risorius.bake_expression()
+    np.testing.assert_allclose(at_apex, key_change(head, "joy"), atol=1e-6)
+
+
+def posed(bones: Any) -> np.ndarray:
+    """(B, 4, 4) where the bones are."""
+    return np.array([[list(row) for row in bone.matrix_basis] for bone in bones])
+
+
+def key_change(head: Any, name: str) -> np.ndarray:
+    """(3V,) what a key adds to the Basis."""
+    blocks, size = head.data.shape_keys.key_blocks, 3 * len(head.data.vertices)
+    there, rest = np.empty(size), np.empty(size)
+    blocks[name].data.foreach_get("co", there)
+    blocks["Basis"].data.foreach_get("co", rest)
+    return there - rest
