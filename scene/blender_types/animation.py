@@ -201,6 +201,8 @@ class NlaTrack(Protocol):
 class NlaTracks(Items[NlaTrack], Protocol):
     """Tracks of one thing."""
 
+    active: NlaTrack | None
+
     def new(self) -> NlaTrack: ...
     def remove(self, track: NlaTrack) -> None: ...
 

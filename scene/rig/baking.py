@@ -22,6 +22,7 @@ from ..bake.remarks import sewn_remarks, unmet_remarks
 from ..bake.target import Target
 from ..bake.timing import ClipTiming, scene_fps
 from ..faces import FaceSource, face_steps, read_face
+from ..refusals import sharer_of
 from .clips import Keyframes, overlap, refuse_unkeyable, remove_rig_clips, write_rig_clip
 from .kept import Followed, keep
 from .rig import Rig
@@ -134,7 +135,7 @@ def bake_expressions_onto(
     for each, found, missed in solved:
         curve = _on_frames(each.timing.curve(each.peak))
         values = {channel: moved[0] * curve.values for channel, moved in rig.channel_values(found).items()}
-        said = (*unmet_remarks(missed, each.clip), *_about(target, source, face))
+        said = (*unmet_remarks(missed, each.clip), *_about(target, rig, face))
         keyframes = Keyframes(curve.frames, values, curve.linear)
         adding = any(overlap(result.frame_range, keyframes.span) for result in results)
         results.append(_write(source, rig, each.clip, keyframes, onto, found, said, note=each.note, adding=adding))
@@ -172,7 +173,7 @@ def bake_motion_onto(
     yield Progress(0.9, "Relating the motion to the controls")
     found = retargeting.values(take, fps=rate, requested=motion.asked, smooth=onto.smooth)
     keyframes = Keyframes(start + np.arange(count, dtype=np.float64), rig.channel_values(found), linear=True)
-    return _write(source, rig, clip, keyframes, onto, found, _about(target, source, face), note=note)
+    return _write(source, rig, clip, keyframes, onto, found, _about(target, rig, face), note=note)
 
 
 def _prepared(target: Target, find_rig: FindRig) -> Work[tuple[FaceSource, Face, Rig, Controls]]:
@@ -189,9 +190,22 @@ def _prepared(target: Target, find_rig: FindRig) -> Work[tuple[FaceSource, Face,
     return source, face, rig, controls
 
 
-def _about(target: Target, source: FaceSource, face: Face) -> tuple[str, ...]:
-    """What the user should know about the face, and what of it stays behind."""
-    return (*sewn_remarks(source.head.name, face.sewn), *target.remarks())
+def _about(target: Target, rig: Rig, face: Face) -> tuple[str, ...]:
+    """What the user should know about the face, what of it stays behind, and what else moves along."""
+    return (*sewn_remarks(rig.source.head.name, face.sewn), *target.remarks(), *_sharing(rig))
+
+
+def _sharing(rig: Rig) -> list[str]:
+    """Remarks on objects that share the keys of a face and move with it."""
+    keyed = {place.owner for entry in rig.entries for place in entry.channel.places}
+    said = []
+    for obj in rig.source.objects:
+        sharer = sharer_of(obj) if obj.data.shape_keys in keyed else None
+        if sharer is not None and sharer not in [str(other.name) for other in rig.source.objects]:
+            said.append(
+                f"{sharer} shares the mesh of {obj.name} and moves with it: make it single user to keep it still"
+            )
+    return said
 
 
 def _write(

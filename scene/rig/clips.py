@@ -6,6 +6,7 @@ that is ours is these actions and the strips that play them.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -15,12 +16,15 @@ import numpy as np
 from ...arrays import Bools, Floats
 from ...errors import SceneError
 from ..blender_types import Action, Datablock, Object
-from ..fcurves import add_keyframes, curves_for, played_curves
+from ..fcurves import SMALL, add_keyframes, curves_for, played_curves
 from ..shape_mix import RIG_TAG
 from . import layers
 from .channels import Channel, Place
 from .layers import CLIP_TAG
 from .turns import keyed_values
+
+#: A property of a user's action: what has been written into it, and between which frames, as JSON.
+INTO = "risorius_rig_into"
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,23 +99,43 @@ def write_rig_clip(
 
 
 def _write_into_action(owner: Datablock, keyframes: Keyframes, places: Sequence[tuple[Place, Channel]]) -> list[str]:
-    """Put keyframes into the action that a datablock plays, in place of those it has between the first and the last."""
+    """Put keyframes of what moves into the action that plays, in place of those it has between the first and last."""
     animation = owner.animation_data
     curves = None if animation is None else played_curves(animation)
     assert curves is not None
     first, last = keyframes.span
+    ours = _written_before(animation.action, keyframes.span)
     for place, channel in places:
+        if not np.abs(keyframes.values[channel]).max(initial=0.0) > SMALL and (place.path, place.index) not in ours:
+            continue
         index = max(place.index, 0)
         curve = curves.find(place.path, index=index) or curves.new(place.path, index=index)
-        for point in [point for point in curve.keyframe_points if first <= point.co[0] <= last]:
-            curve.keyframe_points.remove(point, fast=True)
+        for number in reversed(range(len(curve.keyframe_points))):
+            if first <= curve.keyframe_points[number].co[0] <= last:
+                curve.keyframe_points.remove(curve.keyframe_points[number], fast=True)
         values = channel.resting + keyframes.values[channel]
         kept = needed(keyframes.frames, values)
         for frame, value in zip(keyframes.frames[kept], values[kept], strict=True):
             point = curve.keyframe_points.insert(float(frame), float(value), options={"FAST"})
             point.interpolation = "LINEAR" if keyframes.linear else "BEZIER"
         curve.update()
+        _note_written(animation.action, place, keyframes.span)
     return [f"{owner.name}: keyframes were written into its action"]
+
+
+def _written_before(action: Action | None, span: tuple[float, float]) -> set[tuple[str, int]]:
+    """(path, index) of what clips have been written into an action where a span meets theirs."""
+    noted = [] if action is None else json.loads(str(action.get(INTO, "[]")))
+    return {(path, index) for path, index, *theirs in noted if overlap(span, (theirs[0], theirs[1]))}
+
+
+def _note_written(action: Action | None, place: Place, span: tuple[float, float]) -> None:
+    """Note on an action what has been written into it, and where."""
+    if action is not None:
+        noted = json.loads(str(action.get(INTO, "[]")))
+        entry = [place.path, place.index, *span]
+        if entry not in noted:
+            action[INTO] = json.dumps([*noted, entry])
 
 
 def overlap(one: tuple[float, float], other: tuple[float, float]) -> bool:

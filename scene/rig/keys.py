@@ -2,41 +2,63 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
 
 from ...arrays import Floats
+from ...errors import SceneError
 from ...progress import Progress, Work
-from ..blender_types import Key, ShapeKey
+from ..blender_types import Driver, DriverCurve, Key, ShapeKey
 from ..faces import FaceSource, Piece
 from ..fcurves import SMALL, played_curves
 from ..shape_mix import data_path, key_change, own_keys, resting_values
 from .channels import Channel, Place
 from .rig import Control, Rig
 
+#: A slider whose range goes no farther than this from 0 has no room.
+ROOM = 0.005
+
 
 def key_rig(source: FaceSource) -> Work[Rig]:
     """The shape keys that the objects of a face have; keys of one name on several objects are one control.
 
-    Keys that are muted, locked, driven or part of the resting face are left alone, and so are Risorius' own.
+    Keys that are muted, locked, driven or part of the resting face are left alone, and so are Risorius' own. A key that
+    is driven by that of its name on the head counts with it.
+
+    Raises
+    ------
+    SceneError : absolute keys on the head.
     """
     entries: list[Control] = []
     effects: list[Floats] = []
-    left_alone: dict[str, str] = {}
+    left_alone = _absolute(source)
     names = _names(source)
     for number, name in enumerate(names):
         yield Progress(number / len(names), f"Measuring {name}")
-        members = [(piece, keys.key_blocks[name]) for piece, keys in _keyed(source) if name in keys.key_blocks]
-        free = [(piece, key) for piece, key in members if not is_driven(piece, key)]
-        why = _reason(*members[0]) if free else "is driven"
-        if why is None and free[0][0] is not members[0][0]:
-            why = "is driven on one object of the face and not on another"
+        first, *others = [(piece, keys.key_blocks[name]) for piece, keys in _keyed(source) if name in keys.key_blocks]
+        why = _reason(*first)
         if why is not None:
             left_alone[name] = why
             continue
-        channel = _channel(name, free)
-        entries.append(Control(channel))
-        effects.append(_effect(source, members))
+        reasons = [(member, _reason(*member)) for member in others]
+        following = [member for member, _ in reasons if _follows(*member, _datablock(first[0]))]
+        free = [first, *(member for member, reason in reasons if reason is None)]
+        for member, reason in reasons:
+            if reason is not None and member not in following:
+                left_alone[f"{name} on {member[0].obj.name}"] = reason
+        entries.append(Control(_channel(name, free)))
+        effects.append(_effect(source, [*free, *following]))
     return Rig(source, tuple(entries), np.array(effects).reshape(-1, *source.vertices.shape), left_alone)
+
+
+def _absolute(source: FaceSource) -> dict[str, str]:
+    """Objects with absolute keys, which nobody can mix -> why they are left alone."""
+    remedy = "has absolute shape keys: turn on Relative in the Shape Keys panel"
+    names = [str(p.obj.name) for p in source.pieces if p.obj.data.shape_keys and not p.obj.data.shape_keys.use_relative]
+    if source.head.name in names:
+        raise SceneError(source.head.name, remedy)
+    return dict.fromkeys(names, remedy)
 
 
 def _keyed(source: FaceSource) -> list[tuple[Piece, Key]]:
@@ -54,15 +76,23 @@ def _names(source: FaceSource) -> list[str]:
     return list(names)
 
 
-def is_driven(piece: Piece, key: ShapeKey) -> bool:
-    """Whether a driver gives a key its value."""
-    keys = piece.obj.data.shape_keys
-    animation = None if keys is None else keys.animation_data
-    return animation is not None and any(curve.data_path == data_path(key.name) for curve in animation.drivers)
+def _drivers(piece: Piece, key: ShapeKey) -> list[Driver]:
+    """What gives a key its value."""
+    animation = _datablock(piece).animation_data
+    curves = [] if animation is None else animation.drivers
+    return [cast(DriverCurve, curve).driver for curve in curves if curve.data_path == data_path(key.name)]
+
+
+def _follows(piece: Piece, key: ShapeKey, leader: Key) -> bool:
+    """Whether a key gets its value from that of its name among other keys, and from nothing else."""
+    read = [t for driver in _drivers(piece, key) for variable in driver.variables for t in variable.targets]
+    return bool(read) and all(t.id == leader and t.data_path == data_path(key.name) for t in read)
 
 
 def _reason(piece: Piece, key: ShapeKey) -> str | None:
     """Why a key is left alone; None where it can be used."""
+    if _drivers(piece, key):
+        return "is driven"
     if key.mute:
         return "is muted: turn it on in the list of shape keys"
     if getattr(key, "lock_shape", False):
@@ -71,7 +101,7 @@ def _reason(piece: Piece, key: ShapeKey) -> str | None:
         return "its F-curve is locked: unlock it in the Graph Editor"
     if abs(resting_values(piece.obj.data).get(key.name, 0.0)) > SMALL:
         return "is part of the resting face: set it to 0 to use it"
-    if not key.slider_max - max(key.slider_min, 0.0) > SMALL and not key.slider_min < -SMALL:
+    if max(key.slider_max, -key.slider_min) < ROOM:
         return "has no room in its slider's range: raise Range Max"
     return None
 
@@ -87,7 +117,7 @@ def is_locked(piece: Piece, key: ShapeKey) -> bool:
 
 def _channel(name: str, members: list[tuple[Piece, ShapeKey]]) -> Channel:
     """The channel of a key, and of those of its name on other objects, within the range that all of them have."""
-    places = [Place(_datablock(piece), data_path(name)) for piece, _ in members]
+    places = list(dict.fromkeys(Place(_datablock(piece), data_path(name)) for piece, _ in members))
     low = max(min(key.slider_min, 0.0) for _, key in members)
     high = min(max(key.slider_max, 0.0) for _, key in members)
     return Channel(name, places[0], low, high, twins=tuple(places[1:]))

@@ -156,8 +156,16 @@ def _free_track(animation: AnimData, action: Action) -> NlaTrack:
     for track in animation.nla_tracks:
         if is_own(track) and not any(s.frame_start < last and first < s.frame_end for s in track.strips):
             return track
+    return _new_track(animation, TRACK_NAME)
+
+
+def _new_track(animation: AnimData, name: str) -> NlaTrack:
+    """A new track on top of all; the one that is active stays so."""
+    active = animation.nla_tracks.active
     track = animation.nla_tracks.new()
-    track.name = TRACK_NAME
+    track.name = name
+    if active is not None:
+        animation.nla_tracks.active = active
     return track
 
 
@@ -165,8 +173,7 @@ def _push_down(owner: Datablock, animation: AnimData, action: Action) -> None:
     """Make the action that plays a strip on a track of its own, as Blender's Push Down does."""
     slot = animation.action_slot if hasattr(animation, "action_slot") else None
     ours = _is_ours(action)
-    track = animation.nla_tracks.new()
-    track.name = TRACK_NAME if ours else action.name
+    track = _new_track(animation, TRACK_NAME if ours else str(action.name))
     animation.action = None
     strip = track.strips.new(action.name, int(action.frame_range[0]), action)
     if slot is not None:

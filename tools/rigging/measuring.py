@@ -90,9 +90,7 @@ class _Measuring:
 
     def __init__(self, head: KeyedHead, retargeting: Retargeting, positions: Floats, asked: Floats) -> None:
         self.face, self.by = head.face, retargeting
-        self.moved = retargeting.sight.of_skin(
-            retargeting.frame.to_head(positions) - head.face.anatomy.mesh.positions
-        )
+        self.moved = retargeting.sight.of_skin(retargeting.frame.to_head(positions) - head.face.anatomy.mesh.positions)
         self.asked, self.achieved = asked, head.face.measure(positions)
         self.metres = np.full(68, np.nan)
         self.metres[retargeting.sight.numbers - 1] = retargeting.sight.units

@@ -22,7 +22,7 @@ SHAPES: Mapping[str, Mapping[int, float]] = {
     "Grin.L": {12: 250.0, 6: 120.0},
     "Grin.R": {13: 250.0, 7: 120.0},
     "jawOpen": {3: 500.0},
-    "Fcl_BRW_Surprised": {n: 250.0 for n in range(31, 37)},
+    "Fcl_BRW_Surprised": dict.fromkeys(range(31, 37), 250.0),
     'eye "wide"': {19: -300.0, 20: -300.0},
     "lip up": {4: -200.0, 8: -150.0, 9: -150.0},
 }

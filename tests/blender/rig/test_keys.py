@@ -123,7 +123,7 @@ def evaluated(obj: Any) -> np.ndarray:
 
 @pytest.mark.parametrize("way", ["turned", "scaled", "parented", "centimetres"])
 def test_where_a_head_is_and_how_large_changes_no_value(keyed: Any, way: str) -> None:
-    expected = {name: value for name, value in peaks(bake(keyed)).items()}
+    expected = peaks(bake(keyed))
     remove_rig_clips(keyed)
     if way == "turned":
         keyed.rotation_euler, keyed.location = (0.4, 1.1, -0.7), (3.0, 1.0, 2.0)
@@ -301,7 +301,7 @@ def drive(obj: Any, name: str, owner: Any, path: str) -> None:
 def test_keys_that_do_nothing_or_the_same_are_named(keyed: Any, changes: dict[str, np.ndarray]) -> None:
     add_keys(keyed, {"idle": 0.0 * changes["jawOpen"], "again": 0.5 * changes["jawOpen"], "back": -changes["Grin.L"]})
     result = bake(keyed)
-    told = " ".join((*result.remarks, *result.tales))
+    told = " ".join((*result.remarks, *result.told))
     assert "idle" in told
     assert "again (jawOpen)" in told
     assert not {"idle", "again"} & set(result.keys)

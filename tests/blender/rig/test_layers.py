@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from file_state import differences, file_state
 from risorius import api
+from risorius.face.mesh.parts import Part
 from risorius.scene.rig import remove_rig_clips
 
 from .keyed import APEX, add_keys, bake, effects, values
@@ -24,11 +25,10 @@ def changes(built_head: Any) -> dict[str, np.ndarray]:
 
 
 @pytest.fixture
-def keyed(head: Any, changes: dict[str, np.ndarray]) -> Any:
-    """The default head with six keys, and one that moves an ear."""
-    nod = np.zeros_like(changes["jawOpen"])
-    nod[0] = 0.001
-    add_keys(head, changes | {"ear": nod})
+def keyed(head: Any, built_head: Any, changes: dict[str, np.ndarray]) -> Any:
+    """The default head with six keys, and one that moves its upper teeth, which no emotion does."""
+    teeth = (built_head.parts == Part.TEETH_UPPER)[:, None] * np.array([0.0, -0.001, 0.0])
+    add_keys(head, changes | {"teeth": teeth})
     return head
 
 
@@ -69,11 +69,13 @@ def settled(keys: Any) -> dict[str, object]:
 
 
 @pytest.mark.parametrize("strip", [False, True], ids=["action", "strip"])
-@pytest.mark.parametrize("names", [("Grin.L", "Grin.R"), ("ear",), ("Grin.L", "ear")], ids=["same", "other", "both"])
+@pytest.mark.parametrize(
+    "names", [("Grin.L", "Grin.R"), ("teeth",), ("Grin.L", "teeth")], ids=["same", "other", "both"]
+)
 def test_a_layer_adds_to_what_plays_and_comes_off_without_a_trace(
     keyed: Any, names: tuple[str, ...], strip: bool
 ) -> None:
-    keys = animate(keyed, *names)
+    keys = animate(keyed, *names.split())
     if strip:
         as_strip(keys)
     before, played = settled(keys), shown(keys)
@@ -81,7 +83,7 @@ def test_a_layer_adds_to_what_plays_and_comes_off_without_a_trace(
     peak = dict(zip(result.followed.names, result.followed.values[0], strict=True))  # type: ignore[union-attr]
     at_apex = values(keys, APEX)
     for name in at_apex:
-        below = played[APEX - 1][name] if name in names else 0.0
+        below = played[APEX - 1][name] if name in names.split() else 0.0
         assert at_apex[name] == pytest.approx(min(below + peak.get(name, 0.0), 1.0), abs=0.01), name
     assert values(keys, 30) == pytest.approx(played[29], abs=1e-4)
     assert remove_rig_clips(keyed) == ("joy",)
@@ -134,12 +136,12 @@ def test_two_clips_that_overlap_both_play_and_come_off_one_by_one(keyed: Any) ->
 
 
 def test_into_the_action_keys_what_plays_and_leaves_the_rest_of_it(keyed: Any) -> None:
-    keys = animate(keyed, "Grin.L", "ear")
+    keys = animate(keyed, "Grin.L", "teeth")
     for frame, value in ((60, 0.7), (80, 0.2)):
         keys.key_blocks["Grin.L"].value = value
         keys.key_blocks["Grin.L"].keyframe_insert("value", frame=frame)
     action, played = keys.animation_data.action, shown(keys, range(55, 90))
-    ear = [each["ear"] for each in shown(keys)]
+    teeth = [each["teeth"] for each in shown(keys)]
     result = bake(keyed, above=False)
     assert keys.animation_data.action == action
     assert len(keys.animation_data.nla_tracks) == 0
@@ -147,8 +149,17 @@ def test_into_the_action_keys_what_plays_and_leaves_the_rest_of_it(keyed: Any) -
         dict(zip(result.followed.names, result.followed.values[0], strict=True))["Grin.L"],  # type: ignore[union-attr]
         abs=0.01,
     )
-    assert [each["ear"] for each in shown(keys)] == pytest.approx(ear)
+    assert [each["teeth"] for each in shown(keys)] == pytest.approx(teeth)
     assert shown(keys, range(60, 90)) == [pytest.approx(each, abs=1e-5) for each in played[5:]]
+
+
+def test_into_the_action_again_leaves_nothing_of_the_first(keyed: Any) -> None:
+    keys = animate(keyed, "teeth")
+    bake(keyed, "anger", above=False)
+    once = shown(keys)
+    bake(keyed, "joy", above=False)
+    bake(keyed, "anger", above=False)
+    assert shown(keys) == [pytest.approx(each, abs=1e-5) for each in once]
 
 
 def test_a_head_that_is_renamed_or_saved_keeps_its_clips(keyed: Any, tmp_path: Path) -> None:
