@@ -102,6 +102,7 @@ def _write_into_action(owner: Datablock, keyframes: Keyframes, places: Sequence[
     """Put keyframes of what moves into the action that plays, in place of those it has between the first and last."""
     animation = owner.animation_data
     curves = None if animation is None else played_curves(animation)
+    assert animation is not None
     assert curves is not None
     first, last = keyframes.span
     ours = _written_before(animation.action, keyframes.span)

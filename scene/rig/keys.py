@@ -79,8 +79,9 @@ def _names(source: FaceSource) -> list[str]:
 def _drivers(piece: Piece, key: ShapeKey) -> list[Driver]:
     """What gives a key its value."""
     animation = _datablock(piece).animation_data
-    curves = [] if animation is None else animation.drivers
-    return [cast(DriverCurve, curve).driver for curve in curves if curve.data_path == data_path(key.name)]
+    if animation is None:
+        return []
+    return [cast(DriverCurve, c).driver for c in animation.drivers if c.data_path == data_path(key.name)]
 
 
 def _follows(piece: Piece, key: ShapeKey, leader: Key) -> bool:
