@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import cast
-
 import numpy as np
 
 from ...arrays import Floats
 from ...errors import SceneError
 from ...progress import Progress, Work
-from ..blender_types import Driver, DriverCurve, Key, ShapeKey
+from ..blender_types import Driver, Key, ShapeKey
 from ..faces import FaceSource, Piece
 from ..fcurves import SMALL, played_curves
 from ..shape_mix import data_path, key_change, own_keys, resting_values
@@ -81,7 +79,7 @@ def _drivers(piece: Piece, key: ShapeKey) -> list[Driver]:
     animation = _datablock(piece).animation_data
     if animation is None:
         return []
-    return [cast(DriverCurve, c).driver for c in animation.drivers if c.data_path == data_path(key.name)]
+    return [curve.driver for curve in animation.drivers if curve.data_path == data_path(key.name)]
 
 
 def _follows(piece: Piece, key: ShapeKey, leader: Key) -> bool:
