@@ -12,6 +12,7 @@ from .progress import when_slow
 if TYPE_CHECKING:
     from ..api import Recording
 
+FLIPS = ("yaw", "pitch", "roll", "eye_yaw", "eye_pitch")
 KINDS = ("openface", "py_feat", "arkit", "mediapipe", "landmarks", "faps")
 
 
@@ -24,6 +25,10 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--start", metavar="TIME", help=about)
     about = "which face of a recording of several: its number, or its place in a frame (0, 1, ...)"
     parser.add_argument("--face", type=int, metavar="N", help=about)
+    about = (
+        "turns that the recording has the other way round: of the head yaw, pitch, roll; of the eyes eye_yaw, eye_pitch"
+    )
+    parser.add_argument("--flip", nargs="+", choices=FLIPS, default=(), metavar="TURN", help=about)
     parser.add_argument(
         "--aspect", type=_aspect, default=16.0 / 9.0, help="landmarks: WIDTH:HEIGHT of the image (default: 16:9)"
     )
@@ -44,6 +49,7 @@ def read_as_told(
         rate=arguments.rate,
         start=arguments.start,
         face=arguments.face,
+        flip=arguments.flip,
         aspect=arguments.aspect,
         neutral=None if arguments.neutral is None else tuple(arguments.neutral),
         strict=strict,

@@ -6,18 +6,20 @@ does not say and had to be assumed, and what of it is damaged.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from ...errors import FormatError
+from ...errors import FormatError, ParameterError
 from ...files import read_bytes
 from ...mpeg4 import FapStream, decode_fba, read_fap, write_fap, write_fap_json, write_fba
 from ...mpeg4.streams.capture import Samples, write_fap_csv
 from ...mpeg4.streams.capture.times import checked_rate
 from ...mpeg4.streams.fap_json import stream_of_document
 from ...progress import Report
+from .flipping import checked_flips, flipped
 from .formats import WRITABLE, StreamFormat
 from .opening import Opened, open_stream
 from .trackers import ASPECT, Told
@@ -49,6 +51,7 @@ def read_recording(
     rate: float | None = None,
     start: float | str | None = None,
     face: int | None = None,
+    flip: Sequence[str] = (),
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
     strict: bool = False,
@@ -66,6 +69,8 @@ def read_recording(
     start : where the stream begins, in seconds of the recording's own times or as one of its timecodes; None: with its
         first row.
     face : which face of a recording of several: its number in the column of faces, else its place in a frame.
+    flip : turns of a tracker's file that are the other way round: "yaw", "pitch", "roll" of the head, "eye_yaw",
+        "eye_pitch".
     aspect : landmarks only: the picture's width over its height.
     neutral : landmarks only: seconds from and to which the face is neutral; None: its usual shape is.
     strict : .fba only: refuse any damage.
@@ -84,7 +89,10 @@ def read_recording(
     openface 25.0
     """
     checked_rate(rate)
+    flips = checked_flips(flip)
     opened = open_stream(path, None if format is None else StreamFormat.of(format))
+    if opened.samples is None:
+        _refuse_options({"rate": rate, "start": start, "face": face, "flip": flips or None})
     if opened.format is StreamFormat.FBA:
         decoded = decode_fba(read_bytes(path), path=path, strict=strict, progress=progress)
         return Recording(_at(decoded.stream, fps), StreamFormat.FBA, damage=decoded.damage)
@@ -94,6 +102,7 @@ def read_recording(
         return Recording(_at(stream_of_document(path, opened.document), fps), StreamFormat.JSON)
     samples = opened.samples(Told(rate, start, face, aspect, neutral))
     frames, per_second = samples.evenly(fps)
+    frames = flipped(frames, flips)
     stream = FapStream(frames=frames, fps=per_second, name=_name(opened), assumed=samples.assumed)
     return Recording(stream, opened.format, samples.assumed)
 
@@ -106,6 +115,7 @@ def read_stream(
     rate: float | None = None,
     start: float | str | None = None,
     face: int | None = None,
+    flip: Sequence[str] = (),
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
 ) -> FapStream:
@@ -118,7 +128,7 @@ def read_stream(
     [0.0, 468.0, 937.0]
     """
     return read_recording(
-        path, format, fps=fps, rate=rate, start=start, face=face, aspect=aspect, neutral=neutral
+        path, format, fps=fps, rate=rate, start=start, face=face, flip=flip, aspect=aspect, neutral=neutral
     ).stream
 
 
@@ -130,6 +140,7 @@ def read_capture(
     rate: float | None = None,
     start: float | str | None = None,
     face: int | None = None,
+    flip: Sequence[str] = (),
     aspect: float = ASPECT,
     neutral: tuple[float, float] | None = None,
 ) -> FapStream:
@@ -141,7 +152,9 @@ def read_capture(
     >>> len(api.read_capture("still.csv").frames)
     3
     """
-    return read_stream(path, kind, fps=fps, rate=rate, start=start, face=face, aspect=aspect, neutral=neutral)
+    return read_stream(
+        path, kind, fps=fps, rate=rate, start=start, face=face, flip=flip, aspect=aspect, neutral=neutral
+    )
 
 
 def write_stream(
@@ -194,6 +207,13 @@ _ENDINGS = {
     ".json": StreamFormat.JSON,
     ".csv": StreamFormat.FAPS,
 }
+
+
+def _refuse_options(options: Mapping[str, object]) -> None:
+    """Refuse what only the recordings of trackers leave open."""
+    for name, value in options.items():
+        if value is not None:
+            raise ParameterError(name, "must be left out: the file is a FAP stream, which states it", value)
 
 
 def _at(stream: FapStream, fps: float | None) -> FapStream:

@@ -1,8 +1,8 @@
 """ARKit blend shapes in CSV: Live Link Face's recordings, and any table with columns of ARKit's names.
 
 Live Link Face writes ``Timecode`` (HH:MM:SS:FF.fraction), ``BlendShapeCount``, the 52 blend shapes in PascalCase and
-nine rotations. Units and signs of the rotations are Unreal's (rad; yaw to the subject's right, pitch up, roll to the
-right shoulder) and stand in presets/capture/live_link.toml, for versions of the app differ.
+nine rotations. Units and signs of the rotations stand in presets/capture/live_link.toml, their evidence in
+docs/formats.md; versions of the app and ways to hold the phone differ.
 """
 
 from __future__ import annotations

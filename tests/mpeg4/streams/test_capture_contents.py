@@ -176,3 +176,46 @@ def test_single_images_of_openface_need_no_frame_and_no_time(tmp_path: Path) -> 
     stream = read(tmp_path / "a.csv", text)
     assert stream.frames[0, 48 - 1] == pytest.approx(1e4)
     assert stream.frames[0, 59 - 1] > 0.0
+
+
+# ---- signs -----------------------------------------------------------------------------------------------
+
+
+def test_eyes_look_down_with_a_positive_pitch_and_against_the_head(tmp_path: Path) -> None:
+    columns = {"jawOpen": 0, "HeadYaw": 0.3, "HeadPitch": 0.2, "LeftEyeYaw": 0.3, "LeftEyePitch": 0.2}
+    stream = table(tmp_path / "a.csv", columns)
+    values = {number: stream.frames[0, number - 1] for number in (23, 25, 48, 49)}
+    assert values == pytest.approx({23: -3e4, 25: 2e4, 48: -2e4, 49: 3e4})
+
+
+def test_pitch_of_the_eyes_agrees_with_where_they_look_in_a_real_recording(shared: Path) -> None:
+    """With the look shapes left out, the rotations say the same."""
+    path = shared / "samples" / "trackers" / "livelink" / "range_of_motion.csv"
+    whole = api.read_stream(path)
+    from risorius.mpeg4.streams.capture import TableFile, read_arkit, read_table_file
+
+    kept = read_table_file(path)
+    names = tuple(f"x{name}" if name.startswith("EyeLook") else name for name in kept.columns)
+    turned = read_arkit(TableFile(path, names, kept.rows, kept.lines)).evenly()[0]
+    for number in (23, 24, 25, 26):
+        known = np.isfinite(whole.frames[:, number - 1]) & np.isfinite(turned[:, number - 1])
+        assert np.corrcoef(whole.frames[known, number - 1], turned[known, number - 1])[0, 1] > 0.9
+
+
+def test_turns_can_be_flipped(tmp_path: Path) -> None:
+    columns = {"jawOpen": 0, "HeadYaw": 0.3, "HeadPitch": 0.2, "HeadRoll": 0.1, "LeftEyeYaw": 0.3, "LeftEyePitch": 0.2}
+    plain = table(tmp_path / "a.csv", columns).frames
+    for name, number in {"yaw": 49, "pitch": 48, "roll": 50, "eye_yaw": 23, "eye_pitch": 25}.items():
+        turned = table(tmp_path / "a.csv", columns, flip=[name]).frames
+        np.testing.assert_allclose(turned[:, number - 1], -plain[:, number - 1])
+        others = [other for other in range(68) if other not in (number - 1, number)]
+        np.testing.assert_array_equal(turned[:, others], plain[:, others])
+    with pytest.raises(ParameterError, match="flip must be some of yaw, pitch, roll, eye_yaw, eye_pitch"):
+        table(tmp_path / "a.csv", columns, flip=["upside down"])
+
+
+@pytest.mark.parametrize("option", [{"rate": 25.0}, {"start": 1.0}, {"face": 1}, {"flip": ["yaw"]}])
+def test_options_of_recordings_are_refused_for_streams(option: dict[str, object], tmp_path: Path) -> None:
+    api.write_stream(tmp_path / "a.fap", api.FapStream(np.zeros((3, 68))))
+    with pytest.raises(ParameterError, match=f"{next(iter(option))} must be left out: the file is a FAP stream"):
+        api.read_stream(tmp_path / "a.fap", **option)  # type: ignore[arg-type]

@@ -178,7 +178,7 @@ def test_live_link_face(tmp_path: Path) -> None:
     assert stream.fps == 60.0
     assert len(stream.frames) == 4
     np.testing.assert_allclose(stream.frames[:, 2], SHAPES["jawOpen"].frame[2] * np.array([0, 0.25, 0.5, 1]), rtol=1e-4)
-    assert fap(stream, 49) == pytest.approx(-1e4)
+    assert fap(stream, 49) == pytest.approx(1e4)  # its yaw is positive to the subject's left, the eyes' to the right
     assert fap(stream, 48, 1) == pytest.approx(-5e3)
     assert fap(stream, 50, 2) == pytest.approx(2e3)
     assert fap(stream, 23, 3) == pytest.approx(SHAPES["eyeLookInLeft"].frame[22])  # the look wins over the rotation
