@@ -1,4 +1,4 @@
-"""Turns that a recording has the other way round: of a phone that was held otherwise, of a picture that was mirrored."""
+"""Turns that a recording has the other way round: the phone was held otherwise, or the picture was mirrored."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from enum import StrEnum
 from ...errors import ParameterError
 
 #: Endings of files that are read, and that are written.
-READABLE = (".fap", ".fba", ".json", ".jsonl", ".csv")
+READABLE = (".fap", ".fba", ".json", ".jsonl", ".csv", ".tsv", ".txt", ".log")
 WRITABLE = (".fap", ".fba", ".json", ".csv")
 
 

@@ -11,9 +11,11 @@ from ...errors import FormatError
 from ...files import read_bytes
 from ...mpeg4.streams.capture import Samples, frames_of, read_json_document, read_table_file
 from ...mpeg4.streams.capture.delimited import decoded
+from ...mpeg4.streams.capture.text_logs import is_text_log, read_text_log
 from ...mpeg4.streams.fap_file import looks_like_fap
 from ...mpeg4.streams.fba import begins_as_fba
 from .formats import READABLE, StreamFormat
+from .seeming import names_in, what_begins_so, what_it_seems
 from .trackers import RECORDINGS, TABLES, Content, Told, Tracker
 
 #: Bytes at a file's beginning that tell FAP files, JSON and tables apart.
@@ -54,10 +56,12 @@ def open_stream(path: str | Path, format: StreamFormat | None = None) -> Opened:
     if format is StreamFormat.JSON or head.lstrip().startswith(("{", "[")) or ending in (".json", ".jsonl"):
         return _json(file, format)
     if "\0" in head:
-        problem = f"is binary, and not a FAP stream or a recording: use {', '.join(READABLE)}"
+        seems = what_begins_so(data)
+        problem = f"is {seems or 'binary'}, and not a FAP stream or a recording: use {', '.join(READABLE)}"
         raise FormatError(file, problem, offset=max(data.find(b"\0"), 0))
-    table = read_table_file(file)
-    unknown = FormatError(file, f"has none of the columns of {_listed(TABLES)}", line=1)
+    table = read_text_log(file) if is_text_log(head) else read_table_file(file)
+    problem = f"has none of the columns of {_listed(TABLES)}: {what_it_seems(table.columns)}"
+    unknown = FormatError(file, problem, line=1)
     return _recognised(file, format, table, TABLES, unknown)
 
 
@@ -66,7 +70,7 @@ def _json(file: Path, format: StreamFormat | None) -> Opened:
     document = read_json_document(file)
     if format is StreamFormat.JSON or (format is None and isinstance(document, dict) and "format" in document):
         return Opened(file, StreamFormat.JSON, document=document)
-    unknown = FormatError(file, f"has no {_listed(RECORDINGS)} in any frame")
+    unknown = FormatError(file, f"has no {_listed(RECORDINGS)} in any frame: {what_it_seems(names_in(document))}")
     return _recognised(file, format, frames_of(file, document), RECORDINGS, unknown)
 
 

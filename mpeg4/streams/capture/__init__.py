@@ -8,7 +8,8 @@ row_names, stamps                    what tells that in tables, whatever it is c
 samples                              from these times to an even rate
 rotation                             rotations of a head as FAPs 48 to 50
 delimited                            which mark parts the cells of a line, and which the decimals
-table_file, json_file                CSV and JSON, with errors that name line and column or frame
+table_file, json_file, json_layout   CSV and JSON, with errors that name line and column or frame
+text_logs                            Face Cap's files, logs of iFacialMocap and VMC
 openface, live_link                  action units with pose and gaze; ARKit blend shapes
 mediapipe_scores, landmark_file      MediaPipe's blend shapes, and its landmarks (`face.tracked` reads FAPs off them)
 fap_csv                              FAPs as CSV, out and in

@@ -20,13 +20,17 @@ from ....errors import FormatError, ParameterError
 from ....files import read_bytes
 from ....tables import parsed_number
 from .delimited import decoded
-from .row_names import NUMBER_NAMES, RATE_NAMES, first_named, time_named
+from .json_layout import bare_entries, entries_of, laid_out, rate_stated
+from .row_names import NUMBER_NAMES, first_named, time_named
 from .timecode import date_seconds, is_timecode, timecode_stamps
 from .times import Stamps, Times, placed
 
 #: Names of one frame's entries: what it is -> how it is called.
 NAMES: Mapping[str, tuple[str, ...]] = {
-    "blendshapes": ("blendshapes", "face_blendshapes", "faceBlendshapes", "blendShapes"),
+    "blendshapes": (
+        "blendshapes", "face_blendshapes", "faceBlendshapes", "blendShapes", "blend_shapes", "BlendShapes", "shapes",
+        "weights", "scores", "coefficients", "categories", "expressions", "blendshape_scores",
+    ),
     "landmarks": ("landmarks", "face_landmarks", "faceLandmarks", "multi_face_landmarks", "multiFaceLandmarks"),
     "matrix": (
         "facial_transformation_matrix", "facial_transformation_matrixes", "facialTransformationMatrixes", "matrix",
@@ -83,24 +87,16 @@ def read_json_frames(path: str | Path) -> list[JsonFrame]:
 
 def frames_of(file: Path, document: Any) -> list[JsonFrame]:
     """The frames of a document that has been read; errors as `read_json_frames`."""
-    listed = document.get("frames", [document]) if isinstance(document, dict) else document
-    if not isinstance(listed, list) or not listed:
+    listed = laid_out(document)
+    if not listed:
         raise FormatError(file, "must contain a list of frames, or an object with that list under 'frames'")
-    frames, per_second = [], _stated_rate(document)
-    for number, entries in enumerate(listed):
+    frames, per_second = [], rate_stated(document)
+    for number, (key, held) in enumerate(listed):
+        entries = bare_entries(held)
         if not isinstance(entries, dict):
             raise FormatError(file, f"must be an object, but it is {str(entries)[:40]!r}", key=f"frame {number}")
-        frames.append(JsonFrame(file, number, entries, per_second=per_second))
+        frames.append(JsonFrame(file, number, entries_of(entries), key, per_second))
     return frames
-
-
-def _stated_rate(document: Any) -> float | None:
-    """The frame rate that a document states beside its frames; None where it states none."""
-    name = first_named(document, RATE_NAMES) if isinstance(document, dict) else None
-    rate = document[name] if name is not None else None
-    if isinstance(rate, bool) or not isinstance(rate, int | float) or not math.isfinite(rate) or rate <= 0.0:
-        return None
-    return float(rate)
 
 
 def read_json_document(path: str | Path) -> Any:

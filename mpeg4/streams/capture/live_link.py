@@ -16,6 +16,7 @@ import numpy as np
 from ....arrays import Bools, Floats
 from ....errors import FormatError
 from ....tables import TomlTable, read_toml
+from ...standard import FAP_COUNT
 from .faces import one_face
 from .row_names import tells_of_a_row
 from .samples import Samples
@@ -56,17 +57,18 @@ def read_arkit(
     table = one_face(table, face)
     rotations = read_toml(preset or CAPTURE_PRESETS / "live_link.toml")
     turns, silent = rotations.tables("rotations"), {name.lower() for name in rotations.texts("silent")}
-    turned = {name.lower() for name in turns} | silent
+    silent |= {name.lower() for name in turns}
     shapes = [name for name in table.columns if shape_named(name) is not None]
     others = [
         name
         for name in table.columns
-        if name not in shapes and name.lower() not in turned and not tells_of_a_row(name) and not means_nothing(name)
+        if name not in shapes and name.lower() not in silent and not tells_of_a_row(name) and not means_nothing(name)
     ]
     if not shapes:
         raise FormatError(table.path, "has no column of an ARKit blend shape, such as jawOpen", line=1)
     frames, assumed, unread = faps_of_scores(table.several(shapes), table.refusal)
-    frames = np.where(np.isnan(frames), _rotations(table, turns), frames)
+    turned_frames = faps_of_turns(table.several(turns), len(table.rows), turns)
+    frames = np.where(np.isnan(frames), turned_frames, frames)
     frames[_faceless(table)] = np.nan
     times = table_times(table, rate)
     said = (*times.assumed, *assumed, *unread_words([*others, *unread]))
@@ -80,14 +82,19 @@ def _faceless(table: TableFile) -> Bools:
     return np.asarray(table.numbers(COUNT) <= 0.0)
 
 
-def _rotations(table: TableFile, turns: Mapping[str, TomlTable]) -> Floats:
-    """(T, 68) FAPs of the columns of rotations; NaN elsewhere."""
-    frames = np.full((len(table.rows), 68), np.nan)
-    for name, row in turns.items():
-        if name not in table:
-            continue
-        gains = fap_frame(row)
-        values = table.numbers(name)
-        for place in np.flatnonzero(~np.isnan(gains)):
-            frames[:, place] = values * gains[place]
+def faps_of_turns(columns: Mapping[str, Floats], count: int, turns: Mapping[str, TomlTable] | None = None) -> Floats:
+    """(T, 68) FAPs of columns of rotations (T,), named as in the preset, in any case; NaN elsewhere."""
+    rows = live_link_turns() if turns is None else turns
+    known = {name.lower(): values for name, values in columns.items()}
+    frames = np.full((count, FAP_COUNT), np.nan)
+    for name, row in rows.items():
+        if name.lower() in known:
+            gains = fap_frame(row)
+            for place in np.flatnonzero(~np.isnan(gains)):
+                frames[:, place] = known[name.lower()] * gains[place]
     return frames
+
+
+def live_link_turns() -> Mapping[str, TomlTable]:
+    """The rows of presets/capture/live_link.toml."""
+    return read_toml(CAPTURE_PRESETS / "live_link.toml").tables("rotations")

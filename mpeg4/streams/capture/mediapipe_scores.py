@@ -14,10 +14,11 @@ import numpy as np
 from ....arrays import Floats
 from ....errors import FormatError
 from .json_file import JsonFrame, chosen_face, json_times
+from .live_link import faps_of_turns
 from .rotation import head_faps
 from .samples import Samples
 from .scores import faps_of_scores, unread_words
-from .shape_names import means_nothing, shape_named
+from .shape_names import is_turn, means_nothing, shape_named
 
 SCORE_NAMES = ("category_name", "categoryName", "displayName", "name")
 
@@ -50,11 +51,13 @@ def read_scores(
         raise FormatError(
             frames[0].path, "has no blend shapes with ARKit's names: turn on output_face_blendshapes in MediaPipe"
         )
-    columns = {
-        name: np.array([score.get(name, math.nan) for score in scores]) for name in names if not means_nothing(name)
-    }
+    known = {name: np.array([score.get(name, math.nan) for score in scores]) for name in names}
+    columns = {name: values for name, values in known.items() if not means_nothing(name) and not is_turn(name)}
     values, assumed, unread = faps_of_scores(columns, lambda row, name, problem: frames[row].refuse(name, problem))
-    values[:, 47:50] = head_faps(np.stack([rotation_of(frame, chosen) for frame in frames]))
+    turned = faps_of_turns(known, len(frames))
+    values = np.where(np.isnan(values), turned, values)
+    posed = head_faps(np.stack([rotation_of(frame, chosen) for frame in frames]))
+    values[:, 47:50] = np.where(np.isnan(posed), turned[:, 47:50], posed)
     times = json_times(frames, rate)
     said = (*times.assumed, *assumed, *unread_words(unread))
     return Samples.at_times(replace(times, assumed=said), values[times.rows], start=start)

@@ -62,6 +62,11 @@ def shape_named(name: str) -> Named | None:
     return None
 
 
+def is_turn(name: str) -> bool:
+    """Whether a name is Live Link Face's of a turn of the head or an eye."""
+    return re.fullmatch(r"(head|lefteye|righteye)(yaw|pitch|roll)", plain_name(name)) is not None
+
+
 def means_nothing(name: str) -> bool:
     """Whether a name stands for a face at rest."""
     return plain_name(name) in NOTHING
