@@ -57,7 +57,8 @@ def open_stream(path: str | Path, format: StreamFormat | None = None) -> Opened:
         return _json(file, format)
     if "\0" in head:
         seems = what_begins_so(data)
-        problem = f"is {seems or 'binary'}, and not a FAP stream or a recording: use {', '.join(READABLE)}"
+        problem = f"is binary, and not a FAP stream or a recording: use {', '.join(READABLE)}"
+        problem += f"; it seems to be {seems}" if seems is not None else ""
         raise FormatError(file, problem, offset=max(data.find(b"\0"), 0))
     table = read_text_log(file) if is_text_log(head) else read_table_file(file)
     problem = f"has none of the columns of {_listed(TABLES)}: {what_it_seems(table.columns)}"

@@ -162,8 +162,8 @@ def test_messages_of_vmc(before: str, tmp_path: Path) -> None:
         ("a.csv", b"colour,weight_kg\nred,1\n", "it has colour, weight_kg"),
         ("a.json", b'{"mouthCues": []}', "it seems to hold timings of speech"),
         ("a.json", b'[{"pose_landmarks": [[1, 2, 3]]}]', "it seems to hold the motion of a body"),
-        ("a.csv", b"\x00\x00\x00\x18ftypmp42", r"is a video \(track it: risorius track\), and not a FAP stream"),
-        ("a.csv", b"PK\x03\x04\x00\x00", "is a zip archive or a spreadsheet"),
+        ("a.csv", b"\x00\x00\x00\x18ftypmp42", r"it seems to be a video \(track it: risorius track\)"),
+        ("a.csv", b"PK\x03\x04\x00\x00", "it seems to be a zip archive or a spreadsheet"),
     ],
 )
 def test_what_is_none_of_them_is_refused_with_what_it_seems_to_be(
