@@ -213,6 +213,8 @@ class DriverTarget(Protocol):
     id_type: str
     id: Datablock | None
     data_path: str
+    bone_target: str
+    transform_type: str
 
 
 class DriverVariable(Protocol):
@@ -235,6 +237,8 @@ class Driver(Protocol):
 
     type: str
 
+    @property
+    def is_valid(self) -> bool: ...
     @property
     def variables(self) -> DriverVariables: ...
 

@@ -125,6 +125,7 @@ class Object(Datablock, Protocol):
 
     data: Mesh
     parent: Object | None
+    rotation_mode: str
     matrix_parent_inverse: Matrix
     location: Numbers
     matrix_world: Matrix

@@ -5,6 +5,7 @@ rig           controls, what each does to the face, and what is left alone
 channels      one number that can be keyed; its limits, its value at rest
 turns         turns of bones that are kept as quaternions, or as an axis and an angle
 keys          the shape keys of a face as controls, measured on its meshes
+driven        what drives shape keys as controls
 bones         the bones and custom properties of armatures as controls
 sampling      what moving a channel does to the face
 rig_copy      a face with its rig as a copy, to move controls on

@@ -75,14 +75,19 @@ def _groups(
     """The channels of each bone that is shown, and those of the armature's own properties."""
     assert rig.pose is not None
     name = f"{rig.name}: " if several else ""
-    unit = float(np.cbrt(abs(np.linalg.det(copy.unit @ world_matrix(rig)[:3, :3])))) / scale
+    unit = unit_of(copy, rig, scale)
     groups: list[tuple[str, Sequence[Candidate]]] = [(rig.name, _kept(rig, _properties(rig, rig, "", rig.name), left))]
     for bone in (bone for bone in rig.pose.bones if is_shown(bone)):
         path = f'pose.bones["{bpy.utils.escape_identifier(bone.name)}"]'
         title = f"{name}{bone.name}"
-        candidates = [*transforms(copy, rig, bone, path, title, unit), *_properties(rig, bone, path, title)]
+        candidates = [*_transforms(copy, rig, bone, title, unit), *_properties(rig, bone, path, title)]
         groups.append((title, _kept(rig, candidates, left)))
     return groups
+
+
+def unit_of(copy: RigCopy, rig: Object, scale: float) -> float:
+    """The unit of an armature's bones in metres of a life-size face."""
+    return float(np.cbrt(abs(np.linalg.det(copy.unit @ world_matrix(rig)[:3, :3])))) / scale
 
 
 def is_shown(bone: PoseBone) -> bool:
@@ -118,50 +123,52 @@ def refusal(owner: Datablock, place: Place) -> str | None:
     return LOCKED if curve is not None and curve.lock else None
 
 
-def transforms(copy: RigCopy, rig: Object, bone: PoseBone, path: str, title: str, unit: float) -> list[Candidate]:
+def _transforms(copy: RigCopy, rig: Object, bone: PoseBone, title: str, unit: float) -> list[Candidate]:
     """The axes of a bone that are not locked; `unit` is an armature's in metres of a life-size face."""
-    found = []
     connected = bone.bone.use_connect and bone.parent is not None
-    for axis in range(3):
-        if not bone.lock_location[axis] and not connected:
-            low, high = _limits(bone, "LIMIT_LOCATION", axis)
-            place = Place(rig, f"{path}.location", axis)
-            found.append(_candidate(copy, f"{title} Location {AXES[axis]}", place, low, high, Kind.LOCATION, unit))
-        if not bone.lock_rotation[axis]:
-            found.append(_rotation(copy, rig, bone, path, f"{title} Rotation {AXES[axis]}", axis))
-        if not bone.lock_scale[axis]:
-            low, high = _limits(bone, "LIMIT_SCALE", axis)
-            place = Place(rig, f"{path}.scale", axis)
-            found.append(_candidate(copy, f"{title} Scale {AXES[axis]}", place, low, high, Kind.SCALE, 1.0))
-    return found
+    locks = {Kind.LOCATION: bone.lock_location, Kind.ROTATION: bone.lock_rotation, Kind.SCALE: bone.lock_scale}
+    return [
+        axis_candidate(copy, rig, bone, kind, axis, title, unit)
+        for axis in range(3)
+        for kind, locked in locks.items()
+        if not locked[axis] and not (connected and kind is Kind.LOCATION)
+    ]
 
 
-def _candidate(
+def axis_candidate(
+    copy: RigCopy, rig: Object, bone: PoseBone, kind: Kind, axis: int, title: str, unit: float
+) -> Candidate:
+    """A bone's location, turn or scale along one axis, within the limits that its constraints give it."""
+    low, high = _limits(bone, f"LIMIT_{kind.name}", axis)
+    name = f"{title} {kind.value.title()} {AXES[axis]}"
+    whole = f'pose.bones["{bpy.utils.escape_identifier(bone.name)}"].'
+    if kind is Kind.ROTATION and bone.rotation_mode in {"QUATERNION", "AXIS_ANGLE"}:
+        form = Form[bone.rotation_mode]
+        place = Place(rig, f"{whole}{form.value}", axis)
+        turn = _resting_turn(copy, place, form)
+        channel = Channel(name, place, min(low, 0.0), max(high, 0.0), form=form, turn=turn)
+        return Candidate(channel, kind)
+    path = "rotation_euler" if kind is Kind.ROTATION else kind.value
+    return plain_candidate(copy, name, Place(rig, whole + path, axis), low, high, kind, unit)
+
+
+def plain_candidate(
     copy: RigCopy, name: str, place: Place, low: float, high: float, kind: Kind, unit: float = 1.0
 ) -> Candidate:
     """A plain number with its limits, which hold its value at rest."""
     resting = copy.resting(place)
-    channel = Channel(
-        name, place, min(low, resting), max(high, resting), resting, neutral=default_of(place.owner, place)
-    )
-    return Candidate(channel, kind, unit)
+    low, high = min(_finite(low, -np.inf), resting), max(_finite(high, np.inf), resting)
+    return Candidate(Channel(name, place, low, high, resting, neutral=default_of(place.owner, place)), kind, unit)
 
 
-def _rotation(copy: RigCopy, rig: Object, bone: PoseBone, path: str, name: str, axis: int) -> Candidate:
-    """A bone's turn about one of its axes, however it is kept."""
-    low, high = _limits(bone, "LIMIT_ROTATION", axis)
-    if bone.rotation_mode not in {"QUATERNION", "AXIS_ANGLE"}:
-        return _candidate(copy, name, Place(rig, f"{path}.rotation_euler", axis), low, high, Kind.ROTATION)
-    form = Form[bone.rotation_mode]
-    place = Place(rig, f"{path}.{form.value}", axis)
-    turn = np.array([copy.resting(Place(rig, place.path, part)) for part in range(4)])
+def _resting_turn(copy: RigCopy, place: Place, form: Form) -> tuple[float, float, float, float]:
+    """The turn of a bone at rest, as a quaternion."""
+    turn = np.array([copy.resting(Place(place.owner, place.path, part)) for part in range(4)])
     if form is Form.AXIS_ANGLE:
         length = float(np.linalg.norm(turn[1:])) or 1.0
         turn = np.append(np.cos(turn[0] / 2.0), np.sin(turn[0] / 2.0) * turn[1:] / length)
-    turn = turn / (float(np.linalg.norm(turn)) or 1.0)
-    w, x, y, z = (float(part) for part in turn)
-    channel = Channel(name, place, min(low, 0.0), max(high, 0.0), form=form, turn=(w, x, y, z))
-    return Candidate(channel, Kind.ROTATION)
+    w, x, y, z = (float(part) for part in turn / (float(np.linalg.norm(turn)) or 1.0))
+    return w, x, y, z
 
 
 def _limits(bone: PoseBone, kind: str, axis: int) -> tuple[float, float]:

@@ -6,13 +6,16 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import SceneError
-from ...progress import Progress, Work
+from ...progress import Progress, Work, part_of
 from ..blender_types import Driver, Key, ShapeKey
 from ..faces import FaceSource, Piece
 from ..fcurves import SMALL, played_curves
 from ..shape_mix import data_path, key_change, own_keys, resting_values
+from .bones import DRIVEN
 from .channels import Channel, Place
+from .driven import Driven, driven_controls
 from .rig import Control, Rig
+from .sampling import evaluation
 
 #: A slider whose range goes no farther than this from 0 has no room.
 ROOM = 0.005
@@ -21,8 +24,9 @@ ROOM = 0.005
 def key_rig(source: FaceSource) -> Work[Rig]:
     """The shape keys that the objects of a face have; keys of one name on several objects are one control.
 
-    Keys that are muted, locked, driven or part of the resting face are left alone, and so are Risorius' own. A key that
-    is driven by that of its name on the head counts with it.
+    Keys that are muted, locked or part of the resting face are left alone, and so are Risorius' own. A key that is
+    driven by that of its name on the head counts with it; of other keys that are driven, what drives them is a control
+    (`driven`).
 
     Raises
     ------
@@ -31,11 +35,15 @@ def key_rig(source: FaceSource) -> Work[Rig]:
     entries: list[Control] = []
     effects: list[Floats] = []
     left_alone = _absolute(source)
+    driven: list[tuple[str, Key]] = []
     names = _names(source)
     for number, name in enumerate(names):
-        yield Progress(number / len(names), f"Measuring {name}")
+        yield Progress(0.5 * number / len(names), f"Measuring {name}")
         first, *others = [(piece, keys.key_blocks[name]) for piece, keys in _keyed(source) if name in keys.key_blocks]
         why = _reason(*first)
+        if why == DRIVEN:
+            driven.append((name, _datablock(first[0])))
+            continue
         if why is not None:
             left_alone[name] = why
             continue
@@ -47,7 +55,14 @@ def key_rig(source: FaceSource) -> Work[Rig]:
                 left_alone[f"{name} on {member[0].obj.name}"] = reason
         entries.append(Control(_channel(name, free)))
         effects.append(_effect(source, [*free, *following]))
-    return Rig(source, tuple(entries), np.array(effects).reshape(-1, *source.vertices.shape), left_alone)
+    found = (yield from part_of(driven_controls(source, driven), 0.5, 1.0)) if driven else Driven()
+    driving = {entry.channel.place for entry in found.entries}
+    plain = [number for number, entry in enumerate(entries) if entry.channel.place not in driving]
+    kept = (*(entries[number] for number in plain), *found.entries)
+    every = np.array([*(effects[number] for number in plain), *found.effects])
+    evaluate = evaluation(source) if found.entries else None
+    left_alone |= found.left_alone
+    return Rig(source, kept, every.reshape(-1, *source.vertices.shape), left_alone, evaluate)
 
 
 def _absolute(source: FaceSource) -> dict[str, str]:
@@ -91,7 +106,7 @@ def _follows(piece: Piece, key: ShapeKey, leader: Key) -> bool:
 def _reason(piece: Piece, key: ShapeKey) -> str | None:
     """Why a key is left alone; None where it can be used."""
     if _drivers(piece, key):
-        return "is driven"
+        return DRIVEN
     if key.mute:
         return "is muted: turn it on in the list of shape keys"
     if getattr(key, "lock_shape", False):
