@@ -71,7 +71,8 @@ def driven_controls(source: FaceSource, keys: Sequence[tuple[str, Key]]) -> Work
     moving = {entry.channel.place for entry in result.entries}
     for name, found in behind.items():
         if not any(each.channel.place in moving for each in found):
-            left[name] = f"is driven; its driver reads {found[0].channel.name}, which does not move the face within its limits"
+            read = found[0].channel.name
+            left[name] = f"is driven; its driver reads {read}, which does not move the face within its limits"
     return Driven(result.entries, tuple(result.effects), left)
 
 
