@@ -88,19 +88,13 @@ class _Follow:
         assert curve is not None
         if depth > DEEP:
             return "is driven; its drivers are driven in a circle: give it a driver that reads a property"
-        if not len(curve.driver.variables):
-            return "is driven; its driver reads nothing that can be keyed: let it read a property of an object or a bone"
-        found: list[Candidate] = []
-        why = ""
-        for variable in curve.driver.variables:
-            read = self._read(variable, depth)
-            if isinstance(read, str):
-                why = read
-            else:
-                found += read
+        read = [self._read(variable, depth) for variable in curve.driver.variables]
+        found = [each for candidates in read if not isinstance(candidates, str) for each in candidates]
         if found and not curve.driver.is_valid:
             return "is driven; its driver shows an error: mend it (Drivers editor, Update Dependencies)"
-        return found or why
+        refused = [why for why in read if isinstance(why, str)]
+        nothing = "is driven; its driver reads nothing that can be keyed: let it read a property of an object or a bone"
+        return found or next(iter(refused), nothing)
 
     def _read(self, variable: DriverVariable, depth: int) -> list[Candidate] | str:
         """What is to be keyed for a variable of a driver."""
