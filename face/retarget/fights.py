@@ -57,10 +57,9 @@ def both_on(pairs: Pairs, values: Floats, reach: Floats) -> float:
     return max(float(np.minimum(shares[:, one], shares[:, other]).max(initial=0.0)) for one, other in pairs)
 
 
-def strife(pairs: Pairs, moved: Floats, matrix: Floats) -> float:
-    """How much of what pairs do undoes itself, metres, of scaled values (T, K)."""
-    size = np.abs(moved)
-    return sum(float(np.minimum(size[:, one], size[:, other]).sum() * abs(matrix[one, other])) for one, other in pairs)
+def against(pairs: Pairs, matrix: Floats) -> float:
+    """How much pairs pull against each other, 0 to 1."""
+    return max(abs(float(matrix[one, other])) for one, other in pairs)
 
 
 def costs(settled: Sequence[Settled], moved: Floats, reach: Floats) -> Floats:

@@ -166,7 +166,7 @@ class Retargeting:
             raise ModelError("none of the controls moves the face: choose controls that do, and unlock them")
         moving = controls.select(~still)
         does = self._seen(moving)
-        self.same = _doubles(moving.names, does)
+        self.same = _doubles(moving, does)
         kept = np.array([name not in self.same for name in moving.names], dtype=bool)
         self.controls, self.does = moving.select(kept), Seen(does.skin[kept], does.points[kept])
         self.ties = self._ties() if symmetric else np.eye(len(self.controls))
@@ -273,11 +273,16 @@ class Retargeting:
         return units
 
 
-def _doubles(names: Sequence[str], does: Seen) -> dict[str, str]:
-    """Controls that do what another before them does -> that other."""
+def _doubles(controls: Controls, does: Seen) -> dict[str, str]:
+    """Controls that do what another before them does -> that other.
+
+    The opposite is the same where that other goes both ways.
+    """
     both = np.hstack([does.skin, does.points])
     unit = both / np.maximum(np.linalg.norm(both, axis=1, keepdims=True), 1e-300)
-    alike = np.abs(unit @ unit.T) >= SAME
+    cosines = unit @ unit.T
+    ways = (controls.low < 0.0) & (controls.high > 0.0)
+    alike, names = (cosines >= SAME) | (ways[:, None] & (cosines <= -SAME)), controls.names
     found: dict[str, str] = {}
     for later in range(len(names)):
         first = next((one for one in range(later) if alike[one, later] and names[one] not in found), None)

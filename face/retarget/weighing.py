@@ -14,7 +14,7 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from .bounded import bounded_over_time
-from .fights import COSTS, ON, Pairs, Settled, both_on, costs, opposed_pairs, strife
+from .fights import COSTS, ON, Pairs, Settled, against, both_on, costs, opposed_pairs
 from .normal import Normal, Seen, Wishes, normal_equations
 
 #: How many times as much as all skin the points of FAPs may count, and the gaze. The first of each is always given.
@@ -24,6 +24,8 @@ GAZES = (0.4, 0.6, 0.8, 1.2, 1.6, 2.4, 3.2, 6.4)
 REQUESTED = 8.0
 #: So much less of the skin's motion may be explained for the gaze's sake, for FAPs before fights are settled, in all.
 YIELD_TO_GAZE, YIELD_TO_FAPS, YIELD = 0.0135, 0.012, 0.0185
+#: So much of it FAPs get however much the gaze has taken.
+STEP = 0.0015
 #: Fights are settled where FAPs are still met nearer than by the skin alone, by this share of its errors, or where what
 #: is wrong is less than this share of what they move.
 NEARER, SLIGHT = 0.98, 0.05
@@ -70,7 +72,10 @@ def weighed_values(
     some = np.unique(np.linspace(0, len(asked.size) - 1, SAMPLE).astype(np.int64))
     sample = _Trial(does, Wishes(asked.skin[some], asked.points[some], asked.size[some]), counted, low, high)
     gaze = sample.most(GAZES, YIELD_TO_GAZE, lambda tried: sample.values(counted.weights(EMPHASES[0], tried), []))
-    emphasis = sample.most(EMPHASES, YIELD_TO_FAPS, lambda tried: sample.values(counted.weights(tried, gaze), []))
+    spent = sample.loss(sample.values(counted.weights(EMPHASES[0], gaze), []))
+    emphasis = sample.most(
+        EMPHASES, max(YIELD_TO_FAPS, spent + STEP), lambda tried: sample.values(counted.weights(tried, gaze), [])
+    )
     settled = sample.settled(counted.weights(emphasis, gaze), mirror)
     more = [step for step in EMPHASES if step >= emphasis]
     emphasis = sample.most(more, YIELD, lambda tried: sample.values(counted.weights(tried, gaze), settled))
@@ -117,7 +122,7 @@ class _Trial:
         """The last step of a ladder whose values the skin allows, or the first."""
         chosen = ladder[0]
         for step in ladder[1:]:
-            if self._loss(values(step)) > bound:
+            if self.loss(values(step)) > bound:
                 break
             chosen = step
         return chosen
@@ -130,7 +135,7 @@ class _Trial:
         untried = opposed_pairs(normal.matrix, self.low, self.high, mirror)
         settled: list[Settled] = []
         while fighting := [pairs for pairs in untried if both_on(pairs, found, self.reach) > ON]:
-            worst = max(fighting, key=lambda pairs: strife(pairs, found * normal.scale, normal.matrix))
+            worst = max(fighting, key=lambda pairs: both_on(pairs, found, self.reach) * against(pairs, normal.matrix))
             untried.remove(worst)
             settled, found = self._with(worst, settled, found, weights, errors)
         return settled
@@ -143,7 +148,7 @@ class _Trial:
         for cost in COSTS:
             more = [*settled, Settled(pairs, cost)]
             tried = self.values(weights, more)
-            if self._loss(tried) > YIELD or (self._errors(tried) > errors).any():
+            if self.loss(tried) > YIELD or (self._errors(tried) > errors).any():
                 break
             left = both_on(pairs, tried, self.reach)
             if left < before / 2.0:
@@ -152,7 +157,7 @@ class _Trial:
                 break
         return kept
 
-    def _loss(self, values: Floats) -> float:
+    def loss(self, values: Floats) -> float:
         """How much less of the skin's motion values explain than the plain ones, a share of all of it."""
         size = float(self.asked.size.sum())
         return (self._left(values) - self._left(self.plain)) / size if size > 0.0 else 0.0

@@ -32,6 +32,8 @@ class Take:
     bends, own_bends : root mean square of second differences over time of the skin on the keys, and of the take's own,
         micrometres.
     jerks, own_jerks : the largest of these.
+    share, own_share : second differences of the keys, each by what it does to the skin, as a share of how much they
+        move; and those of the take's own skin.
     fights, plain_fights : mean number of pairs that pull against each other and are both on in a frame.
     """
 
@@ -46,6 +48,8 @@ class Take:
     own_bends: float
     jerks: float
     own_jerks: float
+    share: float
+    own_share: float
     fights: float
     plain_fights: float
 
@@ -111,9 +115,17 @@ def _figures(
         1e6 * float(np.sqrt((own**2).mean())),
         1e6 * float(bends.max()),
         1e6 * float(own.max()),
+        _bending(found.values * np.linalg.norm(does, axis=1)),
+        _bending(skin),
         _fighting(opposed, found.values),
         _fighting(opposed, plain),
     )
+
+
+def _bending(moved: Floats) -> float:
+    """Root mean square of second differences over time of (T, n), as a share of the spread over time."""
+    spread = np.sqrt(((moved - moved.mean(axis=0)) ** 2).mean())
+    return float(np.sqrt((np.diff(moved, 2, axis=0) ** 2).mean()) / spread)
 
 
 def _fighting(opposed: Sequence[Sequence[tuple[int, int]]], values: Floats) -> float:

@@ -89,6 +89,17 @@ def test_controls_that_do_nothing_or_the_same_are_named_and_not_used(face: Face,
     assert found.names == keys.names
 
 
+def test_the_opposite_of_a_control_is_used_unless_that_one_goes_both_ways(face: Face, keys: Controls) -> None:
+    effects = np.concatenate([keys.effects[:1], -keys.effects[:1]])
+    frown = face.vertices - 0.5 * keys.effects[0]
+    one_way = retarget(face, Controls(("smile", "frown"), effects, np.zeros(2), np.ones(2)), [frown])
+    assert one_way.same == {}
+    assert one_way.values[0] == pytest.approx([0.0, 0.5], abs=0.02)
+    both_ways = retarget(face, Controls(("smile", "frown"), effects, np.array([-1.0, 0.0]), np.ones(2)), [frown])
+    assert both_ways.same == {"frown": "smile"}
+    assert both_ways.values[0] == pytest.approx([-0.5], abs=0.02)
+
+
 def test_controls_that_do_nothing_at_all_are_refused(face: Face, keys: Controls) -> None:
     dead = Controls(("a",), np.zeros_like(keys.effects[:1]), np.zeros(1), np.ones(1))
     with pytest.raises(ModelError, match="none of the controls moves the face"):
