@@ -100,12 +100,12 @@ def timing_options(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def add_onto(parser: argparse.ArgumentParser) -> None:
     """Which shape keys or controls are keyed."""
-    about = "what is keyed: new shape keys, or the keys that the face of --mesh has (default: new)"
-    parser.add_argument("--onto", choices=("new", "keys"), default="new", help=about)
-    parser.add_argument("--symmetric", action="store_true", help="--onto keys: left and right get the same value")
-    about = "--onto keys: how smooth a motion is over time; 0 leaves each frame to itself (default: 1)"
+    about = "what is keyed: new shape keys, or the keys or the bones that the face of --mesh has (default: new)"
+    parser.add_argument("--onto", choices=("new", "keys", "bones"), default="new", help=about)
+    parser.add_argument("--symmetric", action="store_true", help="--onto keys, bones: left and right move alike")
+    about = "--onto keys, bones: how smooth a motion is over time; 0 leaves each frame to itself (default: 1)"
     parser.add_argument("--smooth", type=float, metavar="AMOUNT", help=about)
-    about = "--onto keys: key the action that the face plays, instead of laying a clip over it that can be taken off"
+    about = "--onto keys, bones: key the action that plays, instead of laying a clip over it that can be taken off"
     parser.add_argument("--into-action", action="store_true", help=about)
 
 
@@ -115,7 +115,7 @@ def onto_options(arguments: argparse.Namespace, *, moves: bool = True) -> dict[s
     given = {name: value for name, value in asked.items() if value not in (None, False)}
     if arguments.onto == "new":
         for name in given:
-            raise UsageError(f"--{name.replace('_', '-')} needs --onto keys")
+            raise UsageError(f"--{name.replace('_', '-')} needs --onto keys or bones")
         return {"onto": "new"}
     if arguments.mesh is None:
         raise UsageError(f"--onto {arguments.onto} needs --mesh: the default head has no controls of its own")

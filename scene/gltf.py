@@ -57,6 +57,7 @@ def export_gltf(objects: Sequence[Object], path: str | Path, *, morph_normals: b
             {block.name for block in blocks if block.name in own and not block.mute},
             clips,
             use_active_scene=True,
+            use_renderable=True,
             export_animation_mode="NLA_TRACKS",
             export_anim_slide_to_zero=True,
             export_morph_normal=morph_normals,

@@ -18,10 +18,11 @@ from ..arrays import Floats
 from .bake import action as actions
 from .bake import shape_keys
 from .bake.tracks import CLIP_TAG, add_strip
-from .blender_types import Action, Datablock, Key, Object, Scene
+from .blender_types import Action, AnimData, Datablock, Key, Object, Scene
 from .fcurves import curves_for, curves_of, shift_keyframes
 from .rig import layers
 from .rig.clips import rig_clips
+from .rig.rig_copy import needed_objects, point_to_copies
 from .shape_mix import moving_keys
 
 #: What objects are called that lend their names.
@@ -32,7 +33,7 @@ ASIDE = "Risorius Exporting"
 class Clip:
     """One clip of a face: which action each datablock plays, and the names of the shape keys that it moves."""
 
-    actions: Mapping[Datablock, Action]
+    actions: dict[Datablock, Action]
     keys: tuple[str, ...] = ()
 
     @property
@@ -56,7 +57,7 @@ def all_clips(objects: Sequence[Object]) -> dict[str, Clip]:
     keyed = [obj.data.shape_keys for obj in objects if obj.type == "MESH" and obj.data.shape_keys is not None]
     found = {name: Clip(dict.fromkeys(keyed, action)) for name, action in clips_of(objects[0]).items()}
     for name, members in rig_clips(objects[0]).items():
-        playing: dict[Datablock, Action] = {owner: action for action in members for owner in layers.players(action)}
+        playing = {owner: action for action in members for owner in layers.players(action)}
         if playing:
             found[name if name not in found else f"{name} on the rig"] = Clip(playing, _keyed_names(playing))
     return found
@@ -84,7 +85,10 @@ def is_baked(head: Object | None) -> bool:
 
 @contextmanager
 def laid_out(objects: Sequence[Object], clips: Mapping[str, Clip]) -> Iterator[Scene]:
-    """A scene of copies that hold each clip on an NLA track of its name; removed on leaving."""
+    """A scene of copies that hold each clip on an NLA track of its name; removed on leaving.
+
+    What a rig depends on and what is not to be in the file itself is hidden from renders in it.
+    """
     scene = bpy.data.scenes.new("Risorius Export")
     copies: dict[Object, Object] = {}
     moved = {name: _from_zero(clip) for name, clip in clips.items()}
@@ -92,9 +96,12 @@ def laid_out(objects: Sequence[Object], clips: Mapping[str, Clip]) -> Iterator[S
         source = bpy.context.scene
         scene.render.fps, scene.render.fps_base = source.render.fps, source.render.fps_base
         scene.unit_settings.scale_length = source.unit_settings.scale_length
-        copies |= {obj: obj.copy() for obj in [*objects, *_carriers(objects)]}
-        for copy in copies.values():
+        carried, rigs = [*objects, *_carriers(objects)], _rigs(clips)
+        beside = [obj for obj in needed_objects([*objects, *rigs]) if obj not in carried] if rigs else []
+        copies |= {obj: obj.copy() for obj in [*carried, *beside]}
+        for obj, copy in copies.items():
             scene.collection.objects.link(copy)
+            copy.hide_render = obj in beside
             copy.parent = None if copy.parent is None else copies[copy.parent]
             for modifier in copy.modifiers:
                 if modifier.type == "ARMATURE" and modifier.object is not None:
@@ -103,8 +110,11 @@ def laid_out(objects: Sequence[Object], clips: Mapping[str, Clip]) -> Iterator[S
             copies[obj].data = obj.data.copy()
             _strip_modifiers(copies[obj])
             _lay_out_keys(obj, copies[obj], moved)
+        if rigs:
+            _lay_out_rigs(rigs, copies, moved)
         for obj in objects:
-            _play_out_drivers(scene, copies[obj])
+            _play_out_drivers(scene, obj, copies, moved)
+            _hold_others(obj.data.shape_keys, copies[obj].data.shape_keys, moved)
         scene.frame_start, scene.frame_end = 0, int(max(clip.frames[1] for clip in moved.values()))
         with _named(copies):
             yield scene
@@ -117,6 +127,12 @@ def laid_out(objects: Sequence[Object], clips: Mapping[str, Clip]) -> Iterator[S
             bpy.data.meshes.remove(mesh)
         for action in (action for clip in moved.values() for action in clip.actions.values()):
             bpy.data.actions.remove(action)
+
+
+def _rigs(clips: Mapping[str, Clip]) -> list[Object]:
+    """The objects that clips play on: armatures, as a rule."""
+    owners = dict.fromkeys(owner for clip in clips.values() for owner in clip.actions)
+    return [owner for owner in owners if isinstance(owner, bpy.types.Object)]
 
 
 def _from_zero(clip: Clip) -> Clip:
@@ -192,56 +208,106 @@ def _lay_out_keys(obj: Object, copy: Object, clips: Mapping[str, Clip]) -> None:
     moving = {*shape_keys.own_names_of(keys), *moving_keys(obj.data)}
     for name, clip in clips.items():
         if original in clip.actions:
-            track = animation.nla_tracks.new()
-            track.name = name
-            add_strip(track, clip.actions[original])
+            _add_track(animation, name, clip.actions[original], keys.id_type)
             moving |= set(clip.keys)
     for block in keys.key_blocks:
         if block.name in moving:
             block.value = 0.0
-    for clip in clips.values():
-        if original in clip.actions:
-            _hold_others(keys, clip.actions[original])
 
 
-def _hold_others(keys: Key, action: Action) -> None:
+def _lay_out_rigs(rigs: Sequence[Object], copies: Mapping[Object, Object], clips: Mapping[str, Clip]) -> None:
+    """Let the copies of rigs depend on copies, at rest, with the clips that play on each on NLA tracks of its own."""
+    twins: dict[Datablock, Datablock] = dict(copies.items())
+    for obj, copy in copies.items():
+        if obj.type == "MESH" and obj.data.shape_keys is not None and copy.data.shape_keys is not None:
+            twins[obj.data.shape_keys] = copy.data.shape_keys
+    for twin in twins.values():
+        point_to_copies(twin, twins)
+    for obj in rigs:
+        animation = copies[obj].animation_data or copies[obj].animation_data_create()
+        animation.action = None
+        for track in [track for track in animation.nla_tracks if layers.is_own(track)]:
+            animation.nla_tracks.remove(track)
+        for name, clip in clips.items():
+            if obj in clip.actions:
+                layers.put_at_rest(copies[obj], clip.actions[obj])
+                _add_track(animation, name, clip.actions[obj], obj.id_type)
+
+
+def _add_track(animation: AnimData, name: str, action: Action, id_type: str) -> None:
+    """An NLA track with a clip. The exporter takes a strip that is combined for a part of the track below it."""
+    track = animation.nla_tracks.new()
+    track.name = name
+    add_strip(track, action, id_type)
+
+
+def _hold_others(original: Key | None, keys: Key | None, clips: Mapping[str, Clip]) -> None:
     """Key the shape keys that a clip does not move at what they are: Blender's exporter takes others for 0 in it."""
+    if original is None or keys is None:
+        return
     animation = keys.animation_data
-    for block in keys.key_blocks:
-        path = actions.data_path(block.name)
-        driven = animation is not None and animation.drivers.find(path) is not None
-        if block != keys.reference_key and not block.mute and not driven and not curves_of(action, path):
-            actions.write_curve(action, block.name, actions.Curve(np.zeros(1), np.array([block.value]), linear=True))
+    for action in (clip.actions[original] for clip in clips.values() if original in clip.actions):
+        for block in keys.key_blocks:
+            path = actions.data_path(block.name)
+            driven = animation is not None and animation.drivers.find(path) is not None
+            if block != keys.reference_key and not block.mute and not driven and not curves_of(action, path):
+                still = actions.Curve(np.zeros(1), np.array([block.value]), linear=True)
+                actions.write_curve(action, block.name, still)
 
 
-def _play_out_drivers(scene: Scene, copy: Object) -> None:
-    """Under an armature, give driven keys the values that their drivers give them in each clip, frame by frame.
+def _play_out_drivers(scene: Scene, obj: Object, copies: Mapping[Object, Object], clips: Mapping[str, Clip]) -> None:
+    """Give driven keys the values that their drivers give them in each clip, frame by frame, where a rig is about.
 
-    There Blender's exporter takes the animation of shape keys from the armature as soon as one key has a driver, and
-    leaves our clips out.
+    Under an armature, Blender's exporter takes the animation of shape keys from the armature as soon as one key has a
+    driver, and leaves our clips out. And a clip on a rig may move keys by their drivers alone.
     """
+    copy, original = copies[obj], obj.data.shape_keys
     keys, parent = copy.data.shape_keys, copy.parent
     animation = None if keys is None else keys.animation_data
-    if keys is None or animation is None or parent is None or parent.type != "ARMATURE" or not animation.drivers:
+    if original is None or keys is None or animation is None or not animation.drivers:
+        return
+    if not _rigs(clips) and (parent is None or parent.type != "ARMATURE"):
         return
     driven = [block.name for block in keys.key_blocks if animation.drivers.find(actions.data_path(block.name))]
     played = {}
-    for track in animation.nla_tracks:
-        track.mute = True
-    for track in animation.nla_tracks:
-        action = track.strips[0].action
-        assert action is not None
-        frames = np.arange(int(action.frame_end) + 1, dtype=np.float64)
-        track.mute = False
-        played[action] = frames, _driven_values(scene, copy, driven, frames)
-        track.mute = True
-    for track in animation.nla_tracks:
-        track.mute = False
+    for name, clip in clips.items():
+        frames = np.arange(int(clip.frames[1]) + 1, dtype=np.float64)
+        with _alone(copies, name):
+            played[name] = frames, _driven_values(scene, copy, driven, frames)
     for driver in list(animation.drivers):
         animation.drivers.remove(driver)
-    for action, (frames, values) in played.items():
-        for name, column in zip(driven, values.T, strict=True):
-            actions.write_curve(action, name, actions.Curve(frames, column, linear=True))
+    for name, (frames, values) in played.items():
+        action = clips[name].actions.get(original)
+        if action is None:
+            action = _new_action(name, clips[name])
+            clips[name].actions[original] = action
+            _add_track(animation, name, action, keys.id_type)
+        for key_name, column in zip(driven, values.T, strict=True):
+            actions.write_curve(action, key_name, actions.Curve(frames, column, linear=True))
+
+
+def _new_action(name: str, clip: Clip) -> Action:
+    """An empty action as long as a clip."""
+    action: Action = bpy.data.actions.new(name)
+    action.use_frame_range = True
+    action.frame_start, action.frame_end = clip.frames
+    return action
+
+
+@contextmanager
+def _alone(copies: Mapping[Object, Object], name: str) -> Iterator[None]:
+    """Let only the NLA tracks of a name play."""
+    owners: list[Datablock] = list(copies.values())
+    owners += [copy.data.shape_keys for copy in copies.values() if copy.type == "MESH" and copy.data.shape_keys]
+    tracks = [track for owner in owners if owner.animation_data for track in owner.animation_data.nla_tracks]
+    muted = [track.mute for track in tracks]
+    for track in tracks:
+        track.mute = track.name != name
+    try:
+        yield
+    finally:
+        for track, mute in zip(tracks, muted, strict=True):
+            track.mute = mute
 
 
 def _driven_values(scene: Scene, obj: Object, names: Sequence[str], frames: Floats) -> Floats:

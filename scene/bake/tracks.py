@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ..blender_types import Action, AnimData, Key, NlaStrip, NlaTrack
-from ..fcurves import key_slot
+from ..fcurves import key_slot, slot_for
 
 #: What an action of ours is known by, and its clip's name (`action.py`).
 FACE_TAG, CLIP_TAG = "risorius_face", "risorius_clip"
@@ -116,14 +116,14 @@ def played_frames(keys: Key | None) -> tuple[int, int] | None:
     return int(min(each.frame_start for each in played)), int(max(each.frame_end for each in played))
 
 
-def add_strip(track: NlaTrack, action: Action) -> NlaStrip:
-    """Put a clip on an NLA track, at its own frames. Outside them it holds its ends, which are at rest.
+def add_strip(track: NlaTrack, action: Action, id_type: str = "KEY") -> NlaStrip:
+    """Put a clip on an NLA track of a kind of datablock, at its own frames; outside them it holds its ends, at rest.
 
     A strip that said nothing there would leave the face as the last frame shown had it.
     """
     strip = track.strips.new(action.name, int(action.frame_start), action)
     if hasattr(strip, "action_slot"):
-        strip.action_slot = key_slot(action)
+        strip.action_slot = slot_for(action, id_type)
     strip.frame_start = action.frame_start
     strip.extrapolation = "HOLD_FORWARD" if len(track.strips) > 1 else "HOLD"
     return strip

@@ -39,7 +39,7 @@ class Baked:
     @property
     def remarks(self) -> tuple[str, ...]:
         """What the user should know, each once."""
-        return tuple(dict.fromkeys(remark for result in self.results for remark in result.remarks))
+        return tuple(dict.fromkeys(line for result in self.results for line in (*result.told, *result.remarks)))
 
     @property
     def new_keys(self) -> int:
@@ -67,7 +67,7 @@ class Destination:
 
         Parameters
         ----------
-        onto : "new" or "keys".
+        onto : "new", "keys" or "bones".
         symmetric, smooth : as in `Onto`.
         into_action : key the action that plays now instead of laying the clip over it.
         """

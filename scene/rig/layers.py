@@ -210,6 +210,12 @@ def note_rest(action: Action, places: Sequence[tuple[Place, Channel]]) -> None:
     action[REST] = json.dumps([(place.path, place.index, channel.resting) for place, channel in places])
 
 
+def put_at_rest(copy: Datablock, action: Action) -> None:
+    """Put what a clip keys on a datablock to rest on a copy of that."""
+    for path, index, resting in json.loads(str(action.get(REST, "[]"))):
+        Place(copy, path, index).set(resting)
+
+
 def _settle(owner: Datablock, action: Action) -> None:
     """Put back to rest what a clip has keyed and nothing animates any more."""
     others = [*_user_actions(owner), *_own_actions(owner)]

@@ -96,7 +96,7 @@ def rig_copy(source: FaceSource) -> Iterator[RigCopy]:
             copies |= _copied(obj)
         for original in list(copies):
             _stop(original, copies[original])
-            _point_to_copies(copies[original], copies)
+            point_to_copies(copies[original], copies)
         for piece in source.pieces:
             _rest(piece, copies[piece.obj])  # type: ignore[arg-type]
         for original in copies:
@@ -207,7 +207,7 @@ def as_number(value: object, otherwise: float) -> float:
     return float(value) if isinstance(value, int | float) else otherwise
 
 
-def _point_to_copies(copy: Datablock, copies: Mapping[Datablock, Datablock]) -> None:
+def point_to_copies(copy: Datablock, copies: Mapping[Datablock, Datablock]) -> None:
     """Let a copy depend on copies."""
     if isinstance(copy, bpy.types.Object):
         for item in _pointing(copy):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
@@ -16,7 +17,8 @@ from risorius import cli
 from risorius.progress import run
 from risorius.scene.bake import ClipTiming, Target
 from risorius.scene.gltf import export_gltf
-from risorius.scene.rig import bake_expressions_onto, key_rig
+from risorius.scene.mesh import evaluated_vertices
+from risorius.scene.rig import bake_expressions_onto, bone_rig, key_rig
 from risorius.scene.rig.baking import Expression
 
 #: The character's keys: name -> FAPs that each shows at 1.
@@ -39,14 +41,14 @@ def character(head: Any) -> Any:
     return head
 
 
-def bake(head: Any, *words: str, start: float = 11.0) -> None:
+def bake(head: Any, *words: str, start: float = 11.0, find: Any = key_rig) -> None:
     """One clip per word, each two seconds after the last, at 25 frames per second."""
     expressions = []
     for number, word in enumerate(words):
         profile, timing = api.expression(word), ClipTiming(0.4, 0.8, 0.4, start=start + 50.0 * number, fps=25.0)
         expressions.append(Expression(word, profile.frame(), timing, 1.0, profile.weights))
     bpy.context.scene.render.fps = 25
-    run(bake_expressions_onto(Target(head), expressions, key_rig))
+    run(bake_expressions_onto(Target(head), expressions, find))
 
 
 def state(head: Any) -> Any:
@@ -61,7 +63,7 @@ def state(head: Any) -> Any:
 
 def weights_at(clip: str, frame: int) -> dict[str, float]:
     """Values of the keys of the only face in the file, in one clip."""
-    (face,) = (obj for obj in bpy.data.objects if obj.type == "MESH")
+    (face,) = (obj for obj in bpy.data.objects if obj.type == "MESH" and len(obj.data.vertices) > 100)
     came = face.data.shape_keys.animation_data
     came.action = None
     for track in came.nla_tracks:
@@ -183,3 +185,71 @@ def test_a_file_without_clips_is_refused_by_the_verb(
     assert cli.main(["export", "gltf", "--mesh", str(tmp_path / "face.blend"), "--out", str(out)]) == 1
     assert "bake one first" in capsys.readouterr().err
     assert not out.exists()
+
+
+def shown_apex(name: str) -> np.ndarray:
+    """(V, 3) how the only face of the file shows in the middle of a clip, against the clip's beginning."""
+    (face,) = (obj for obj in bpy.data.objects if obj.type == "MESH" and len(obj.data.vertices) > 100)
+    owners = [obj for obj in bpy.data.objects if obj.animation_data]
+    owners += [face.data.shape_keys] if face.data.shape_keys and face.data.shape_keys.animation_data else []
+    for owner in owners:
+        owner.animation_data.action = None
+        for track in owner.animation_data.nla_tracks:
+            track.mute = track.name != name
+    seen = []
+    for frame in (0, 20):
+        bpy.context.scene.frame_set(frame)
+        seen.append(evaluated_vertices(face))
+    return seen[1] - seen[0]
+
+
+@pytest.mark.slow
+def test_clips_on_bones_are_animations_of_the_armature(rigged: SimpleNamespace, tmp_path: Path) -> None:
+    head = rigged.head
+    bake(head, "joy", "surprise", find=bone_rig)
+    bpy.context.scene.frame_set(11)
+    rest = evaluated_vertices(head)
+    bpy.context.scene.frame_set(31)
+    joy = evaluated_vertices(head) - rest
+    before = [(bone.name, tuple(bone.location)) for bone in rigged.bones], len(bpy.data.objects), len(bpy.data.actions)
+    exported = export_gltf([head], tmp_path / "face.glb")
+    after = [(bone.name, tuple(bone.location)) for bone in rigged.bones], len(bpy.data.objects), len(bpy.data.actions)
+    assert after == before
+    assert set(exported.clips) == {"joy", "surprise"}
+    written = document(exported.path)
+    assert {animation["name"] for animation in written["animations"]} == {"joy", "surprise"}
+    assert {node["name"] for node in written["nodes"]} == {head.name, "Rig", *(bone.name for bone in rigged.bones)}
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    bpy.context.scene.render.fps = 25
+    bpy.ops.import_scene.gltf(filepath=str(exported.path))
+    came = shown_apex("joy")
+    assert np.abs(came).max() == pytest.approx(np.abs(joy).max(), rel=0.05)
+    assert np.abs(came).max() > 0.003
+
+
+@pytest.mark.slow
+def test_keys_that_a_rig_drives_move_in_its_clips(rigged: SimpleNamespace, tmp_path: Path) -> None:
+    """The corner of the mouth has a key that its bone drives, as many faces have."""
+    head, bone = rigged.head, rigged.bones["corner.L"]
+    bone.lock_rotation = bone.lock_scale = (True, True, True)
+    head.shape_key_add(name="Basis")
+    key = head.shape_key_add(name="Dimple", from_mix=False)
+    key.value = 0.0
+    driver = key.driver_add("value").driver
+    variable = driver.variables.new()
+    variable.type = "TRANSFORMS"
+    target = variable.targets[0]
+    target.id, target.bone_target, target.transform_type = rigged.rig, "corner.L", "LOC_Z"
+    target.transform_space = "LOCAL_SPACE"
+    driver.expression = f"min(1.0, abs({variable.name}) * 100.0)"
+    bake(head, "joy", find=bone_rig)
+    bpy.context.scene.frame_set(31)
+    apex = head.data.shape_keys.key_blocks["Dimple"].value
+    assert apex > 0.1
+    export_gltf([head], tmp_path / "face.glb")
+    assert len(head.data.shape_keys.animation_data.drivers) == 1
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    bpy.context.scene.render.fps = 25
+    bpy.ops.import_scene.gltf(filepath=str(tmp_path / "face.glb"))
+    assert weights_at("joy", 20)["Dimple"] == pytest.approx(apex, abs=0.02)
+    assert weights_at("joy", 0)["Dimple"] == pytest.approx(0.0, abs=0.02)

@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
@@ -159,3 +160,26 @@ def test_a_face_without_keys_is_refused_and_nothing_is_written(
     assert cli.main(["bake", "joy", "--mesh", str(tmp_path / "bare.blend"), "--onto", "keys", "--out", str(out)]) == 1
     assert "has no controls" in capsys.readouterr().err
     assert not out.exists()
+
+
+@pytest.mark.slow
+def test_words_and_streams_are_baked_onto_bones(rigged: SimpleNamespace, tmp_path: Path, run_json: RunJson) -> None:
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "bones.blend"), check_existing=False)
+    said = run_json("bake", "joy", "--mesh", tmp_path / "bones.blend", "--onto", "bones", "--out", tmp_path / "o.blend")
+    (clip,) = said["clips"]
+    assert {name.rsplit(" ", 2)[0] for name in clip["controls"]} >= {"corner.L", "corner.R"}
+    assert clip["left_alone"] == {"skull": "moves the whole head"}
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "o.blend"))
+    bpy.context.scene.frame_set(int(clip["frames"][0]) + 15)
+    bones = bpy.data.objects["Rig"].pose.bones
+    for name, value in clip["controls"].items():
+        bone, kind, axis = name.rsplit(" ", 2)
+        if kind == "Location":
+            assert bones[bone].location["XYZ".index(axis)] == pytest.approx(value, abs=1e-5)
+    frames = np.full((12, 68), np.nan)
+    frames[:, 2] = np.linspace(0.0, 300.0, 12)
+    api.write_fap(tmp_path / "jaw.fap", api.FapStream(frames, fps=24.0, name="jaw"))
+    mesh = ["--mesh", tmp_path / "bones.blend", "--onto", "bones"]
+    (clip,) = run_json("fap", "play", tmp_path / "jaw.fap", tmp_path / "p.blend", *mesh)["clips"]
+    assert any(name.startswith("jaw ") for name in clip["controls"])
+    assert clip["frames"] == [1.0, 12.0]
