@@ -55,10 +55,13 @@ class Controls:
     def still(self, scale: float = 1.0) -> Bools:
         """(K,) whether a control does nothing to a face of a scale."""
         reach = np.maximum(np.abs(self.low), np.abs(self.high))
-        return np.asarray(reach * np.abs(self.effects).max(axis=(1, 2), initial=0.0) <= STILL * scale)
+        most = self.effects.max(axis=(1, 2), initial=0.0), -self.effects.min(axis=(1, 2), initial=0.0)
+        return np.asarray(reach * np.maximum(*most) <= STILL * scale)
 
     def select(self, chosen: Bools) -> Controls:
         """Some of them, in the same order."""
+        if chosen.all():
+            return self
         names = tuple(name for name, taken in zip(self.names, chosen, strict=True) if taken)
         return Controls(names, self.effects[chosen], self.low[chosen], self.high[chosen])
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -26,6 +27,11 @@ class Seen:
 
     skin: Floats
     points: Floats
+
+    @cached_property
+    def square(self) -> Floats:
+        """Inner products of the rows of `skin`."""
+        return np.asarray(self.skin @ self.skin.T)
 
 
 def seen(sight: Sight, displacements: Iterable[Floats]) -> Seen:
@@ -70,7 +76,7 @@ class Normal:
 def normal_equations(controls: Seen, asked: Wishes, weights: Floats) -> Normal:
     """The normal equations in which points count as `weights` (m,) say, where all skin counts 1."""
     weight = max(controls.skin.shape[1] // 3, 1) * weights
-    plain = controls.skin @ controls.skin.T + (weight * controls.points) @ controls.points.T
+    plain = controls.square + (weight * controls.points) @ controls.points.T
     scale = np.sqrt(np.diagonal(plain))
     scale = np.where(scale > 0.0, scale, 1.0)
     right = asked.skin + (weight * asked.points) @ controls.points.T

@@ -168,22 +168,42 @@ class Retargeting:
         does = self._seen(moving)
         self.same = _doubles(moving, does)
         kept = np.array([name not in self.same for name in moving.names], dtype=bool)
-        self.controls, self.does = moving.select(kept), Seen(does.skin[kept], does.points[kept])
-        self.ties = self._ties() if symmetric else np.eye(len(self.controls))
+        self.controls = moving.select(kept)
+        self.does = does if kept.all() else Seen(does.skin[kept], does.points[kept])
+        self.symmetric = symmetric
 
     def _seen(self, controls: Controls) -> Seen:
         """What each control does, in head space."""
         turn = self.frame.axes.T / self.frame.scale
         return seen(self.sight, (effect @ turn for effect in controls.effects))
 
-    def _ties(self) -> Floats:
+    @cached_property
+    def _mirrored(self) -> Sequence[tuple[int, int]]:
+        """Pairs of controls that are each other's mirror image, left and right."""
+        return mirrored_pairs(self.face.anatomy.mesh.positions[self.sight.skin], self.does.skin)
+
+    @cached_property
+    def ties(self) -> Floats:
         """(J, K) which controls have one value."""
-        resting = self.face.anatomy.mesh.positions[self.sight.skin]
-        pairs = mirrored_pairs(resting, self.does.skin)
         ties = np.eye(len(self.controls))
-        for left, right in pairs:
+        if not self.symmetric:
+            return ties
+        for left, right in self._mirrored:
             ties[left, right] = 1.0
-        return np.delete(ties, [right for _, right in pairs], axis=0)
+        return np.delete(ties, [right for _, right in self._mirrored], axis=0)
+
+    @cached_property
+    def _tied(self) -> Seen:
+        """What controls do that have one value."""
+        if len(self.ties) == len(self.controls):
+            return self.does
+        return Seen(self.ties @ self.does.skin, self.ties @ self.does.points)
+
+    @cached_property
+    def _mirror(self) -> dict[int, int]:
+        """Control -> its mirror image; those that have one value are each their own."""
+        pairs = () if self.symmetric else self._mirrored
+        return dict(pairs) | {right: left for left, right in pairs}
 
     def values(
         self, take: Take, *, fps: float = 25.0, requested: ArrayLike | None = None, smooth: float = 1.0
@@ -192,11 +212,10 @@ class Retargeting:
         if not take.turns:
             raise ParameterError("motion", "must have at least one frame", 0)
         asked = take.wishes()
-        tied = Seen(self.ties @ self.does.skin, self.ties @ self.does.points)
         wish = Wishes(asked.skin @ self.ties.T, asked.points, asked.size)
         smoothing = smooth * SMOOTH * (fps / USUAL_RATE) ** 4
         found = weighed_values(
-            tied, wish, self._counted(requested), *self._limits, smooth=smoothing, mirror=self._mirror(tied)
+            self._tied, wish, self._counted(requested), *self._limits, smooth=smoothing, mirror=self._mirror
         )
         return self._result(asked, found @ self.ties, np.array(take.turns), requested)
 
@@ -214,12 +233,6 @@ class Retargeting:
             wanted[: len(self.sight.numbers)] = known[self.sight.numbers - 1]
         return Counted(faps, wanted)
 
-    def _mirror(self, tied: Seen) -> dict[int, int]:
-        """Control -> its mirror image."""
-        resting = self.face.anatomy.mesh.positions[self.sight.skin]
-        pairs = mirrored_pairs(resting, tied.skin)
-        return dict(pairs) | {right: left for left, right in pairs}
-
     @cached_property
     def _limits(self) -> tuple[Floats, Floats]:
         """(J,) the limits of values that controls share."""
@@ -228,7 +241,7 @@ class Retargeting:
 
     def _result(self, asked: Wishes, values: Floats, turns: Floats, requested: ArrayLike | None) -> Retargeted:
         """What is told of values (T, K)."""
-        square, count = self.does.skin @ self.does.skin.T, len(self.sight.skin)
+        square, count = self.does.square, len(self.sight.skin)
         left = asked.size - 2.0 * (values * asked.skin).sum(axis=1) + np.einsum("tj,jk,tk->t", values, square, values)
         to_face = self.frame.scale / np.sqrt(max(count, 1))
         sought, shown = self._faps(asked.points), self._faps(values @ self.does.points)
@@ -278,9 +291,9 @@ def _doubles(controls: Controls, does: Seen) -> dict[str, str]:
 
     The opposite is the same where that other goes both ways.
     """
-    both = np.hstack([does.skin, does.points])
-    unit = both / np.maximum(np.linalg.norm(both, axis=1, keepdims=True), 1e-300)
-    cosines = unit @ unit.T
+    products = does.square + does.points @ does.points.T
+    length = np.maximum(np.sqrt(np.diagonal(products)), 1e-300)
+    cosines = products / np.outer(length, length)
     ways = (controls.low < 0.0) & (controls.high > 0.0)
     alike, names = (cosines >= SAME) | (ways[:, None] & (cosines <= -SAME)), controls.names
     found: dict[str, str] = {}

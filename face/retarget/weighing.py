@@ -94,11 +94,6 @@ class _Trial:
     high: Floats
 
     @cached_property
-    def square(self) -> Floats:
-        """(K, K) inner products of what controls do to the skin."""
-        return np.asarray(self.does.skin @ self.does.skin.T)
-
-    @cached_property
     def reach(self) -> Floats:
         """(K,) how far each control goes from its rest."""
         return np.maximum(self.high, -self.low)
@@ -106,7 +101,7 @@ class _Trial:
     @cached_property
     def plain(self) -> Floats:
         """(T, K) the values that are nearest over the skin alone; over the points, where no control moves skin."""
-        weights = self.counted.weights(0.0, 0.0) if self.square.any() else self.counted.weights(1.0, 1.0)
+        weights = self.counted.weights(0.0, 0.0) if self.does.square.any() else self.counted.weights(1.0, 1.0)
         return self._least(self._normal(weights), np.zeros(len(self.low)), 0.0)
 
     def values(self, weights: Floats, settled: Sequence[Settled], smooth: float = 0.0) -> Floats:
@@ -164,7 +159,7 @@ class _Trial:
 
     def _left(self, values: Floats) -> float:
         """Squared distance from the motion's skin over all frames, without what no values change."""
-        shown = float(np.einsum("tj,jk,tk->", values, self.square, values))
+        shown = float(np.einsum("tj,jk,tk->", values, self.does.square, values))
         return shown - 2.0 * float((values * self.asked.skin).sum())
 
     def _errors(self, values: Floats) -> Floats:

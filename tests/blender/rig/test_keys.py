@@ -14,10 +14,13 @@ from risorius.errors import ModelError, SceneError
 from risorius.face.mesh.parts import Part, Told
 from risorius.progress import run
 from risorius.scene import mesh as meshes
+from risorius.scene.bake.motion import CueMotion
+from risorius.scene.bake.target import Target
 from risorius.scene.companions import Companion
 from risorius.scene.faces import read_face
 from risorius.scene.points.stored import store_points
 from risorius.scene.rig import key_rig, remove_rig_clips
+from risorius.scene.rig.baking import bake_motion_onto
 
 from .keyed import APEX, SHAPES, add_keys, bake, effects, values
 
@@ -286,6 +289,31 @@ def test_a_key_that_is_muted_on_a_companion_is_used_on_the_head_alone(two: tuple
     assert len(rig.entries[jaw].channel.places) == 1
     assert np.abs(rig.effects[jaw][len(head.data.vertices) :]).max() == 0.0
     assert any("Teeth" in name and "muted" in why for name, why in rig.left_alone.items())
+
+
+def test_two_objects_of_one_mesh_are_keyed_once(two: tuple[Any, Any]) -> None:
+    head, teeth = two
+    again = bpy.data.objects.new("Teeth again", teeth.data)
+    bpy.context.collection.objects.link(again)
+    rig = rig_of(head, Companion(teeth, Told.TEETH), Companion(again, Told.TEETH))
+    jaw = next(entry for entry in rig.entries if entry.name == "jawOpen")
+    assert len(jaw.channel.places) == 2
+    bake(head, "surprise", companions=(Companion(teeth, Told.TEETH), Companion(again, Told.TEETH)))
+    assert values(teeth.data.shape_keys, APEX)["jawOpen"] > 0.2
+
+
+def test_a_motion_is_keyed_in_range_and_replaced_when_it_is_baked_anew(keyed: Any) -> None:
+    cue = api.Cue(api.expression("joy"), onset=0.4, apex=0.4, offset=0.4)
+    for _ in range(2):
+        work = bake_motion_onto(Target(keyed), CueMotion([cue]), key_rig, clip="smile", start=5.0, fps=25.0)
+        result = run(work)
+    assert result.frame_range == (5.0, 5.0 + 30.0)
+    over_time = [values(keyed.data.shape_keys, frame)["Grin.L"] for frame in range(5, 36)]
+    assert over_time[0] == pytest.approx(0.0, abs=0.01)
+    assert max(over_time) > 0.3
+    assert max(over_time) <= 1.0
+    assert np.abs(np.diff(over_time, 2)).max() < 0.2  # it may reach the end of its range
+    assert len(keyed.data.shape_keys.animation_data.nla_tracks) == 0
 
 
 def drive(obj: Any, name: str, owner: Any, path: str) -> None:
