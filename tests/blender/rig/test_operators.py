@@ -14,6 +14,7 @@ import risorius.api as api
 from risorius.operators.bake.settings import stale_clips, stale_rig_clips
 from risorius.operators.bake.work import expression_work
 from risorius.scene.bake.notes import BakeKind
+from risorius.scene.live.reading import FaceReader
 from risorius.scene.rig.kept import kept_clips
 
 pytestmark = pytest.mark.slow
@@ -297,3 +298,20 @@ def key_change(head: Any, name: str) -> np.ndarray:
     blocks[name].data.foreach_get("co", there)
     blocks["Basis"].data.foreach_get("co", rest)
     return there - rest
+
+
+@pytest.mark.parametrize("onto", ["KEYS", "BONES"])
+def test_what_the_controls_show_is_read_off_the_face_wherever_the_playhead_is(
+    onto: str, request: pytest.FixtureRequest
+) -> None:
+    head = request.getfixturevalue("drawn_head") if onto == "KEYS" else request.getfixturevalue("rigged").head
+    bpy.context.view_layer.objects.active = head
+    head.risorius.bake.onto, head.risorius.emotion.word = onto, "surprise"
+    bpy.ops.risorius.bake_expression()
+    bpy.context.scene.frame_set(20)
+    reading = FaceReader(head).read(bpy.context.evaluated_depsgraph_get(), rule="robust")
+    assert not reading.is_resting
+    assert reading.faps[2] > 50.0, "the jaw is open"
+    assert (reading.faps[[30, 31]] > 50.0).all(), "the brows are raised"
+    bpy.context.scene.frame_set(200)
+    assert FaceReader(head).read(bpy.context.evaluated_depsgraph_get()).is_resting
