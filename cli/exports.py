@@ -38,7 +38,10 @@ def add_export_verb(verbs: Verbs) -> None:
     about = "csv, weights: .csv; shapes: .npz, or in Blender .blend or .glb; gltf: .glb or .gltf"
     exporting.add_argument("--out", type=Path, required=True, help=about)
     add_scene(exporting)
-    names = "shapes: arkit, ict_facekit, oculus_visemes, or a .toml file (default: arkit)"
+    names = (
+        "shapes: arkit, ict_facekit, oculus_visemes, vrm1, talkinghead_extras, a .toml file, or several with commas "
+        "between (default: arkit)"
+    )
     exporting.add_argument("--names", default="arkit", help=names)
     about = "shapes, gltf: targets move the normals, too (default: they do; the file is larger)"
     exporting.add_argument("--morph-normals", action=argparse.BooleanOptionalAction, default=True, help=about)

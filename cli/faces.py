@@ -14,8 +14,9 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ModelError
 from ..files import write_whole
-from .faps import fap_lines, named_faps
+from .faps import fap_lines, named_faps, range_lines, ranges_of
 from .options import Verbs, add_face, face_of, verb, vertices_of
+from .recordings import add_recording, read_as_told
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -26,10 +27,14 @@ def add_face_verbs(verbs: Verbs) -> None:
     """Add measure and points to the verbs."""
     measure = verb(verbs, "measure", _measure)
     measure.add_argument(
-        "deformed", type=Path, nargs="+", help="deformed meshes with the same vertices as the neutral face"
+        "deformed",
+        type=Path,
+        nargs="+",
+        help="deformed meshes with the same vertices as the neutral face; or a FAP stream or a tracker's recording",
     )
+    add_recording(measure)
     add_face(measure)
-    measure.add_argument("--out", type=Path, help="write the FAPs to this .fap file, one frame per mesh")
+    measure.add_argument("--out", type=Path, help="write the FAPs to this .fap file, a frame for each mesh")
 
     points = verb(verbs, "points", _points)
     about = (
@@ -41,9 +46,11 @@ def add_face_verbs(verbs: Verbs) -> None:
 
 
 def _measure(arguments: argparse.Namespace) -> Result:
-    """Measure the FAPs and features of deformed meshes against a neutral mesh."""
+    """Measure the FAPs and features of deformed meshes against a neutral mesh, or the FAPs of a recording."""
     from .. import api
 
+    if any(path.suffix.lower() in api.READABLE_STREAMS for path in arguments.deformed):
+        return _measure_recording(arguments)
     face = face_of(arguments)
     measured, features = {}, {}
     for path in arguments.deformed:
@@ -56,6 +63,28 @@ def _measure(arguments: argparse.Namespace) -> Result:
     for path, faps in measured.items():
         lines += [path, *fap_lines(faps), *_feature_lines(features[path])]
     return Result({path: {**named_faps(faps), **features[path]} for path, faps in measured.items()}, lines)
+
+
+def _measure_recording(arguments: argparse.Namespace) -> Result:
+    """The FAPs of a stream or a recording, as ranges; features are of meshes."""
+    from .. import api
+
+    if len(arguments.deformed) > 1:
+        raise UsageError("give one recording, or meshes only")
+    path = arguments.deformed[0]
+    recording = read_as_told(path, arguments)
+    if arguments.out:
+        api.write_fap(arguments.out, recording.stream)
+    ranges = ranges_of(recording.stream)
+    data = {
+        "format": str(recording.format),
+        "frames": len(recording.stream.frames),
+        "fps": recording.stream.fps,
+        "ranges": ranges,
+        "assumed": list(recording.assumed),
+    }
+    about = f"{path}: {len(recording.stream.frames)} frames of FAPs ({recording.format}); features need meshes"
+    return Result({str(path): data}, [about, *range_lines(ranges)])
 
 
 def _features(face: Face, vertices: Floats) -> dict[str, float]:

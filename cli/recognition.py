@@ -14,6 +14,9 @@ from .progress import ShowProgress
 from .recordings import add_recording, read_as_told
 from .result import Result, UsageError
 
+#: Files that are meshes; all others are streams and recordings, or say what they seem to be.
+MESHES = (".npz", ".obj")
+
 if TYPE_CHECKING:
     from ..api import BeliefTrack
     from ..arrays import Floats
@@ -57,7 +60,8 @@ def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int]:
     from .. import api
 
     path, *others = arguments.files
-    if path.suffix.lower() not in api.READABLE_STREAMS:
+    suffix = path.suffix.lower()
+    if suffix in MESHES or not (suffix in api.READABLE_STREAMS or path.is_file()):
         face = face_of(arguments)
         return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0
     if others:

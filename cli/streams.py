@@ -127,7 +127,8 @@ def _of(arguments: argparse.Namespace) -> Result:
     """Inspect a FAP stream or convert it, or write an expression as a stream."""
     from .. import api
 
-    if Path(arguments.source).suffix.lower() in api.READABLE_STREAMS:
+    source = Path(arguments.source)
+    if source.suffix.lower() in api.READABLE_STREAMS or source.is_file():
         return _convert(arguments) if arguments.out else _info(arguments)
     stream = _of_word(arguments)
     if arguments.out:

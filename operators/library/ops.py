@@ -123,7 +123,9 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, Operator):
     title = "Baking the FAP file"
 
     filename_ext = ".fap"
-    filter_glob: Annotated[str, StringProperty(default="*.fap", options={"HIDDEN"})]
+    filter_glob: Annotated[
+        str, StringProperty(default="*.fap;*.fba;*.json;*.jsonl;*.csv;*.tsv;*.txt;*.log", options={"HIDDEN"})
+    ]
     filepath: Annotated[
         str, StringProperty(name="File", description="FAP file to bake", subtype="FILE_PATH", options={"SKIP_SAVE"})
     ]

@@ -19,6 +19,12 @@ class RISORIUS_PG_shapes(PropertyGroup):
             items=(
                 ("arkit", "ARKit", "The 52 shapes of ARKit: jawOpen, mouthSmileLeft, ..."),
                 ("oculus_visemes", "Oculus Visemes", "The 15 mouth shapes of speech: viseme_aa, viseme_PP, ..."),
+                ("vrm1", "VRM 1.0", "The 18 expressions of VRM characters: happy, aa, blinkLeft, lookUp, ..."),
+                (
+                    "arkit,oculus_visemes,talkinghead_extras",
+                    "TalkingHead",
+                    "What TalkingHead's avatars have: ARKit, Oculus Visemes, and mouthOpen, eyesClosed, ...",
+                ),
                 ("ict_facekit", "ICT FaceKit", "ARKit's shapes by ICT FaceKit's names: jawOpen, mouthSmile_L, ..."),
             ),
         ),

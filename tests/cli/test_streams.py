@@ -178,3 +178,30 @@ def test_a_stream_begins_where_it_is_told(run_json: Run, tmp_path: Path) -> None
     assert (said["frames"], said["assumed"]) == (3, ["its times begin at 2 s, which is frame 0"])
     said = run_json("import", tmp_path / "take.csv", "--start", 0)
     assert (said["frames"], said["unknown_frames"], said["assumed"]) == (53, 50, [])
+
+
+@pytest.mark.parametrize("name", ["take.csv", "take.txt", "take.dat"])
+def test_every_verb_that_reads_streams_reads_recordings(
+    name: str, run_json: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / name
+    path.write_text("timestamp;jawOpen;earWiggle\n0,00;0,1;1\n0,04;0,2;1\n0,08;0,3;1\n")
+    for verb in (["import"], ["fap", "info"], ["fap"]):
+        said = run_json(*verb, path)
+        assert (said["format"], said["fps"], said["assumed"]) == ("arkit", 25.0, ["not read: earWiggle"])
+    assert set(run_json("recognise", path)) == set(map(str, api.ARCHETYPES))
+    run_json("fap", "convert", path, tmp_path / "a.fap")
+    if name != "take.dat":
+        measured = run_json("measure", path, "--out", tmp_path / "b.fap")[str(path)]
+        assert (measured["frames"], measured["format"], next(iter(measured["ranges"]))) == (3, "arkit", "3")
+        assert (tmp_path / "a.fap").read_text().splitlines()[1:] == (tmp_path / "b.fap").read_text().splitlines()[1:]
+
+
+def test_what_is_no_recording_is_said_to_be_what_it_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "clip.mp4"
+    path.write_bytes(b"\x00\x00\x00\x18ftypmp42")
+    for verb in (["import"], ["fap", "info"], ["recognise"], ["measure"]):
+        if verb == ["measure"]:
+            path = path.rename(tmp_path / "clip.csv")
+        assert main([*verb, str(path)]) == 1
+        assert "it seems to be a video (track it: risorius track)" in capsys.readouterr().err

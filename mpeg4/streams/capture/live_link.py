@@ -18,6 +18,7 @@ from ....errors import FormatError
 from ....tables import TomlTable, read_toml
 from ...standard import FAP_COUNT
 from .faces import one_face
+from .rotation import in_radians
 from .row_names import tells_of_a_row
 from .samples import Samples
 from .scores import faps_of_scores, unread_words
@@ -67,11 +68,12 @@ def read_arkit(
     if not shapes:
         raise FormatError(table.path, "has no column of an ARKit blend shape, such as jawOpen", line=1)
     frames, assumed, unread = faps_of_scores(table.several(shapes), table.refusal)
-    turned_frames = faps_of_turns(table.several(turns), len(table.rows), turns)
+    angles, in_degrees = in_radians(table.several(turns), table.refusal)
+    turned_frames = faps_of_turns(angles, len(table.rows), turns)
     frames = np.where(np.isnan(frames), turned_frames, frames)
     frames[_faceless(table)] = np.nan
     times = table_times(table, rate)
-    said = (*times.assumed, *assumed, *unread_words([*others, *unread]))
+    said = (*times.assumed, *assumed, *in_degrees, *unread_words([*others, *unread]))
     return Samples.at_times(replace(times, assumed=said), frames[times.rows], start=start)
 
 

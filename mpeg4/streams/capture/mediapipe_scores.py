@@ -6,6 +6,7 @@ Tables of them in CSV are read as any table of ARKit blend shapes (`live_link`).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -15,7 +16,7 @@ from ....arrays import Floats
 from ....errors import FormatError
 from .json_file import JsonFrame, chosen_face, json_times
 from .live_link import faps_of_turns
-from .rotation import head_faps
+from .rotation import head_faps, in_radians
 from .samples import Samples
 from .scores import faps_of_scores, unread_words
 from .shape_names import is_turn, means_nothing, shape_named
@@ -53,14 +54,20 @@ def read_scores(
         )
     known = {name: np.array([score.get(name, math.nan) for score in scores]) for name in names}
     columns = {name: values for name, values in known.items() if not means_nothing(name) and not is_turn(name)}
-    values, assumed, unread = faps_of_scores(columns, lambda row, name, problem: frames[row].refuse(name, problem))
-    turned = faps_of_turns(known, len(frames))
+    values, assumed, unread = faps_of_scores(columns, _refuser(frames))
+    angles, in_degrees = in_radians({name: values for name, values in known.items() if is_turn(name)}, _refuser(frames))
+    turned = faps_of_turns(angles, len(frames))
     values = np.where(np.isnan(values), turned, values)
     posed = head_faps(np.stack([rotation_of(frame, chosen) for frame in frames]))
     values[:, 47:50] = np.where(np.isnan(posed), turned[:, 47:50], posed)
     times = json_times(frames, rate)
-    said = (*times.assumed, *assumed, *unread_words(unread))
+    said = (*times.assumed, *assumed, *in_degrees, *unread_words(unread))
     return Samples.at_times(replace(times, assumed=said), values[times.rows], start=start)
+
+
+def _refuser(frames: list[JsonFrame]) -> Callable[[int, str, str], FormatError]:
+    """The error for a value: its frame, its name, the problem."""
+    return lambda row, name, problem: frames[row].refuse(name, problem)
 
 
 def _faces(frame: JsonFrame) -> list[Any]:

@@ -20,7 +20,7 @@ from ....tables import read_toml
 from ...standard import ANGLE_UNIT, FAP_COUNT
 from .columns import load_columns
 from .faces import one_face
-from .rotation import euler_matrix, head_faps, in_head_axes
+from .rotation import euler_matrix, head_faps, in_head_axes, in_radians
 from .row_names import tells_of_a_row
 from .samples import Samples
 from .scores import unread_words
@@ -79,7 +79,8 @@ def read_openface(
         raise FormatError(table.path, "has neither AUxx_r columns nor pose_Rx: run FeatureExtraction with -aus", line=1)
     _check_range(table, scores, read_toml(preset).number("most", above=0.0))
     frames = columns.frames(scores) if scores else np.full((len(table.rows), FAP_COUNT), np.nan)
-    pose = in_head_axes(_rotations(table), CAMERA_AXES)
+    angles, in_degrees = in_radians(table.several(POSE), table.refusal)
+    pose = in_head_axes(_rotations(angles, len(table.rows)), CAMERA_AXES)
     frames[:, 47:50] = head_faps(pose)
     frames[:, 22:26] = _gaze(table, pose)
     for name in CONFIDENCES:
@@ -88,7 +89,7 @@ def read_openface(
     if "success" in table:
         frames[~(table.numbers("success") > 0.0)] = np.nan
     times = table_times(table, rate)
-    said = (*times.assumed, *unread_words(_unread(table, scores, preset)))
+    said = (*times.assumed, *in_degrees, *unread_words(_unread(table, scores, preset)))
     return Samples.at_times(replace(times, assumed=said), frames[times.rows], start=start)
 
 
@@ -109,11 +110,11 @@ def _unread(table: TableFile, scores: Mapping[str, Floats], preset: Path) -> lis
     return [name for name in others if not any(pattern.fullmatch(name) for pattern in silent)]
 
 
-def _rotations(table: TableFile) -> Floats:
-    """(T, 3, 3) head rotations in the camera's axes; NaN without pose columns."""
-    if not all(name in table for name in POSE):
-        return np.full((len(table.rows), 3, 3), np.nan)
-    return euler_matrix(*(table.numbers(name) for name in POSE))
+def _rotations(angles: Mapping[str, Floats], count: int) -> Floats:
+    """(T, 3, 3) head rotations in the camera's axes; NaN without all three angles."""
+    if not all(name in angles for name in POSE):
+        return np.full((count, 3, 3), np.nan)
+    return euler_matrix(*(angles[name] for name in POSE))
 
 
 def _gaze(table: TableFile, pose: Floats) -> Floats:

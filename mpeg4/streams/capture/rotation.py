@@ -2,10 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 
 from ....arrays import Floats
+from ....errors import FormatError
 from ...standard import ANGLE_UNIT
+
+#: No head and no eye turns further than this, in rad; larger figures are degrees.
+MOST_RADIANS = 3.5
+
+
+def in_radians(
+    angles: Mapping[str, Floats], refuse: Callable[[int, str, str], FormatError]
+) -> tuple[dict[str, Floats], tuple[str, ...]]:
+    """Angles (T,) by name in rad, and what was assumed: those of a file are all in one unit, which the largest tells.
+
+    Parameters
+    ----------
+    refuse : the error for an angle of more than a whole turn: its row, its name, the problem.
+    """
+    largest = max((float(np.nanmax(np.abs(values), initial=0.0)) for values in angles.values()), default=0.0)
+    if largest <= MOST_RADIANS:
+        return dict(angles), ()
+    for name, values in angles.items():
+        beyond = np.flatnonzero(np.abs(np.nan_to_num(values)) > 360.0)
+        if len(beyond):
+            problem = f"must be an angle in rad or degrees, but it is {values[beyond[0]]:g}: correct or remove it"
+            raise refuse(int(beyond[0]), name, problem)
+    said = f"its turns go up to {largest:.3g}: taken as degrees"
+    return {name: np.radians(values) for name, values in angles.items()}, (said,)
 
 
 def euler_matrix(x: Floats, y: Floats, z: Floats) -> Floats:

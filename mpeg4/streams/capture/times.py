@@ -22,6 +22,9 @@ USUAL_RATE = 30.0
 #: Frames per second of a recording; others are no times.
 SLOWEST, FASTEST = 1.0, 1000.0
 
+#: Frames per second of recordings whose times are in another unit than they say: of cameras, and not of any clock.
+SLOW, FAST = 5.0, 250.0
+
 #: Units of time, in seconds, with their names.
 UNITS = {1.0: "seconds", 1e-3: "milliseconds", 1e-6: "microseconds", 1e-9: "nanoseconds"}
 
@@ -197,10 +200,15 @@ def _counting(stamps: Stamps, stated: Floats, usual: float) -> Stamps | None:
 
 def _unit_of(stamps: Stamps, usual: float) -> float | None:
     """The unit in which times that are usually so far apart make a frame rate: the file's own before others."""
-    for unit in (stamps.unit or 1.0, *UNITS):
-        if SLOWEST * (1.0 - SAME) <= 1.0 / (usual * unit) <= FASTEST * (1.0 + SAME):
-            return unit
-    return None
+    named = stamps.unit or 1.0
+    if _is_rate(1.0 / (usual * named)):
+        return named
+    return next((unit for unit in UNITS if SLOW <= 1.0 / (usual * unit) <= FAST), None)
+
+
+def _is_rate(rate: float) -> bool:
+    """Whether frames per second are those of a recording."""
+    return SLOWEST * (1.0 - SAME) <= rate <= FASTEST * (1.0 + SAME)
 
 
 def _by_time(stamps: Stamps, unit: float, rate: float | None) -> Times:
@@ -229,6 +237,9 @@ def _by_number(stamps: Stamps, rate: float | None) -> Times:
     if stamps.counted is None and rate is None:
         assumed = (*assumed, f"the file contains no times: {USUAL_RATE:g} frames per second")
     counted = stamps.counted or rate or USUAL_RATE
+    if rate is None and not _is_rate(counted):
+        problem = f"is of a file that states {counted:g} frames per second: name the rate (--rate)"
+        raise stamps.refuse(int(rows[0]), problem)
     whole = bool((kept == np.floor(kept)).all())
     exactness = (EXACT, FINE, 1.0) if whole and stamps.counted is not None else (EXACT, FINE)
     tried = (even_row((kept - kept[0]) / counted, parts / counted, parts / counted) for parts in exactness)

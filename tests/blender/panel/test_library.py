@@ -117,6 +117,20 @@ def test_a_fap_file_is_baked_from_the_current_frame_on(head: Any, tmp_path: Path
     assert head.data.shape_keys.animation_data.action == action
 
 
+@pytest.mark.slow
+def test_a_recording_is_baked_and_what_was_assumed_is_said(
+    head: Any, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "take.csv"
+    path.write_text("frame;jawOpen;earWiggle\n0;0,1;0\n1;0,5;0\n2;0,1;0\n")
+    bpy.context.scene.render.fps = 30
+    assert bpy.ops.risorius.import_fap(filepath=str(path)) == {"FINISHED"}
+    assert list(read_own(head.data).clips) == ["take"]
+    said = capfd.readouterr()
+    for assumed in ("the file contains no times: 30 frames per second", "not read: earWiggle"):
+        assert f"Warning: take.csv: {assumed}" in said.out + said.err
+
+
 def test_frames_keep_their_seconds_at_another_rate() -> None:
     frames = np.full((3, 68), np.nan)
     frames[:, 2] = [0.0, 100.0, 0.0]

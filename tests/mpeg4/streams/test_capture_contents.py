@@ -219,3 +219,14 @@ def test_options_of_recordings_are_refused_for_streams(option: dict[str, object]
     api.write_stream(tmp_path / "a.fap", api.FapStream(np.zeros((3, 68))))
     with pytest.raises(ParameterError, match=f"{next(iter(option))} must be left out: the file is a FAP stream"):
         api.read_stream(tmp_path / "a.fap", **option)  # type: ignore[arg-type]
+
+
+def test_turns_in_degrees_are_told_by_the_whole_file(tmp_path: Path) -> None:
+    columns = {"jawOpen": 0, "HeadYaw": 20.0, "HeadPitch": 0.5}
+    stream = table(tmp_path / "a.csv", columns)
+    assert [stream.frames[0, number - 1] for number in (49, 48)] == pytest.approx([34906.6, -872.66], rel=1e-4)
+    assert stream.assumed == ("its turns go up to 20: taken as degrees",)
+    with pytest.raises(FormatError, match="column HeadYaw: must be an angle in rad or degrees, but it is 2000"):
+        table(tmp_path / "a.csv", {**columns, "HeadYaw": 2000.0})
+    stream = table(tmp_path / "b.csv", {"pose_Rx": 10.0, "pose_Ry": 0.0, "pose_Rz": 0.0})
+    assert stream.frames[0, 48 - 1] == pytest.approx(17453.3, rel=1e-4)

@@ -89,9 +89,37 @@ def test_key_names_of_every_preset_and_of_a_users_file(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
+def test_expressions_of_vrm_and_extras_of_talkinghead() -> None:
+    vrm = load_key_names("vrm1")
+    assert set(vrm) == {
+        "happy", "angry", "sad", "relaxed", "surprised", "neutral", "aa", "ih", "ou", "ee", "oh", "blink", "blinkLeft",
+        "blinkRight", "lookUp", "lookDown", "lookLeft", "lookRight",
+    }  # fmt: skip
+    assert vrm["neutral"].parts == ()
+    gaze = sum(share * shape.frame[23 - 1] for shape, share in vrm["lookLeft"].parts if shape.name.endswith("Left"))
+    assert gaze > 0.0  # the left eye turns to the character's left
+    (happy, share), *others = vrm["happy"].parts
+    assert (vrm["happy"].natural, share, others) == (True, 1.0, [])
+    assert happy.frame[12 - 1] > 0.0  # a corner of the lips rises
+    assert vrm["aa"].parts[0][0].frame[2] > 0.0  # the jaw opens
+    together = load_key_names("arkit,oculus_visemes,talkinghead_extras")
+    assert len(together) == 52 + 15 + 5
+    assert [(shape.name, share) for shape, share in together["mouthOpen"].parts] == [("jawOpen", 0.7)]
+
+
+def test_presets_that_contradict_one_another_are_refused(tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text("[keys.jawOpen]\nshapes = { jawOpen = 0.5 }\n")
+    with pytest.raises(FormatError, match="key jawOpen: means something else in an earlier preset"):
+        load_key_names(f"arkit,{own}")
+    own.write_text("[keys.jawOpen]\nshapes = { jawOpen = 1.0 }\n[keys.more]\nrest = true\n")
+    assert len(load_key_names(f"arkit,{own}")) == 53
+
+
 @pytest.mark.parametrize(
     ("row", "key"),
     [
+        ('emotion = "hunger"', "keys.a.emotion"),
         ("shapes = { grinning = 1 }", "keys.a.shapes.grinning"),
         ("shapes = { jawOpen = 9 }", "keys.a.shapes.jawOpen"),
         ("viseme = 15", "keys.a.viseme"),

@@ -293,3 +293,17 @@ def test_a_stream_begins_at_a_timecode(take: Write) -> None:
         api.read_stream(path, start="01:00:09:00")
     with pytest.raises(ParameterError, match="start must be seconds, or a timecode"):
         api.read_stream(path, start="noon")
+
+
+@pytest.mark.parametrize("step", [2.0, 2000.0])
+def test_no_unit_is_made_up_for_times_of_no_camera(step: float, take: Write) -> None:
+    """Two seconds apart, or two thousand milliseconds: not 500 a second."""
+    with pytest.raises(FormatError, match=r"no frame rate from 1 to 1000 per second; name the rate \(--rate\)"):
+        api.read_stream(take({"timestamp": [f"{step * n:g}" for n in range(30)]}))
+
+
+def test_a_file_that_states_no_frame_rate_of_a_recording_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "a.json").write_text(json.dumps({"fps": 48000, "frames": [{"blendshapes": {"jawOpen": 0}}] * 4}))
+    with pytest.raises(FormatError, match="states 48000 frames per second: name the rate"):
+        api.read_stream(tmp_path / "a.json")
+    assert api.read_stream(tmp_path / "a.json", rate=25.0).fps == 25.0
