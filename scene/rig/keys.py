@@ -19,6 +19,8 @@ from .sampling import evaluation
 
 #: A slider whose range goes no farther than this from 0 has no room.
 ROOM = 0.005
+#: Why a key of another object is left alone that something else drives.
+ELSEWHERE = "is not driven by the head's key of its name alone: let that drive it, or remove its driver"
 
 
 def key_rig(source: FaceSource) -> Work[Rig]:
@@ -52,7 +54,7 @@ def key_rig(source: FaceSource) -> Work[Rig]:
         free = [first, *(member for member, reason in reasons if reason is None)]
         for member, reason in reasons:
             if reason is not None and member not in following:
-                left_alone[f"{name} on {member[0].obj.name}"] = reason
+                left_alone[f"{name} on {member[0].obj.name}"] = ELSEWHERE if reason == DRIVEN else reason
         entries.append(Control(_channel(name, free)))
         effects.append(_effect(source, [*free, *following]))
     found = (yield from part_of(driven_controls(source, driven), 0.5, 1.0)) if driven else Driven()

@@ -69,12 +69,8 @@ def settled(keys: Any) -> dict[str, object]:
 
 
 @pytest.mark.parametrize("strip", [False, True], ids=["action", "strip"])
-@pytest.mark.parametrize(
-    "names", [("Grin.L", "Grin.R"), ("teeth",), ("Grin.L", "teeth")], ids=["same", "other", "both"]
-)
-def test_a_layer_adds_to_what_plays_and_comes_off_without_a_trace(
-    keyed: Any, names: tuple[str, ...], strip: bool
-) -> None:
+@pytest.mark.parametrize("names", ["Grin.L Grin.R", "teeth", "Grin.L teeth"], ids=["same", "other", "both"])
+def test_a_layer_adds_to_what_plays_and_comes_off_without_a_trace(keyed: Any, names: str, strip: bool) -> None:
     keys = animate(keyed, *names.split())
     if strip:
         as_strip(keys)
