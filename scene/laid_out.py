@@ -56,7 +56,7 @@ def all_clips(objects: Sequence[Object]) -> dict[str, Clip]:
     """
     keyed = [obj.data.shape_keys for obj in objects if obj.type == "MESH" and obj.data.shape_keys is not None]
     found = {name: Clip(dict.fromkeys(keyed, action)) for name, action in clips_of(objects[0]).items()}
-    for name, members in rig_clips(objects[0]).items():
+    for name, members in sorted(rig_clips(objects[0]).items(), key=lambda clip: clip[1][0].frame_start):
         playing = {owner: action for action in members for owner in layers.players(action)}
         if playing:
             found[name if name not in found else f"{name} on the rig"] = Clip(playing, _keyed_names(playing))
