@@ -61,6 +61,8 @@ MIRRORED = {"8.3": "8.4", "8.5": "8.6", "8.7": "8.8", "9.1": "9.2", "3.11": "3.8
 } | {"10.5": "10.6", "10.1": "10.2", "10.7": "10.8", "11.3": "11.2"}  # fmt: skip
 #: Joints that go with the head alone take what is farther from all bones than this, metres, by the same falloff.
 FALLOFF, BACKGROUND = 0.011, 0.05
+#: Brows have the mean weights of so many vertices of the skin.
+NEAR = 6
 #: Rounds in which weights are smoothed along the skin.
 SMOOTHED = 6
 #: Bones that deform nothing in Rigify's old face although users bind eyes and teeth to them.
@@ -203,7 +205,8 @@ def skin_weights(head: Any, rig: Any, apart: set[str], parts: Any) -> dict[str, 
     for _ in range(SMOOTHED):
         shares = (shares + (mean @ shares.T).T) / 2.0
     skin, brows = np.flatnonzero(parts == SKIN), np.flatnonzero(parts == BROWS)
-    shares[:, brows] = shares[:, skin[cKDTree(vertices[skin]).query(vertices[brows])[1]]]
+    below = skin[cKDTree(vertices[skin]).query(vertices[brows], k=NEAR)[1]]
+    shares[:, brows] = shares[:, below].mean(axis=2)
     return {bone.name: own for bone, own in zip(bones, shares, strict=True)}
 
 

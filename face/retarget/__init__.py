@@ -5,6 +5,7 @@ controls       what the controls of a rig do to a face, and within which limits
 sight          what counts of a motion: outer skin, feature points along their FAPs, eyeballs
 weighing       what counts how much: skin, points of FAPs, gaze; and fights that are settled
 fights         controls that pull against each other, and what it costs to have both on
+beyond         what a rig shows beyond the sum of its controls
 normal         a motion and the controls' effects as normal equations of least squares
 bounded        least squares over time within bounds, smooth and sparing
 mirrored       which controls are each other's mirror image

@@ -76,8 +76,10 @@ class Normal:
 def normal_equations(controls: Seen, asked: Wishes, weights: Floats) -> Normal:
     """The normal equations in which points count as `weights` (m,) say, where all skin counts 1."""
     weight = max(controls.skin.shape[1] // 3, 1) * weights
-    plain = controls.square + (weight * controls.points) @ controls.points.T
+    counted = np.flatnonzero(weight)
+    points = controls.points[:, counted]
+    plain = controls.square + (weight[counted] * points) @ points.T
     scale = np.sqrt(np.diagonal(plain))
     scale = np.where(scale > 0.0, scale, 1.0)
-    right = asked.skin + (weight * asked.points) @ controls.points.T
+    right = asked.skin + (weight * asked.points)[:, counted] @ points.T
     return Normal(plain / np.outer(scale, scale), right / scale, scale)

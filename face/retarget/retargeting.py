@@ -18,6 +18,7 @@ from ...errors import ModelError, ParameterError
 from ...mpeg4 import FAP_COUNT
 from ..face import Face
 from ..unmet import unmet
+from .beyond import Beyond, between
 from .controls import Controls
 from .mirrored import mirrored_pairs
 from .normal import Seen, Wishes, seen
@@ -36,6 +37,8 @@ STEADY = 1e-5
 NO_CONTROL = "no control that can be used shows it"
 #: Controls that carry less than this share of a motion are not worth naming.
 CARRYING = 0.05
+#: So many are named even so.
+NAMED = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,10 +125,11 @@ def retarget(
 
 
 class Take:
-    """A motion as the controls of a face see it; its frames are not kept."""
+    """A motion as the controls of a face see it; its frames are not kept, but for the skin of those that are named."""
 
-    def __init__(self, seen_by: Retargeting) -> None:
-        self._by = seen_by
+    def __init__(self, seen_by: Retargeting, kept: Sequence[int]) -> None:
+        self._by, self.kept = seen_by, tuple(kept)
+        self._flat: dict[int, Floats] = {}
         self._skin: list[Floats] = []
         self._points: list[Floats] = []
         self._size: list[float] = []
@@ -141,6 +145,8 @@ class Take:
             head, faps = turn.undo(head, rest)
         self.turns.append(np.array([faps.get(number, 0.0) for number in (48, 49, 50)]))
         flat = by.sight.of_skin(head - rest)
+        if len(self._size) in self.kept:
+            self._flat[len(self._size)] = flat
         self._skin.append(by.does.skin @ flat)
         self._points.append(by.sight.of_points(head - rest))
         self._size.append(float(flat @ flat))
@@ -148,6 +154,15 @@ class Take:
     def wishes(self) -> Wishes:
         """What the frames so far ask of the controls."""
         return Wishes(np.array(self._skin), np.array(self._points), np.array(self._size))
+
+    def beyond(self, displacements: Floats) -> Beyond:
+        """What a rig shows beyond the sum of its controls: (n, V, 3), metres, at the frames that are kept."""
+        by = self._by
+        frames = sorted(self._flat)
+        extra = by.seen(displacements)
+        along = np.array([self._flat[frame] @ flat for frame, flat in zip(frames, extra.skin, strict=True)])
+        some = Beyond(extra.skin @ by.does.skin.T, extra.points, along, (extra.skin**2).sum(axis=1))
+        return between(frames, len(self._size), some)
 
 
 class Retargeting:
@@ -165,17 +180,17 @@ class Retargeting:
         if still.all():
             raise ModelError("none of the controls moves the face: choose controls that do, and unlock them")
         moving = controls.select(~still)
-        does = self._seen(moving)
+        does = self.seen(moving.effects)
         self.same = _doubles(moving, does)
         kept = np.array([name not in self.same for name in moving.names], dtype=bool)
         self.controls = moving.select(kept)
         self.does = does if kept.all() else Seen(does.skin[kept], does.points[kept])
         self.symmetric = symmetric
 
-    def _seen(self, controls: Controls) -> Seen:
-        """What each control does, in head space."""
+    def seen(self, displacements: Floats) -> Seen:
+        """What counts of displacements (., V, 3) of the face, metres."""
         turn = self.frame.axes.T / self.frame.scale
-        return seen(self.sight, (effect @ turn for effect in controls.effects))
+        return seen(self.sight, (moved @ turn for moved in displacements))
 
     @cached_property
     def _mirrored(self) -> Sequence[tuple[int, int]]:
@@ -206,22 +221,33 @@ class Retargeting:
         return dict(pairs) | {right: left for left, right in pairs}
 
     def values(
-        self, take: Take, *, fps: float = 25.0, requested: ArrayLike | None = None, smooth: float = 1.0
+        self,
+        take: Take,
+        *,
+        fps: float = 25.0,
+        requested: ArrayLike | None = None,
+        smooth: float = 1.0,
+        beyond: Beyond | None = None,
     ) -> Retargeted:
-        """The controls' values for a motion; see `retarget`."""
+        """The controls' values for a motion; see `retarget`.
+
+        Parameters
+        ----------
+        beyond : what the rig shows beyond the sum of its controls; it is taken to stay as it is.
+        """
         if not take.turns:
             raise ParameterError("motion", "must have at least one frame", 0)
-        asked = take.wishes()
+        asked = take.wishes() if beyond is None else beyond.left_of(take.wishes())
         wish = Wishes(asked.skin @ self.ties.T, asked.points, asked.size)
         smoothing = smooth * SMOOTH * (fps / USUAL_RATE) ** 4
         found = weighed_values(
             self._tied, wish, self._counted(requested), *self._limits, smooth=smoothing, mirror=self._mirror
         )
-        return self._result(asked, found @ self.ties, np.array(take.turns), requested)
+        return self.told(take, found @ self.ties, requested=requested, beyond=beyond)
 
-    def take(self) -> Take:
-        """A motion to be added frame by frame."""
-        return Take(self)
+    def take(self, kept: Sequence[int] = ()) -> Take:
+        """A motion to be added frame by frame; the skin of some frames is kept, to compare what the rig shows."""
+        return Take(self, kept)
 
     def _counted(self, requested: ArrayLike | None) -> Counted:
         """Which points are read for FAPs, and which of those are requested."""
@@ -239,15 +265,20 @@ class Retargeting:
         reach = np.where(self.ties > 0.0, 1.0, np.nan)
         return np.nanmax(reach * self.controls.low, axis=1), np.nanmin(reach * self.controls.high, axis=1)
 
-    def _result(self, asked: Wishes, values: Floats, turns: Floats, requested: ArrayLike | None) -> Retargeted:
-        """What is told of values (T, K)."""
+    def told(
+        self, take: Take, values: Floats, *, requested: ArrayLike | None = None, beyond: Beyond | None = None
+    ) -> Retargeted:
+        """What is told of values (T, K) for a motion; see `values`."""
+        asked = take.wishes()
+        goal = asked if beyond is None else beyond.left_of(asked)
         square, count = self.does.square, len(self.sight.skin)
-        left = asked.size - 2.0 * (values * asked.skin).sum(axis=1) + np.einsum("tj,jk,tk->t", values, square, values)
+        left = goal.size - 2.0 * (values * goal.skin).sum(axis=1) + np.einsum("tj,jk,tk->t", values, square, values)
         to_face = self.frame.scale / np.sqrt(max(count, 1))
-        sought, shown = self._faps(asked.points), self._faps(values @ self.does.points)
+        reached = values @ self.does.points + (0.0 if beyond is None else beyond.points)
+        sought, shown = self._faps(asked.points), self._faps(reached)
         through = np.abs(values).sum(axis=0) * np.sqrt(np.diagonal(square))
         shares = through / max(float(through.sum()), 1e-300)
-        order = [i for i in np.argsort(-shares) if shares[i] >= CARRYING]
+        order = [i for n, i in enumerate(np.argsort(-shares)) if shares[i] >= (CARRYING if n >= NAMED else 1e-9)]
         return Retargeted(
             names=tuple(self.controls.names),
             values=values,
@@ -255,13 +286,18 @@ class Retargeting:
             shown=shown,
             moved=np.sqrt(asked.size) * to_face,
             off=np.sqrt(np.maximum(left, 0.0)) * to_face,
-            head_turns=turns,
+            head_turns=np.array(take.turns),
             carriers={self.controls.names[i]: float(shares[i]) for i in order},
             missing=shortfalls(sought, shown, self._units),
             unmet=self._unmet(requested, shown),
             still=self.still,
             same=self.same,
         )
+
+    def distance(self, found: Retargeted) -> float:
+        """How far a rig is from a motion, over skin and FAPs alike: a mean of squares, summed over frames."""
+        faps = (found.asked - found.shown) * self._units * self.frame.scale
+        return float((found.off**2).sum() + np.nan_to_num(np.nanmean(faps**2, axis=1)).sum())
 
     def _unmet(self, requested: ArrayLike | None, shown: Floats) -> dict[int, str]:
         """FAP number -> why, of FAPs that are requested and of which nothing shows."""

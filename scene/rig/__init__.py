@@ -3,6 +3,7 @@
 baking        the way in: expressions or a motion onto the controls of a rig
 rig           controls, what each does to the face, and what is left alone
 channels      one number that can be keyed; its limits, its value at rest
+rounds        values solved, looked at on the rig, and solved again for what is left
 turns         turns of bones that are kept as quaternions, or as an axis and an angle
 keys          the shape keys of a face as controls, measured on its meshes
 driven        what drives shape keys as controls

@@ -26,6 +26,7 @@ from ..refusals import sharer_of
 from .clips import Keyframes, overlap, refuse_unkeyable, remove_rig_clips, write_rig_clip
 from .kept import Followed, keep
 from .rig import Rig
+from .rounds import frames_to_look_at, settled_values
 
 if TYPE_CHECKING:
     from ...api import Controls, EmotionShares, Face, Retargeted
@@ -126,15 +127,19 @@ def bake_expressions_onto(
     for index, each in enumerate(expressions):
         yield Progress(0.7 + 0.3 * index / len(expressions), f"Solving the skin for {each.clip}")
         pose = face.pose(each.faps, drive=drive, emotion=each.emotion, contractions=each.contractions)
-        take = retargeting.take()
+        take = retargeting.take(frames_to_look_at(rig, 1))
         take.add(pose.positions)
-        solved.append((each, retargeting.values(take, requested=each.faps), pose.unmet))
+        part = 0.7 + 0.3 * index / len(expressions), 0.7 + 0.3 * (index + 1) / len(expressions)
+        found = yield from part_of(settled_values(rig, retargeting, take, requested=each.faps), *part)
+        solved.append((each, found, pose.unmet))
     yield Progress(1.0, "Writing keyframes")
     remove_rig_clips(source.head, [each.clip for each in expressions])
     results: list[BakeResult] = []
     for each, found, missed in solved:
         curve = _on_frames(each.timing.curve(each.peak))
-        values = {channel: moved[0] * curve.values for channel, moved in rig.channel_values(found).items()}
+        values = {
+            channel: moved[0] * curve.values for channel, moved in rig.channel_values(found.names, found.values).items()
+        }
         said = (*unmet_remarks(missed, each.clip), *_about(target, rig, face))
         keyframes = Keyframes(curve.frames, values, curve.linear)
         adding = any(overlap(result.frame_range, keyframes.span) for result in results)
@@ -166,13 +171,14 @@ def bake_motion_onto(
     count = motion.frame_count(rate)
     source, face, rig, controls = yield from _prepared(target, find_rig)
     retargeting = api.Retargeting(face, controls, symmetric=onto.symmetric)
-    take = retargeting.take()
+    take = retargeting.take(frames_to_look_at(rig, count))
     for index, positions in enumerate(motion.positions(face, rate, drive)):
         take.add(positions)
         yield Progress(0.7 + 0.2 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
-    yield Progress(0.9, "Relating the motion to the controls")
-    found = retargeting.values(take, fps=rate, requested=motion.asked, smooth=onto.smooth)
-    keyframes = Keyframes(start + np.arange(count, dtype=np.float64), rig.channel_values(found), linear=True)
+    work = settled_values(rig, retargeting, take, fps=rate, requested=motion.asked, smooth=onto.smooth)
+    found = yield from part_of(work, 0.9, 1.0)
+    values = rig.channel_values(found.names, found.values)
+    keyframes = Keyframes(start + np.arange(count, dtype=np.float64), values, linear=True)
     return _write(source, rig, clip, keyframes, onto, found, _about(target, rig, face), note=note)
 
 

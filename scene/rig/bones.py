@@ -11,9 +11,9 @@ import bpy
 import numpy as np
 
 from ...errors import SceneError
-from ...progress import Progress, Work
+from ...progress import Progress, Work, part_of
 from ..blender_types import Constraint, Datablock, Object, PoseBone, WithProperties
-from ..faces import FaceSource, face_of
+from ..faces import FaceSource, face_steps
 from ..fcurves import played_curves
 from ..mesh import world_matrix
 from .channels import Channel, Form, Place
@@ -45,10 +45,10 @@ def bone_rig(source: FaceSource) -> Work[Rig]:
     for rig in rigs:
         refuse_unready(rig)
     left: dict[str, str] = {}
-    scale = face_of(source).scale
+    face = yield from part_of(face_steps(source), 0.0, 0.1)
     with rig_copy(source) as copy:
-        groups = [group for rig in rigs for group in _groups(copy, rig, scale, left, several=len(rigs) > 1)]
-        found = yield from sampled(copy, groups, scale)
+        groups = [group for rig in rigs for group in _groups(copy, rig, face.scale, left, several=len(rigs) > 1)]
+        found = yield from part_of(sampled(copy, groups, face.scale), 0.1, 1.0)
     if not found.entries:
         left |= {rig.name: HIDDEN for rig in rigs}
     left |= dict.fromkeys(found.whole, TURNS_HEAD)

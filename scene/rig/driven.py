@@ -14,9 +14,9 @@ import bpy
 import numpy as np
 
 from ...arrays import Floats
-from ...progress import Work
+from ...progress import Work, part_of
 from ..blender_types import Datablock, DriverCurve, DriverTarget, DriverVariable, Key, Object, ShapeKey
-from ..faces import FaceSource, face_of
+from ..faces import FaceSource, face_steps
 from ..shape_mix import data_path
 from .bones import AXES, LOCKED, axis_candidate, plain_candidate, property_candidate, refusal, unit_of
 from .channels import Place
@@ -57,7 +57,8 @@ def driven_controls(source: FaceSource, keys: Sequence[tuple[str, Key]]) -> Work
     """The controls that drive shape keys, each given by its name and the datablock that it is in."""
     left: dict[str, str] = {}
     behind: dict[str, list[Candidate]] = {}
-    scale = face_of(source).scale
+    face = yield from part_of(face_steps(source), 0.0, 0.1)
+    scale = face.scale
     with rig_copy(source) as copy:
         follow = _Follow(copy, scale)
         for name, owner in keys:
@@ -67,7 +68,9 @@ def driven_controls(source: FaceSource, keys: Sequence[tuple[str, Key]]) -> Work
             else:
                 behind[name] = found
         every = {each.channel.place: each for found in behind.values() for each in found}
-        result = yield from sampled(copy, [(each.channel.name, [each]) for each in every.values()], scale)
+        result = yield from part_of(
+            sampled(copy, [(each.channel.name, [each]) for each in every.values()], scale), 0.1, 1.0
+        )
     moving = {entry.channel.place for entry in result.entries}
     for name, found in behind.items():
         if not any(each.channel.place in moving for each in found):

@@ -15,7 +15,7 @@ from ..faces import FaceSource
 from .channels import Channel
 
 if TYPE_CHECKING:
-    from ...api import Controls, Retargeted
+    from ...api import Controls
 
 #: What a rig shows with channels at values that count from rest, frame by frame: (T, V, 3) displacement, metres.
 Evaluate: TypeAlias = "Callable[[Sequence[Mapping[Channel, float]]], Work[Floats]]"
@@ -77,11 +77,11 @@ class Rig:
         limits = np.array([entry.limits for entry in self.entries])
         return api.Controls(tuple(e.name for e in self.entries), self.effects, limits[:, 0], limits[:, 1])
 
-    def channel_values(self, found: Retargeted) -> dict[Channel, Floats]:
-        """Channel -> (T,) how far from rest it goes, of all channels that were used."""
+    def channel_values(self, names: Sequence[str], values: Floats) -> dict[Channel, Floats]:
+        """Channel -> (T,) how far from rest it goes, from the values (T, K) of controls that are named."""
         by_name = {entry.name: entry for entry in self.entries}
         moved: dict[Channel, Floats] = {}
-        for name, values in zip(found.names, found.values.T, strict=True):
+        for name, own in zip(names, values.T, strict=True):
             entry = by_name[name]
-            moved[entry.channel] = moved.get(entry.channel, 0.0) + (values if entry.sign >= 0 else -values)
+            moved[entry.channel] = moved.get(entry.channel, 0.0) + (own if entry.sign >= 0 else -own)
         return moved
