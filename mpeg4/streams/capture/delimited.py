@@ -54,6 +54,8 @@ def read_text(file: Path) -> str:
 def lines_and_mark(text: str) -> tuple[list[Line], str]:
     """The lines that say something, with their numbers, and the mark between their cells."""
     lines = numbered_lines(text)
+    while len(lines) > 1 and lines[0][1].startswith("#") and lines[1][1].count(",") > lines[0][1].count(","):
+        lines = lines[1:]  # a remark above the heading
     said = SEPARATOR_LINE.fullmatch(lines[0][1]) if lines else None
     if said is not None:
         return lines[1:], said[1]

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from ....arrays import Floats
 from ....errors import FormatError, ParameterError
 from ....files import read_bytes
 from ....tables import parsed_number
@@ -144,6 +145,8 @@ def json_times(frames: list[JsonFrame], rate: float | None = None) -> Times:
     numbers = None if number_name is None else np.array([_number(frame, number_name) for frame in frames])
     if numbers is None and any(frame.key is not None for frame in frames):
         numbers = np.array([math.nan if frame.key is None else frame.key for frame in frames])
+    if numbers is not None and number_name is None and _are_times(numbers) and named is None:
+        return placed(Stamps(len(frames), seconds=numbers, refuse=partial(_refuse, frames)), rate)
     stamps = Stamps(len(frames), numbers=numbers, counted=frames[0].per_second, refuse=partial(_refuse, frames))
     if named is not None:
         name, unit = named
@@ -154,6 +157,16 @@ def json_times(frames: list[JsonFrame], rate: float | None = None) -> Times:
         seconds = np.array([_seconds(frame, name) for frame in frames])
         stamps = replace(stamps, seconds=seconds, unit=unit)
     return placed(stamps, rate)
+
+
+#: Keys of frames that lie further apart than this, or in parts of one, are times and no numbers.
+FARTHEST = 10.0
+
+
+def _are_times(keys: Floats) -> bool:
+    """Whether the keys of frames are times rather than numbers."""
+    steps = np.diff(keys)
+    return len(steps) > 0 and (float(np.median(steps)) >= FARTHEST or bool((keys != np.floor(keys)).any()))
 
 
 def chosen_face(frames: list[JsonFrame], counts: list[int], face: int | None) -> int:

@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from .row_names import RATE_NAMES, first_named, plain_name, time_name
+from ....tables import parsed_number
+from .row_names import RATE_NAMES, first_named, plain_name, tells_of_a_row, time_name
 from .shape_names import is_turn, shape_named
 
 #: Objects around a result that loggers keep, by their plain names.
@@ -82,8 +83,11 @@ def _of_object(document: Entries, depth: int) -> list[tuple[float | None, Any]] 
     matrix = _matrix(document)
     if matrix is not None:
         return matrix
-    if all(name.lstrip("-").isdigit() for name in document):
-        return [(float(name), document[name]) for name in sorted(document, key=int)]
+    if all(parsed_number(name) is not None for name in document):
+        return [(float(name), document[name]) for name in sorted(document, key=float)]
+    if all(isinstance(value, dict) and value and all(key.isdigit() for key in value) for value in document.values()):
+        keys = sorted({key for value in document.values() for key in value}, key=int)
+        return [(float(key), {name: value.get(key) for name, value in document.items()}) for key in keys]
     columns = _columns(document)
     if columns is not None:
         return columns
@@ -111,11 +115,15 @@ def _matrix(document: Entries) -> list[tuple[float | None, Any]] | None:
                 continue
             if all(len(row) in (0, len(names)) for row in rows):
                 times = _times_beside(document, len(rows))
-                return [
-                    (None, {**times.get(number, {}), "blendshapes": dict(zip(names, row, strict=True)) if row else {}})
-                    for number, row in enumerate(rows)
-                ]
+                return [(None, {**times.get(number, {}), **_row(names, row)}) for number, row in enumerate(rows)]
     return None
+
+
+def _row(names: list[str], row: list[Any]) -> dict[str, Any]:
+    """The entries of a row of a matrix: what tells of the row by its name, all others as blend shapes."""
+    named = dict(zip(names, row, strict=True)) if row else {}
+    about = {name: value for name, value in named.items() if tells_of_a_row(name)}
+    return {**about, "blendshapes": {name: value for name, value in named.items() if name not in about}}
 
 
 def _columns(document: Entries) -> list[tuple[float | None, Any]] | None:

@@ -18,7 +18,7 @@ from ....arrays import Floats
 from ....errors import FormatError, ParameterError
 from .times import Stamps
 
-TIMECODE = re.compile(r"(\d+)[:;](\d{1,2})[:;](\d{1,2})(?:([:;.,])(\d+(?:\.\d+)?))?")
+TIMECODE = re.compile(r"(\d+)[:;](\d{1,2})[:;](\d{1,2})(?:([:;.,])(\d+(?:[.,]\d+)?))?")
 
 #: Counts of frames in a second that films and trackers have; 60 where a timecode shows none, which is Live Link Face's.
 COUNTS, USUAL_COUNT = (24, 25, 30, 48, 50, 60, 100, 120, 240), 60
@@ -61,7 +61,7 @@ def timecode_stamps(texts: Sequence[str], rate: float | None, refuse: Callable[[
         match = TIMECODE.fullmatch(text.strip())
         if match is None:
             raise refuse(row, f"column Timecode must be HH:MM:SS:FF or HH:MM:SS:FF.fraction, but it is {text[:40]!r}")
-        fields[row] = [float(match[place] or 0.0) for place in (1, 2, 3, 5)]
+        fields[row] = [float((match[place] or "0").replace(",", ".")) for place in (1, 2, 3, 5)]
         marks.add(match[4] or ".")
         widths.add(len(match[5] or ""))
     if not widths:
@@ -108,7 +108,7 @@ def _counted(
 
     def seconds_of(text: str) -> float:
         match = _match(text)
-        at, frame = _whole_seconds(match), float(match[5] or 0.0)
+        at, frame = _whole_seconds(match), float((match[5] or "0").replace(",", "."))
         return float((at * count + frame - (_left_out(np.array(at), count) if drop else 0.0)) / counted)
 
     return Stamps(len(clock), numbers=numbers, counted=counted, clock=seconds_of, assumed=assumed, refuse=refuse)

@@ -47,6 +47,7 @@ FORMS = {
     "commas at the ends of rows": text(",").replace(b"0.250\n", b"0.250,,\n"),
     "blanks": text(" , "),
     "blank lines": text(",").replace(b"\n", b"\n\n"),
+    "a remark above": b"# made by a logger\n" + text(","),
     "an index column": numbered(""),
     "a named index column": numbered("Unnamed: 0"),
 }  # fmt: skip
@@ -67,6 +68,16 @@ def test_openface_saved_again_in_another_country(tmp_path: Path) -> None:
     )
     smile = api.load_shapes()["mouthSmileLeft"].frame[59 - 1] + api.load_shapes()["mouthSmileRight"].frame[59 - 1]
     np.testing.assert_allclose(api.read_stream(tmp_path / "a.csv").frames[:, 59 - 1], [smile / 2.0, smile])
+
+
+def test_live_link_face_saved_again_in_another_country(tmp_path: Path) -> None:
+    rows = [f"10:00:00:{n:02d},{n:03d};61;0,{n}" for n in range(9)]
+    (tmp_path / "a.csv").write_text("\n".join(["Timecode;BlendShapeCount;JawOpen", *rows]))
+    stream = api.read_stream(tmp_path / "a.csv")
+    assert (len(stream.frames), round(stream.fps)) == (9, 60)
+    np.testing.assert_allclose(
+        stream.frames[:, 2], [api.load_shapes()["jawOpen"].frame[2] * n / 10 for n in range(9)], rtol=0.01
+    )
 
 
 def test_decimal_commas_between_commas_are_refused_with_the_remedy(tmp_path: Path) -> None:

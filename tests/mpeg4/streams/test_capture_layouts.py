@@ -54,6 +54,12 @@ LAYOUTS: dict[str, Any] = {
         "exportFps": 25.0, "trackPath": "a.wav", "numPoses": 2, "numFrames": COUNT,
         "facsNames": ["browInnerUp", "jawOpen"], "weightMat": [[0.0, n / 10] for n in NUMBERS],
     },
+    "times as keys": {str(40 * n): {"blendshapes": {"jawOpen": n / 10}} for n in NUMBERS},
+    "seconds as keys": {f"{0.04 * n:.2f}": {"blendshapes": {"jawOpen": n / 10}} for n in NUMBERS},
+    "columns and data": {"columns": ["timestamp", "jawOpen"], "data": [[0.04 * n, n / 10] for n in NUMBERS]},
+    "a dictionary for each name": {
+        "timestamp": {str(n): 0.04 * n for n in NUMBERS}, "jawOpen": {str(n): n / 10 for n in NUMBERS},
+    },
     "names and frames": {"fps": 25, "names": ["jawOpen", "eyeBlinkLeft"], "frames": [[n / 10, 0.0] for n in NUMBERS]},
 }  # fmt: skip
 
@@ -65,7 +71,8 @@ def test_json_in_every_layout(layout: str, tmp_path: Path) -> None:
         document = {name: entry for name, entry in document.items() if name != "fps"}
     recording = read(tmp_path / "a.json", json.dumps(document), rate=25.0 if layout == "keys" else None)
     np.testing.assert_allclose(recording.stream.frames[:, 2], [OPEN * n / 10 for n in NUMBERS])
-    assert (recording.stream.fps, recording.assumed) == (25.0, ())
+    said = ("its times are in milliseconds",) if layout == "times as keys" else ()
+    assert (recording.stream.fps, recording.assumed) == (25.0, said)
 
 
 def test_a_single_result_is_one_frame(tmp_path: Path) -> None:
