@@ -27,7 +27,7 @@ from .sight import sight_of
 from .weighing import Counted, weighed_values
 
 #: Weight of second differences over time, at 25 frames per second, where a motion is to be smooth.
-SMOOTH = 1.0
+SMOOTH = 4.0
 USUAL_RATE = 25.0
 #: Controls do the same where the cosine between their effects is at least this.
 SAME = 0.9995

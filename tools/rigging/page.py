@@ -68,7 +68,7 @@ def _takes(takes: Sequence[Take]) -> list[str]:
     rows = [
         f"A take: emotions one after another with blinks, small motions of head and eyes, {FPS:.0f} frames a second.",
         "*Bends* are second differences over time: root mean square and the largest, of the skin in micrometres; of",
-        "the keys as a share of how much they move, beside the same of the take's skin.",
+        "the keys as a share of how much they move, beside the same of the take's skin. Seconds are of processor time.",
         "",
         "| keys | frames | muscles, s | relating, s | solving, s | explained: plain, ours | bends: take, ours "
         "| largest: take, ours | bends of keys: take, ours | fights per frame: plain, ours |",

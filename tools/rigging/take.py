@@ -26,8 +26,8 @@ class Take:
 
     Attributes
     ----------
-    muscles, seeing, solving : seconds for the motion of muscles and skin, for relating its frames to the keys, and for
-        the keys' values.
+    muscles, seeing, solving : seconds of processor time for the motion of muscles and skin, for relating its frames to
+        the keys, and for the keys' values.
     explained, plain : share of the skin's motion on the keys, and by plain least squares frame by frame.
     bends, own_bends : root mean square of second differences over time of the skin on the keys, and of the take's own,
         micrometres.
@@ -62,19 +62,19 @@ def take_on(head: KeyedHead, seconds: float = SECONDS) -> Take:
     rest = retargeting.face.anatomy.mesh.positions
     frames = head.face.performance(cues(seconds), FPS, liveliness=api.Liveliness())
     for number in range(round(seconds * FPS)):
-        start = time.perf_counter()
+        start = time.process_time()
         positions = next(frames)
-        middle = time.perf_counter()
+        middle = time.process_time()
         take.add(positions)
         spent["muscles"] += middle - start
-        spent["seeing"] += time.perf_counter() - middle
+        spent["seeing"] += time.process_time() - middle
         still = retargeting.face.anatomy.head_turn.undo(retargeting.frame.to_head(positions), rest)[0]
         skin.append(retargeting.sight.of_skin(still - rest).astype(np.float32))
         if number % PLAIN_EVERY == 0:
             plain.append(plain_values(retargeting, positions))
-    start = time.perf_counter()
+    start = time.process_time()
     found = retargeting.values(take, fps=FPS, requested=np.stack([cue.profile.frame() for cue in cues(seconds)]))
-    spent["solving"] = time.perf_counter() - start
+    spent["solving"] = time.process_time() - start
     return _figures(head, retargeting, found, np.array(skin), np.array(plain), spent)
 
 
