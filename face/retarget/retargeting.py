@@ -328,8 +328,8 @@ def _doubles(controls: Controls, does: Seen) -> dict[str, str]:
     The opposite is the same where that other goes both ways.
     """
     products = does.square + does.points @ does.points.T
-    length = np.maximum(np.sqrt(np.diagonal(products)), 1e-300)
-    cosines = products / np.outer(length, length)
+    length = np.sqrt(np.diagonal(products))
+    cosines = products / np.maximum(np.outer(length, length), 1e-300)
     ways = (controls.low < 0.0) & (controls.high > 0.0)
     alike, names = (cosines >= SAME) | (ways[:, None] & (cosines <= -SAME)), controls.names
     found: dict[str, str] = {}

@@ -59,6 +59,7 @@ def test_what_a_bone_does_is_what_blender_shows(rigged: SimpleNamespace) -> None
     np.testing.assert_allclose(0.006 * rig.effects[number], shown, atol=2e-5)
 
 
+@pytest.mark.skipif(bpy.app.version < (4, 4), reason="reading all that an armature has crashes this Blender")
 def test_nothing_of_the_file_changes_however_far_it_comes(rigged: SimpleNamespace) -> None:
     source, _ = read_face(rigged.head), file_state()  # reading it makes Cycles add settings of its own
     before = file_state()
