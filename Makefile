@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo quick test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence rigs clean
+.PHONY: help demo quick test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence rigs strangers clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -48,6 +48,9 @@ track-evidence: ## docs/tracking.md: how well FAPs come back from films of known
 
 rigs: ## docs/rigs.md: how far a character's own keys follow the muscles; ARGS="--sheets" for contact sheets in out/rigs/, too
 	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/rigs.py $(ARGS)
+
+strangers: ## docs/strangers.md: what outside judges see in rendered faces; installs them; ARGS="--help" for more of it
+	@$(SETUP) bpy-4.5 strangers && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/ask_strangers.py $(ARGS)
 
 docs-pictures: ## the manual's pictures, taken in a real Blender window; ARGS="--only wheel" for some of them
 	@$(SETUP) dev blender && .venv/bin/python tools/docs_pictures.py $(ARGS)

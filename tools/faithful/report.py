@@ -77,7 +77,7 @@ def _number(value: float, decimals: int = 2) -> str:
     return f"{value:.{decimals}f}".replace("-", "−")
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A Markdown table."""
     lines = [head, ["---"] * len(head), *rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
@@ -89,7 +89,7 @@ def _per_shape(columns: Mapping[str, Explained]) -> str:
     rows = [[shape, *(_number(explained[shape]) for explained in columns.values())] for shape in shapes]
     for place, name in enumerate(("median", "mean", "least")):
         rows.append([f"**{name}**", *(_number(summary(explained)[place], 3) for explained in columns.values())])
-    return _table(["", *(name.replace("identity-", "id ") for name in columns)], rows)
+    return table(["", *(name.replace("identity-", "id ") for name in columns)], rows)
 
 
 def _mechanisms(results: Results) -> str:
@@ -102,7 +102,7 @@ def _mechanisms(results: Results) -> str:
         falls = ", ".join(f"{shape} {_number(change)}" for change, shape in changes[:3] if change <= -FALL)
         rows.append([name, _number(median, 3), _number(mean, 3), _number(least), falls])
     introduction = "## Per mechanism left out\n\nOn the scanned head. The other mechanisms are not fitted again.\n\n"
-    return introduction + _table(["left out", "median", "mean", "least", "falls most"], rows)
+    return introduction + table(["left out", "median", "mean", "least", "falls most"], rows)
 
 
 def _drawings(explained: Explained) -> str:
@@ -115,7 +115,7 @@ def _drawings(explained: Explained) -> str:
         " it moves a feature point.\n"
         f"Median {median:.3f}, mean {mean:.3f}.\n\n"
     )
-    return introduction + _table(["unit", "explained"], rows)
+    return introduction + table(["unit", "explained"], rows)
 
 
 def _requests(requests: Mapping[str, Requests]) -> str:
@@ -129,9 +129,9 @@ def _requests(requests: Mapping[str, Requests]) -> str:
     return (
         "## Requests\n\nErrors are shares of the request, or of 100 units if the request is smaller. Exact drive,"
         " the 25 profiles of Table 5:\n\n"
-        + _table(["head", "median", "95 %", "largest"], exact)
+        + table(["head", "median", "95 %", "largest"], exact)
         + "\nNatural drive, the 25"
         " profiles of Table 5 and the fourteen words of Table 6 (with known emotion): median error, and the\nshare of"
         " requests met within 10 %. *In the range*: inside the FAP's anatomical range (`ranges.csv`). *In its\n"
-        "unchanged part*: where requests pass unchanged.\n\n" + _table(["head", *kinds], natural)
+        "unchanged part*: where requests pass unchanged.\n\n" + table(["head", *kinds], natural)
     )

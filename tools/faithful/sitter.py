@@ -54,31 +54,33 @@ class Sitter:
         height: int = 432,
         fine: bool = False,
         framing: Framing | None = None,
+        look: Look | None = None,
     ) -> None:
-        """`objects`: the face, then what is pictured with it; `width`, `height` in even pixels; `fine` as in `Look`."""
+        """`objects`: the face, then what is pictured with it; `width`, `height` in even pixels; `fine` as in `Look`.
+
+        `framing`: by default the face fills the picture. `look` takes the place of the size and `fine`; the view is
+        that of each shot.
+        """
         self._object, self._objects = objects[0], list(objects)
-        self._look = Look(width=width, height=height, fine=fine)
+        self._look = look or Look(width=width, height=height, fine=fine)
         self._framing = framing or _close(framing_of(self._object))
 
     @classmethod
     def of_head(cls, name: str, face: Face, *, width: int = 360, height: int = 432, fine: bool = False) -> Self:
         """A head of `HEADS` in an otherwise empty Blender file."""
-        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-        if name == "default":
-            objects = [head_object(api.build_default_head(), name)]
-            bpy.context.collection.objects.link(objects[0])
-        else:
-            objects = [_plain_object(name, face)]
-        return cls(objects, width=width, height=height, fine=fine)
+        return cls([object_alone(name, face)], width=width, height=height, fine=fine)
 
-    def shots(self, poses: Sequence[Floats], view: View, colours: Sequence[Floats] | None = None) -> list[Floats]:
+    def shots(
+        self, poses: Sequence[Floats], view: View | float, colours: Sequence[Floats] | None = None
+    ) -> list[Floats]:
         """Pictures (height, width, 3) of poses (V, 3) in the face's coordinates.
 
-        `colours`, one (V, 3) linear RGB per pose, take the place of the materials.
+        `view`: or how far to the subject's left the camera stands, radians. `colours`, one (V, 3) linear RGB per
+        pose, take the place of the materials.
         """
         mesh = self._object.data
         pictures = []
-        look = replace(self._look, yaw=view.yaw)
+        look = replace(self._look, yaw=view.yaw if isinstance(view, View) else view)
         with (
             tempfile.TemporaryDirectory(prefix="risorius-") as folder,
             studio(self._objects, self._framing, look) as scene,
@@ -97,6 +99,16 @@ class Sitter:
 def _close(framing: Framing) -> Framing:
     """The face rather than head and neck."""
     return replace(framing, centre=framing.point(0.0, -LOWER, -DEEPER), height=CLOSENESS * framing.height)
+
+
+def object_alone(name: str, face: Face) -> Any:
+    """A head of `HEADS` as the one object of a Blender file that is otherwise empty."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    if name != "default":
+        return _plain_object(name, face)
+    obj = head_object(api.build_default_head(), name)
+    bpy.context.collection.objects.link(obj)
+    return obj
 
 
 def _plain_object(name: str, face: Face) -> Any:

@@ -1,0 +1,14 @@
+"""What outside judges see in rendered faces: a check, and no loss that anything is tuned to.
+
+sittings       what is pictured: a head, a word at an activation, or a sum of scanned actions as control; its pose
+paint          brows and lips for heads that bring no paint: where they lie on the skin
+portraits      the pictures, rendered small with Cycles and kept by what is in them (needs bpy)
+mini_xception  one judge: the network of the package `fer`, in plain NumPy
+judges         asks both about pictures, and keeps what they said
+verdicts       what was named: confusion, means, growth
+page           docs/strangers.md
+sheets         its contact sheets, small JPEGs (needs bpy)
+
+`face_api.cjs`, in Node, is the other judge: the npm package `@vladmandic/face-api`. The judges
+run in `.venv-strangers`, which is set up on request and is no part of the product or its tests.
+"""
