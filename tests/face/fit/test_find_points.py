@@ -198,7 +198,7 @@ def test_shipped_topologies_name_their_source_and_licence() -> None:
 @pytest.mark.slow
 def test_progress_rises_and_the_work_can_be_cancelled(head: HeadMesh) -> None:
     steps = api.find_points_steps(head.vertices, head.polygons, topologies=())
-    shown = [next(steps) for _ in range(4)]
+    shown = [next(steps) for _ in range(9)]
     steps.close()
     fractions = [step.fraction for step in shown]
     assert fractions == sorted(fractions)
