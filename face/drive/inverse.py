@@ -29,14 +29,30 @@ class SkinFigures:
 
     share: Length
     chin: Share
+    tip: float
+
+
+@dataclass(frozen=True)
+class TogetherFigures:
+    """How far muscles of one side contract together (presets/anatomy/targets.toml)."""
+
+    wing_and_procerus: Share
+    wing_and_brow: Share
 
 
 SKIN = read_figures("targets.skin", SkinFigures)
+TOGETHER = read_figures("targets.together", TogetherFigures)
+
+#: Muscles that contract together, and the correlation of their amounts.
+PAIRS = (
+    ("llsan_wing", "procerus", TOGETHER.wing_and_procerus),
+    ("llsan_wing", "depressor_supercilii", TOGETHER.wing_and_brow),
+)
 
 #: Rows to be met as near as may be are met within this by muscles, lids and jaw, metres; the skin does the rest.
 LEAST_DOUBT = 0.05e-3
 
-CHIN_FAPS = (3, 14, 15)
+CHIN_FAPS, TIP_FAPS = (3, 14, 15), (63, 64)
 
 #: Beyond this opening at the chin the jaw's response is taken about the opening found first.
 SECOND_PASS = 8e-3
@@ -83,8 +99,9 @@ class Inverse:
 
     @cached_property
     def _weighing(self) -> Floats:
-        """(m, m) compliance with a stiff chin, scaled to a mean of 1."""
+        """(m, m) compliance with a stiff chin and a loose tip of the nose, scaled to a mean of 1."""
         share = np.where(np.isin(self.rows.numbers, CHIN_FAPS), SKIN.chin, 1.0)
+        share = np.where(np.isin(self.rows.numbers, TIP_FAPS), SKIN.tip, share)
         return np.asarray(self.compliance * self._scale * share[:, None] * share[None, :])
 
     def solve(self, targets: Targets) -> Amounts:
@@ -105,14 +122,26 @@ class Inverse:
             whitened = linalg.solve_triangular(
                 factor, np.column_stack([responses[known], wanted]), lower=True, check_finite=False
             )
-            matrix = np.concatenate([whitened[:, :-1], np.diag(1.0 / usual)])
-            right = np.concatenate([whitened[:, -1], expected / usual])
+            matrix = np.concatenate([whitened[:, :-1], self._together / usual])
+            right = np.concatenate([whitened[:, -1], self._together @ (expected / usual)])
             solution = bounded_least_squares(matrix, right, lower, upper)
             if solution[OPENING] < SECOND_PASS:
                 break
             responses[:, OPENING] = self._opening_response(float(solution[OPENING]))
             responses[targets.carried, OPENING] = 0.0
         return actuators.amounts(solution)
+
+    @cached_property
+    def _together(self) -> Floats:
+        """(k, k) square root of the inverse correlations of all amounts."""
+        names = [muscle.name for muscle in self.actuators.muscles]
+        correlation = np.eye(self.actuators.count)
+        for one, other, share in PAIRS:
+            for side in ("_l", "_r"):
+                if one + side in names and other + side in names:
+                    i, j = names.index(one + side), names.index(other + side)
+                    correlation[i, j] = correlation[j, i] = share
+        return np.asarray(np.linalg.cholesky(np.linalg.inv(correlation)).T)
 
     def _usual(self, targets: Targets) -> tuple[Floats, Floats]:
         """Usual size of every amount about what is expected of it, and that, metres."""

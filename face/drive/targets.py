@@ -77,7 +77,7 @@ class Targets:
 
 def natural_targets(rows: FapRows, plan: Plan) -> Targets:
     """Every planned row, asked ones more firmly; what is asked and has no range, exactly."""
-    goal, asked = rows.select(plan.goal), rows.select(plan.evened)
+    goal, asked = rows.select(plan.goal), rows.select(plan.meant)
     beyond = np.isnan(goal) & ~np.isnan(asked)
     doubts = np.where(np.isnan(asked), NATURAL.silent, NATURAL.asked)
     doubts = np.where(np.isin(rows.numbers, INNER_LOWER_LIP_FAPS), NATURAL.lower_lip, doubts)
@@ -90,7 +90,7 @@ def natural_targets(rows: FapRows, plan: Plan) -> Targets:
         carried=np.zeros(len(rows), dtype=bool),
         muscles=plan.muscles,
         opening=JAW.usual_opening,
-        slide=USUAL.slide_asked if _asks(plan.evened, 14, 15) else USUAL.slide_silent,
+        slide=USUAL.slide_asked if _asks(plan.meant, 14, 15) else USUAL.slide_silent,
     )
 
 

@@ -47,6 +47,6 @@ _REGIONS: Mapping[Region, Callable[[OuterSkin], Floats]] = {
     Region.BROW: brow.region,
     Region.CHEEK: cheek.region,
     Region.NOSE: nose.region,
-    Region.UPPER: upper_lip_side,
+    Region.UPPER: lambda skin: upper_lip_side(skin) * nose.off_tip(skin),
     Region.LOWER: lambda skin: 1.0 - upper_lip_side(skin),
 }

@@ -134,11 +134,11 @@ def test_sadness_lowers_the_lip_corners_that_its_profile_never_names() -> None:
 
 
 def test_disgust_wrinkles_the_nose_that_no_fap_measures(face: Face) -> None:
-    profile = api.archetype("disgust", 0)
+    profile = api.expression("disgust")
     pose = face.pose(profile.frame(), emotion=profile.weights)
     assert pose.achieved[61 - 1] > 10.0
     assert pose.contractions["llsan_wing_l"] > 0.3
-    neutral_word = face.pose(profile.frame(), emotion={"joy": 1.0})
+    neutral_word = face.pose(profile.frame(), emotion=Feeling({"joy": 1.0}, prototypes={"joy": AS_PRINTED}))
     assert pose.contractions["llsan_wing_l"] > 2.0 * neutral_word.contractions["llsan_wing_l"]
 
 

@@ -101,7 +101,7 @@ def corner_down_and_back(face: Face) -> float:
 
 CLAIMS = (
     Claim(Mechanism.BROW, frown_of_the_forehead, 1.2),
-    Claim(Mechanism.CHEEK, raised_cheek, 8.0),
+    Claim(Mechanism.CHEEK, raised_cheek, 12.0),
     Claim(Mechanism.CHEEK, blown_cheek, 2.0),
     Claim(Mechanism.NOSE, disgusted_nose, 3.0),
     Claim(Mechanism.NOSE, wrinkled_nose, 2.0),
