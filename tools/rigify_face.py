@@ -147,7 +147,8 @@ def fitted_metarig(head: Any) -> Any:
     for side, part in (("L", 1), ("R", 2)):
         ball = vertices[parts == part]
         pairs.append((np.array(joints[f"eye.{side}"].head), (ball.min(axis=0) + ball.max(axis=0)) / 2.0))
-    warp = RBFInterpolator(*map(np.array, zip(*pairs, strict=True)), kernel="thin_plate_spline")
+    before, after = (np.array(ends) for ends in zip(*pairs, strict=True))
+    warp = RBFInterpolator(before, after, kernel="thin_plate_spline")
     ends = {bone.name: warp(np.array([bone.head, bone.tail])) for bone in joints}
     for bone in joints:
         bone.head, bone.tail = ends[bone.name]
@@ -163,6 +164,7 @@ def bind(head: Any, rig: Any, rigid: dict[Any, str]) -> None:
     from risorius.scene.mesh import read_parts
 
     parts = read_parts(head.data)
+    assert parts is not None
     for name in rigid.values():
         rig.data.bones[name].use_deform = True
     weights = skin_weights(head, rig, set(rigid.values()), parts)

@@ -90,7 +90,7 @@ def _put_on_paint(obj: Any, face: Face) -> None:
     skin = next(material for material in obj.data.materials if material.name.startswith(_SKIN))
     tree = node_tree_of(skin)
     place, parts = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeSeparateXYZ")
-    place.attribute_name = _PAINT
+    setattr(place, "attribute_name", _PAINT)  # noqa: B010 - of this kind of node alone
     tree.links.new(place.outputs["Vector"], parts.inputs[0])
     along, above, depth = parts.outputs
     red = _mixed(tree, colours["skin"], colours["lips"], depth)

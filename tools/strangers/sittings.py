@@ -121,7 +121,8 @@ def _sums_file() -> Path:
 @cache
 def _scanned() -> list[Floats]:
     """(V, 3) displacements of the scanned shapes on the whole head, left and right as one."""
-    folder, pairs = heads_folder(), {}
+    folder = heads_folder()
+    pairs: dict[str, Floats] = {}
     for file, inner_file in (("ict_expressions", "ict_expressions_inner"), ("ict_expressions_2", None)):
         data = np.load(folder / f"{file}.npz")
         skins = data["displacement"].astype(np.float64)

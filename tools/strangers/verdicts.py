@@ -34,7 +34,7 @@ def named(said: Said) -> str:
 
 def likeliest(said: Said, count: int = 3) -> list[tuple[str, float]]:
     """The likeliest classes, neutral among them."""
-    return Counter(dict(said)).most_common(count) if said else []
+    return sorted(said.items(), key=lambda each: -each[1])[:count] if said else []
 
 
 def probability(said: Said, emotion: str) -> float:
