@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 #: Seconds between two shares of long work.
 PAUSE = 0.01
+#: Seconds of each answer for which a face is got ready, in small steps.
+SHARE = 0.05
 
 
 def is_on() -> bool:
@@ -114,7 +116,10 @@ def _look(previews: Previews) -> float:
 
 def _prepare(previews: Previews) -> float:
     """A share of getting a face ready, with its progress; returns the seconds until the next one."""
+    until = time.monotonic() + SHARE
     step = previews.faces.prepare()
+    while step is not None and time.monotonic() < until:
+        step = previews.faces.prepare()
     if step is None:
         show_status_everywhere(None)
         return 0.0
