@@ -12,7 +12,7 @@ from ..errors import FormatError
 from .films import needing_blender, silent_blender
 from .options import Verbs, add_scene, face_of, scene_options, verb
 from .progress import ShowProgress
-from .recordings import add_recording, read_as_told
+from .recordings import add_recording, read_as_told, whole_frames
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -150,9 +150,10 @@ def _export_weights(arguments: argparse.Namespace) -> Result:
     if arguments.shapes is None:
         raise UsageError("export weights needs --shapes, with the face's shape keys")
     scene_options(arguments)  # refuses --object where nothing has objects
-    stream = read_as_told(_source(arguments), arguments).stream
+    recording = read_as_told(_source(arguments), arguments)
+    stream = recording.stream
     face = face_of(arguments)
-    controls, frames = _controls_of(arguments.shapes, face), stream.expanded()
+    controls, (frames, said) = _controls_of(arguments.shapes, face), whole_frames(recording)
     motion = face.simulation(frames, stream.fps)
     found = api.retarget(face, controls, motion, fps=stream.fps, requested=frames, symmetric=arguments.symmetric)
     values = np.zeros((len(found.values), len(controls)))
@@ -171,6 +172,7 @@ def _export_weights(arguments: argparse.Namespace) -> Result:
         "unmet": {api.fap(number).name: why for number, why in found.unmet.items()},
         "still": list(found.still),
         "same": dict(found.same),
+        "assumed": [*recording.assumed, *said],
         "out": arguments.out,
     }
     lines = [

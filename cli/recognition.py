@@ -46,41 +46,42 @@ def _recognise(arguments: argparse.Namespace) -> Result:
         raise UsageError("--over-time cannot be used with --words or --frame")
     if arguments.out is not None and not arguments.over_time:
         raise UsageError("--out needs --over-time")
-    frames, fps, first = _frames(arguments)
+    frames, fps, first, assumed = _frames(arguments)
     if arguments.over_time:
-        return _over_time(arguments, frames, fps, first)
+        return _over_time(arguments, frames, fps, first, assumed)
     index = int(np.nansum(np.abs(frames), axis=1).argmax()) if arguments.frame is None else arguments.frame
     if not 0 <= index < len(frames):
         raise ParameterError("frame", f"must be in 0..{len(frames) - 1}", index)
-    return _one(arguments, frames[index], index)
+    return _one(arguments, frames[index], index, assumed)
 
 
-def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int]:
-    """(T, 68) FAPs, frames per second, number of the first frame."""
+def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int, tuple[str, ...]]:
+    """(T, 68) FAPs, frames per second, number of the first frame, what was assumed to read them."""
     from .. import api
 
     path, *others = arguments.files
     suffix = path.suffix.lower()
     if suffix in MESHES or not (suffix in api.READABLE_STREAMS or path.is_file()):
         face = face_of(arguments)
-        return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0
+        return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0, ()
     if others:
         raise UsageError("give one stream only")
-    stream = read_as_told(path, arguments).stream
+    recording = read_as_told(path, arguments)
+    stream = recording.stream
     if not len(stream.frames):
         raise FormatError(path, "has no frames: nothing to recognise")
-    return stream.expanded(), stream.fps, stream.first_frame
+    return stream.expanded(), stream.fps, stream.first_frame, recording.assumed
 
 
-def _one(arguments: argparse.Namespace, frame: Floats, index: int) -> Result:
-    """Beliefs of one frame; more of it where words are asked for."""
+def _one(arguments: argparse.Namespace, frame: Floats, index: int, assumed: tuple[str, ...]) -> Result:
+    """Beliefs of one frame; more of it where words are asked for. Beliefs alone where nothing was assumed."""
     from .. import api
 
     found = api.recognise(frame, rule=arguments.rule)
     beliefs = {str(name): belief for name, belief in sorted(found.items(), key=lambda item: -item[1])}
     lines = [f"{name:<12} {belief:.3f}" for name, belief in beliefs.items()]
     if arguments.words is None:
-        return Result(beliefs, lines)
+        return Result({**beliefs, "assumed": list(assumed)} if assumed else beliefs, lines)
     words = api.recognise_words(frame, arguments.words or api.WORDS, rule=arguments.rule)
     if not arguments.words:
         words = dict(list(words.items())[:CLOSEST])
@@ -95,6 +96,7 @@ def _one(arguments: argparse.Namespace, frame: Floats, index: int) -> Result:
         "strength": strength,
         "words": words,
         "decisive": {api.fap(number).name: speaks for number, speaks in decisive.items()},
+        "assumed": list(assumed),
     }
     lines += [f"strength     {strength:.3f}", "words"]
     lines += [f"  {word:<14} {belief:.3f}" for word, belief in words.items()]
@@ -103,7 +105,9 @@ def _one(arguments: argparse.Namespace, frame: Floats, index: int) -> Result:
     return Result(data, lines)
 
 
-def _over_time(arguments: argparse.Namespace, frames: Floats, fps: float, first: int) -> Result:
+def _over_time(
+    arguments: argparse.Namespace, frames: Floats, fps: float, first: int, assumed: tuple[str, ...]
+) -> Result:
     """Beliefs of every frame."""
     from .. import api
 
@@ -119,6 +123,7 @@ def _over_time(arguments: argparse.Namespace, frames: Floats, fps: float, first:
         "beliefs": {name: track.beliefs[:, column] for column, name in enumerate(names)},
         "best": list(track.best),
         "strength": track.strengths,
+        "assumed": list(assumed),
         "out": arguments.out,
     }
     wrote = [f"wrote {arguments.out}"] if arguments.out is not None else _table(track, names)

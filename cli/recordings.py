@@ -11,6 +11,7 @@ from .progress import when_slow
 
 if TYPE_CHECKING:
     from ..api import Recording
+    from ..arrays import Floats
 
 FLIPS = ("yaw", "pitch", "roll", "eye_yaw", "eye_pitch")
 KINDS = ("openface", "py_feat", "arkit", "mediapipe", "landmarks", "faps")
@@ -58,6 +59,14 @@ def read_as_told(
     for assumed in recording.assumed:
         print(f"note: {path.name}: {assumed}", file=sys.stderr)
     return recording
+
+
+def whole_frames(recording: Recording) -> tuple[Floats, tuple[str, ...]]:
+    """(T, 68) FAPs of a recording that is to be played, its holes bridged; says on standard error which."""
+    frames, said = recording.played()
+    for line in said:
+        print(f"note: {recording.stream.name}: {line}", file=sys.stderr)
+    return frames, said
 
 
 def _aspect(text: str) -> float:

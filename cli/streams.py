@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,7 @@ from .options import (
     verb,
 )
 from .progress import ShowProgress, when_slow
-from .recordings import add_recording, read_as_told
+from .recordings import add_recording, read_as_told, whole_frames
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -112,15 +113,19 @@ def _convert(arguments: argparse.Namespace) -> Result:
 
 def _play(arguments: argparse.Namespace) -> Result:
     """Play a FAP stream on a face, as .blend or video (needs Blender)."""
+    from .. import api
+
     out = _target(arguments)
-    stream, _ = _read(arguments)
+    stream, recording = _read(arguments)
+    frames, said = whole_frames(replace(recording, stream=stream))
+    stream = api.FapStream(frames, fps=stream.fps, name=stream.name)
     onto, shared = onto_options(arguments), scene_options(arguments)
     with needing_blender():
         from ..scene.jobs import playing
     shared |= {"creases": arguments.creases, "engine": arguments.engine, "destination": destination_of(onto)}
     with silent_blender():
         made = dict(playing.play_stream(out, stream, **shared, progress=ShowProgress()))
-    return Result(made, lines_of(made))
+    return Result({**made, "assumed": [*recording.assumed, *said]}, lines_of(made))
 
 
 def _of(arguments: argparse.Namespace) -> Result:

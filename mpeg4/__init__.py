@@ -58,12 +58,13 @@ from .standard import (
     Unit,
     fap,
 )
+from .streams.bridging import Bridged, bridged
 from .streams.fap_file import read_fap, write_fap
 from .streams.fap_json import read_fap_json, write_fap_json
 from .streams.fap_stream import FapStream
 from .streams.fba import Decoded, decode_fba, encode_fba, read_fba, write_fba
 from .streams.filling import Filling, fill
-from .timing import Cue, Ramp, Timing, emotion_weights, envelope, load_timings, sequence, strengths
+from .timing import Cue, Ramp, Timing, emotion_weights, envelope, load_timings, sequence, sequence_at, strengths
 from .variation import Drawn, Liveliness, Overlay, drawn_within
 
 __all__ = [
@@ -97,6 +98,7 @@ __all__ = [
     "AuTerm",
     "BeliefTrack",
     "Beliefs",
+    "Bridged",
     "Cue",
     "Decoded",
     "Drawn",
@@ -125,6 +127,7 @@ __all__ = [
     "Word",
     "archetype",
     "between",
+    "bridged",
     "check_prototype",
     "decode_fba",
     "default_variant",
@@ -152,6 +155,7 @@ __all__ = [
     "recognise_over_time",
     "recognise_words",
     "sequence",
+    "sequence_at",
     "shown_strength",
     "strengths",
     "viseme_frame",

@@ -241,7 +241,16 @@ def sequence(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
     >>> api.sequence([joy, fear], fps=25.0).shape
     (86, 68)
     """
-    strength = strengths(cues, fps=fps)
+    return _mixed(cues, strengths(cues, fps=fps))
+
+
+def sequence_at(cues: Sequence[Cue], times: Floats) -> Floats:
+    """(T, 68) as `sequence`, at any times (T,) in seconds, before the first cue and after the last one too."""
+    return _mixed(cues, np.array([cue.strength(times) for cue in cues]).reshape(len(cues), len(times)).T)
+
+
+def _mixed(cues: Sequence[Cue], strength: Floats) -> Floats:
+    """(T, 68) FAPs of cues at strengths (T, C)."""
     wanted = np.array([cue.profile.frame(cue.seed) for cue in cues])  # (C, 68)
     asks = ~np.isnan(wanted)
     summed = strength @ asks.astype(np.float64)

@@ -12,9 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ...arrays import Floats
 from ...errors import FormatError, ParameterError
 from ...files import read_bytes
-from ...mpeg4 import FapStream, decode_fba, read_fap, write_fap, write_fap_json, write_fba
+from ...mpeg4 import FapStream, bridged, decode_fba, read_fap, write_fap, write_fap_json, write_fba
 from ...mpeg4.streams.capture import Samples, write_fap_csv
 from ...mpeg4.streams.capture.times import checked_rate
 from ...mpeg4.streams.fap_json import stream_of_document
@@ -41,6 +42,30 @@ class Recording:
     format: StreamFormat
     assumed: tuple[str, ...] = ()
     damage: tuple[FormatError, ...] = ()
+
+    def played(self, under: Floats | None = None) -> tuple[Floats, tuple[str, ...]]:
+        """What a face plays of it, and what of that was unknown, in words for people.
+
+        Visemes and expressions are low-level FAPs; where the recording is unknown for a while, it is bridged.
+
+        Parameters
+        ----------
+        under : (T, 68) FAPs that show where it knows nothing, NaN where that is rest; None: rest.
+
+        Returns
+        -------
+        (T, 68) FAP units, NaN where silent; lines.
+
+        Examples
+        --------
+        >>> _ = open("take.csv", "w").write("timestamp, AU45_r\\n0.00, 2\\n0.04, \\n0.08, 4\\n")
+        >>> frames, said = api.read_recording("take.csv").played()
+        >>> frames[:, 19 - 1].round().tolist(), said
+        ([375.0, 562.0, 750.0], ('1 unknown frame (1): bridged from those around',))
+        """
+        whole = self.format not in (StreamFormat.FAP, StreamFormat.FBA, StreamFormat.JSON, StreamFormat.FAPS)
+        found = bridged(self.stream.expanded(), self.stream.fps, whole=whole, under=under)
+        return found.frames, found.said
 
 
 def read_recording(

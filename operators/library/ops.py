@@ -162,8 +162,9 @@ class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, Operator):
 
         obj, path = active_object(context), Path(bpy.path.abspath(self.filepath))
         recording = api.read_recording(path)
-        stream, self._assumed = recording.stream, recording.assumed
-        frames = at_rate(stream.expanded(), stream.fps, scene_fps(context.scene))
+        played, said = recording.played()
+        self._assumed = recording.assumed + said
+        frames = at_rate(played, recording.stream.fps, scene_fps(context.scene))
         if len(frames) == 0:
             raise FormatError(path, "contains no frames")
         start = float(context.scene.frame_current)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import ParameterError
+from ...mpeg4 import bridged
 from ...progress import Report, Work, part_of, run
 from .. import bake
 from ..bake.motion import FapMotion, at_rate
@@ -39,8 +41,8 @@ def play_stream(
     """Bake a stream by a face's muscles and save the .blend or the film (.mp4).
 
     It plays at the stream's rate; in a user's .blend, at that file's. Visemes and expressions are expanded; FAPs that
-    no frame states are left to anatomy. Fill the stream first (`FapStream.filled`) where it states FAPs now and then
-    only. Other parameters as for `words.bake_file`.
+    no frame states are left to anatomy, and unknown frames are bridged, which is remarked. Fill the stream first
+    (`FapStream.filled`) where it states FAPs now and then only. Other parameters as for `words.bake_file`.
 
     Raises
     ------
@@ -58,10 +60,11 @@ def _play(
 ) -> Work[Made]:
     """See `play_stream`."""
     film.refuse_unwritable_output(out)
-    frames = stream.expanded()
-    FapMotion(frames)  # refuses a stream without frames before anything is loaded
+    played = bridged(stream.expanded(), stream.fps)
+    FapMotion(played.frames)  # refuses a stream without frames before anything is loaded
     face = yield from part_of(subject(asked, creases=bool(creases)), 0.0, 0.05)
-    motion = FapMotion(at_rate(frames, stream.fps, bake.scene_fps()))
+    motion = FapMotion(at_rate(played.frames, stream.fps, bake.scene_fps()))
+    face = replace(face, remarks=face.remarks + played.said)
     saves = out.suffix.lower() == BLEND
     clip = stream.name.split("\\")[-1].strip() or "stream"
     baked = yield from part_of(destination.motion(face, motion, clip, creases), 0.05, 0.95 if saves else 0.4)

@@ -53,6 +53,7 @@ def test_the_table_is_what_the_api_finds_and_is_read_back(
     np.testing.assert_allclose(values, found.values, atol=1e-5)
     assert [float(row["timestamp"]) for row in rows] == pytest.approx(np.arange(12) / 24.0, abs=1e-6)
     assert said["explained"] == pytest.approx(found.explained)
+    assert said["assumed"] == []
     assert values[-1, 0] == values.max() > 0.2
     back = api.read_stream(out)
     assert back.fps == pytest.approx(24.0)

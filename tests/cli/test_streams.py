@@ -155,7 +155,8 @@ def test_a_trackers_recording_is_a_stream_like_any_other(run_json: Run, tmp_path
     assert said["assumed"] == ["the file contains no times: 30 frames per second"]
     run_json("fap", "convert", tmp_path / "a.json", tmp_path / "a.fba")
     assert run_json("fap", "info", tmp_path / "a.fba")["format"] == "fba"
-    assert set(run_json("recognise", tmp_path / "a.json")) == set(map(str, api.ARCHETYPES))
+    assert set(run_json("recognise", tmp_path / "a.json")) == {*map(str, api.ARCHETYPES), "assumed"}
+    assert set(run_json("recognise", tmp_path / "a.fba")) == set(map(str, api.ARCHETYPES))
     run_json("export", "csv", tmp_path / "a.fba", "--out", tmp_path / "a.csv")
     assert run_json("fap", "info", tmp_path / "a.csv")["format"] == "faps"
 
@@ -189,7 +190,10 @@ def test_every_verb_that_reads_streams_reads_recordings(
     for verb in (["import"], ["fap", "info"], ["fap"]):
         said = run_json(*verb, path)
         assert (said["format"], said["fps"], said["assumed"]) == ("arkit", 25.0, ["not read: earWiggle"])
-    assert set(run_json("recognise", path)) == set(map(str, api.ARCHETYPES))
+    said = run_json("recognise", path)
+    assert (set(said), said["assumed"]) == ({*map(str, api.ARCHETYPES), "assumed"}, ["not read: earWiggle"])
+    for options in (["--words"], ["--over-time"]):
+        assert run_json("recognise", path, *options)["assumed"] == ["not read: earWiggle"]
     run_json("fap", "convert", path, tmp_path / "a.fap")
     if name != "take.dat":
         measured = run_json("measure", path, "--out", tmp_path / "b.fap")[str(path)]

@@ -41,6 +41,24 @@ def test_a_stream_is_baked_as_the_api_simulates_it(stream: api.FapStream, tmp_pa
 
 
 @pytest.mark.slow
+def test_an_unknown_frame_is_bridged_and_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = ["timestamp,jawOpen", "0.00,0.6", "0.04,0.6", "0.08,", "0.12,0.6"]
+    (tmp_path / "take.csv").write_text("\n".join(rows))
+    assert cli.main(["fap", "play", str(tmp_path / "take.csv"), str(tmp_path / "a.blend"), "--json"]) == 0
+    said = capsys.readouterr()
+    line = "1 unknown frame (2): bridged from those around"
+    assert json.loads(said.out[said.out.index("{") :])["assumed"] == [line]
+    assert f"note: take: {line}" in said.err
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
+    scene, obj = bpy.context.scene, bpy.data.objects["Risorius Head"]
+    shown = []
+    for frame in range(scene.frame_start, scene.frame_start + 4):
+        scene.frame_set(frame)
+        shown.append(evaluated_vertices(obj))
+    assert max(np.abs(other - shown[0]).max() for other in shown) < 1e-4
+
+
+@pytest.mark.slow
 def test_the_verb_plays_a_bitstream(stream: api.FapStream, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     api.write_fba(tmp_path / "a.fba", stream)
     assert cli.main(["fap", "play", str(tmp_path / "a.fba"), str(tmp_path / "a.blend"), "--json"]) == 0
