@@ -14,6 +14,7 @@ from .eyes import PUPIL_VERTEX, build_eyeball
 from .figures import DEFAULT_FIGURES, HeadFigures, read_figures
 from .groups import skin_groups
 from .head_mesh import HeadMesh, Material
+from .mouth_bag import bag_materials
 from .piece import Piece
 from .points import skin_points
 from .skin import HeadSkin, build_skin
@@ -22,7 +23,6 @@ from .tongue import TIP_VERTEX, build_tongue, tongue_vertex
 
 REGION_MATERIALS = {
     Region.LIPS: "lips",
-    Region.MOUTH_BAG: "mouth",
     Region.LID_RIM: "lid_rim",
     Region.UNDER_LID: "lid_rim",
     Region.NOSTRIL_DEPTH: "nostril",
@@ -131,6 +131,7 @@ def _all_mirror(skin: HeadSkin, pieces: list[Piece], first: Ints) -> Ints:
 def _material_index(figures: HeadFigures, skin: HeadSkin, pieces: list[Piece]) -> Ints:
     """Material of every quad, as an index into the figures' materials."""
     order = {material.name: i for i, material in enumerate(figures.materials)}
-    names = [REGION_MATERIALS.get(region, "skin") for region in skin.regions]
+    bag = bag_materials(skin)
+    names = [bag.get(quad, REGION_MATERIALS.get(region, "skin")) for quad, region in enumerate(skin.regions)]
     names += [name for piece in pieces for name in piece.materials]
     return np.array([order[name] for name in names], dtype=np.int64)

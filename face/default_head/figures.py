@@ -53,6 +53,21 @@ class LidMarginFigures:
     opening: Floats
 
 
+@dataclass(frozen=True)
+class MouthBagFigures:
+    """The bag behind the lips, metres.
+
+    Attributes
+    ----------
+    back, throat : how far back it is full and where it ends, y.
+    narrowing : width of its end, as a share of the full width.
+    """
+
+    back: float
+    throat: float
+    narrowing: float
+
+
 @dataclass(frozen=True, eq=False)
 class TeethFigures:
     """One dental arch, metres: an ellipse x = half_width sin t, y = back - depth cos t.
@@ -82,6 +97,8 @@ class TongueFigures:
     ----------
     groove, furrow : depth of its middle furrow, and its width as a share of the half width.
     back_drop : how far the back end sinks.
+    dorsum, dorsum_at, dorsum_length : how far its back rises over the ellipsoid, where (0 the middle, 1 the back end)
+        and how far along, as shares of the half length.
     """
 
     centre: Floats
@@ -89,6 +106,9 @@ class TongueFigures:
     groove: float
     furrow: float
     back_drop: float
+    dorsum: float
+    dorsum_at: float
+    dorsum_length: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,6 +166,7 @@ class HeadFigures:
     nodes: Mapping[str, Floats]
     eyeball: EyeballFigures
     lid_margin: LidMarginFigures
+    mouth_bag: MouthBagFigures
     teeth_upper: TeethFigures
     teeth_lower: TeethFigures
     tongue: TongueFigures
@@ -183,6 +204,7 @@ def read_figures(path: str | Path = DEFAULT_FIGURES) -> HeadFigures:
             eyeball.number("limbus", above=0.0, most=1.0),
         ),
         lid_margin=_lid_margin(table.table("lid_margin")),
+        mouth_bag=_mouth_bag(table.table("mouth_bag")),
         teeth_upper=_teeth(table.table("teeth_upper")),
         teeth_lower=_teeth(table.table("teeth_lower")),
         tongue=_tongue(table.table("tongue")),
@@ -277,6 +299,13 @@ def _lid_margin(row: TomlTable) -> LidMarginFigures:
     )
 
 
+def _mouth_bag(row: TomlTable) -> MouthBagFigures:
+    """The bag behind the lips."""
+    return MouthBagFigures(
+        row.number("back_y") * MM, row.number("throat_y") * MM, row.number("narrowing", above=0.0, most=1.0)
+    )
+
+
 def _tongue(row: TomlTable) -> TongueFigures:
     """The tongue."""
     return TongueFigures(
@@ -285,6 +314,9 @@ def _tongue(row: TomlTable) -> TongueFigures:
         _length(row, "groove"),
         row.number("furrow", above=0.0, most=1.0),
         _length(row, "back_drop"),
+        row.number("dorsum", least=0.0) * MM,
+        row.number("dorsum_at", least=-1.0, most=1.0),
+        row.number("dorsum_length", above=0.0),
     )
 
 

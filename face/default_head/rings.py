@@ -11,18 +11,18 @@ import numpy as np
 
 from ...arrays import Floats
 from .cage import EYE_RIM, MOUTH_RIM, NOSTRIL_RIM, grid_name, ring_name
-from .figures import HeadFigures
+from .figures import HeadFigures, MouthBagFigures
 
 CARUNCLE = (0, 1, 15)  # ring indices that keep their own distance from the ball where it is larger
 FOLD_ANGLE, FOLD_RISE = 0.33, 0.12  # which way the skin turns behind the lid
 
-MOUTH_BACK, MOUTH_FLOOR_ARC = -58e-3, -112e-3
+MOUTH_FLOOR_ARC = -112e-3
 NOSTRIL_AXIS = np.array([0.05, 0.25, 1.0]) / np.linalg.norm([0.05, 0.25, 1.0])
 
 
 def computed_nodes(figures: HeadFigures) -> dict[str, Floats]:
     """Positions (metres, left half) of the rings E1, E0, M0, B1, B2, BC, N1 and N2."""
-    return _lid_rings(figures) | _mouth_rings(figures.nodes) | _nostril_rings(figures.nodes)
+    return _lid_rings(figures) | _mouth_rings(figures.nodes, figures.mouth_bag) | _nostril_rings(figures.nodes)
 
 
 def _unit(v: Floats) -> Floats:
@@ -53,7 +53,7 @@ def _lid_rings(figures: HeadFigures) -> dict[str, Floats]:
     return rings | {ring_name("eyeE0", k): ball.centre + p for k, p in enumerate(fold)}
 
 
-def _mouth_rings(nodes: Mapping[str, Floats]) -> dict[str, Floats]:
+def _mouth_rings(nodes: Mapping[str, Floats], bag: MouthBagFigures) -> dict[str, Floats]:
     """M0, the inner lip; B1 and B2, the bag round teeth and tongue; BC, its end wall."""
     rings: dict[str, Floats] = {}
     count = len(MOUTH_RIM)
@@ -66,16 +66,18 @@ def _mouth_rings(nodes: Mapping[str, Floats]) -> dict[str, Floats]:
         if k == corner:
             lip = contact + np.array([-0.4e-3, 3e-3, 0.0])
             bag1 = np.array([1.1 * x, y + 9e-3, z])
-            bag2 = np.array([1.38 * x, MOUTH_BACK, -34e-3])
+            bag2 = np.array([1.38 * x, bag.back, -34e-3])
         else:
             lip = contact + np.array([-0.05 * x, 3.5e-3, 1.5e-3 * side])
             bag1 = np.array([1.08 * x, y + 7e-3, z + 9e-3 * side * arch])
-            bag2 = np.array([1.35 * x, MOUTH_BACK + 0.15 * (y - MOUTH_FLOOR_ARC), -34e-3 + 17e-3 * side * arch])
+            bag2 = np.array([1.35 * x, bag.back + 0.15 * (y - MOUTH_FLOOR_ARC), -34e-3 + 17e-3 * side * arch])
         for ring, point in (("mouM0", lip), ("mouB1", bag1), ("mouB2", bag2)):
             rings[ring_name(ring, k)] = np.asarray(point, dtype=np.float64)
     for k in range(corner - 1):
         middle = 0.5 * (rings[ring_name("mouB2", k)] + rings[ring_name("mouB2", count - 1 - k)])
-        rings[ring_name("mouBC", k)] = middle + np.array([0.0, 6e-3, 0.0])
+        rings[ring_name("mouBC", k)] = middle * np.array([bag.narrowing, 1.0, 1.0]) + np.array(
+            [0.0, bag.throat - bag.back, 0.0]
+        )
     return rings
 
 

@@ -21,7 +21,9 @@ def build_tongue(figures: TongueFigures) -> Piece:
     y = np.broadcast_to(-np.cos(polar)[:, None], x.shape)
     ball = np.concatenate([[[0.0, -1.0, 0.0]], np.stack([x, y, z], axis=-1).reshape(-1, 3), [[0.0, 1.0, 0.0]]])
     furrow = np.exp(-((ball[:, 0] / figures.furrow) ** 2)) * np.clip(ball[:, 2], 0.0, None)
+    rise = np.exp(-(((ball[:, 1] - figures.dorsum_at) / figures.dorsum_length) ** 2)) * np.clip(ball[:, 2], 0.0, None)
     vertices = figures.centre + ball * figures.semi_axes
+    vertices[:, 2] += figures.dorsum * rise
     vertices[:, 2] -= figures.groove * furrow + figures.back_drop * np.clip(ball[:, 1], 0.0, None) ** 2
     first, last = np.arange(SEGMENTS) + 1, np.arange(SEGMENTS) + 1 + SEGMENTS * (RINGS - 1)
     quads = np.concatenate(

@@ -37,12 +37,13 @@ def open_template(degrees: float) -> FitTemplate:
     )
     vertices = turned + template.hinge
     surface = Surface.from_polygons(vertices, skin.quads)
+    opened = replace(skin, vertices=vertices)
     return replace(
         template,
-        skin=replace(skin, vertices=vertices),
+        skin=opened,
         surface=surface,
         front=front_of(surface, template.exterior),
-        cloud=front_cloud(vertices, skin.regions),
+        cloud=front_cloud(opened, template.eyeball),
         jaw_degrees=degrees,
     )
 

@@ -1,4 +1,4 @@
-"""The template that is laid onto a mesh: the default head's skin, its feature points and its loops."""
+"""The template that is laid onto a mesh: a skin like the default head's, its feature points and its loops."""
 
 from __future__ import annotations
 
@@ -11,14 +11,18 @@ from scipy import sparse
 
 from ....arrays import Bools, Floats, Ints
 from ....physics.mesh import Sparse
-from ...default_head.assembly import build_default_head
+from ....resources import PRESETS
 from ...default_head.cage import EYE_RIM, MOUTH_RIM, Region, ring_name
-from ...default_head.figures import read_figures
+from ...default_head.eyes import build_eyeball
+from ...default_head.figures import EyeballFigures, read_figures
 from ...default_head.points import skin_points
 from ...default_head.skin import HeadSkin, build_skin
 from ...mesh.parts import Part
 from ...mesh.points import closest_on_triangles
 from ..surface.cloud import Cloud, Surface, first_hits, sample
+
+#: The figures of the template; those of the default head, which is made to be looked at, are its own.
+TEMPLATE_FIGURES = PRESETS / "heads" / "template.toml"
 
 #: What cannot be seen from outside follows the rest.
 HIDDEN = (Region.LID_RIM, Region.UNDER_LID, Region.MOUTH_BAG, Region.NOSTRIL, Region.NOSTRIL_DEPTH)
@@ -47,7 +51,7 @@ class Ring:
 
 @dataclass(frozen=True, eq=False)
 class FitTemplate:
-    """The default head as something to lay onto a mesh; metres, x left, y back, z up.
+    """A head as something to lay onto a mesh; metres, x left, y back, z up.
 
     Attributes
     ----------
@@ -63,6 +67,7 @@ class FitTemplate:
     cloud : the visible head, eyeballs included, as points seen from the front.
     rings : "eye_l", "eye_r", "mouth".
     hinge : (3,) the middle of the jaw's hinge.
+    eyeball : the left eyeball, as part of the cloud.
     jaw_degrees : how far its jaw is open.
     """
 
@@ -78,6 +83,7 @@ class FitTemplate:
     cloud: Cloud
     rings: Mapping[str, Ring]
     hinge: Floats
+    eyeball: EyeballFigures
     jaw_degrees: float = 0.0
 
     def read(self, values: Floats, names: Sequence[str] | None = None) -> Floats:
@@ -89,7 +95,7 @@ class FitTemplate:
 @lru_cache(maxsize=1)
 def fit_template() -> FitTemplate:
     """The template, built once."""
-    figures = read_figures()
+    figures = read_figures(TEMPLATE_FIGURES)
     skin = build_skin(figures)
     surface = Surface.from_polygons(skin.vertices, skin.quads)
     exterior = ~_hidden(skin)
@@ -104,8 +110,9 @@ def fit_template() -> FitTemplate:
         names=tuple(places),
         points=_point_rows(places, surface),
         twins={**figures.point_pairs, **{right: left for left, right in figures.point_pairs.items()}},
-        cloud=front_cloud(skin.vertices, skin.regions),
+        cloud=front_cloud(skin, figures.eyeball),
         hinge=figures.condyle,
+        eyeball=figures.eyeball,
         rings=_rings(skin),
     )
 
@@ -159,16 +166,17 @@ def _point_rows(places: Mapping[str, int | Floats], surface: Surface) -> Sparse:
     return sparse.csr_array((values, (rows, columns)), shape=(len(places), len(surface.vertices)))
 
 
-def front_cloud(skin: Floats, regions: Sequence[Region]) -> Cloud:
-    """Skin (V, 3) and eyeballs of the default head as points seen from the front, without the mouth's inside."""
-    head = build_default_head()
-    vertices = np.concatenate([skin, head.vertices[len(skin) :]])
-    shown = np.isin(head.parts, [Part.SKIN, Part.EYEBALL_L, Part.EYEBALL_R])
-    polygons = [polygon for polygon in head.polygons if shown[list(polygon)].all()]
-    cloud = sample(Surface.from_polygons(vertices, polygons), CLOUD_SIZE)
+def front_cloud(skin: HeadSkin, eyeball: EyeballFigures) -> Cloud:
+    """Skin and eyeballs of the template as points seen from the front, without the mouth's inside."""
+    left = build_eyeball(eyeball)
+    balls = left, left.mirrored(Part.EYEBALL_R)
+    first = np.cumsum([len(skin.vertices), *(len(ball.vertices) for ball in balls)])
+    vertices = np.concatenate([skin.vertices, *(ball.vertices for ball in balls)])
+    quads = np.concatenate([skin.quads, *(ball.quads + start for ball, start in zip(balls, first, strict=False))])
+    cloud = sample(Surface.from_polygons(vertices, quads), CLOUD_SIZE)
     p = cloud.positions
-    bag = np.zeros(len(polygons), dtype=bool)
-    bag[: len(regions)] = [region is Region.MOUTH_BAG for region in regions]
+    bag = np.zeros(len(quads), dtype=bool)
+    bag[: len(skin.regions)] = [region is Region.MOUTH_BAG for region in skin.regions]
     seen = first_hits(p[:, 1], p[:, 0], p[:, 2], pixel=3e-3, tolerance=3e-3)
     return cloud.take(seen & ~bag[cloud.triangles // 2])  # quads have two triangles each
 
