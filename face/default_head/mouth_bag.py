@@ -1,4 +1,4 @@
-"""The mouth bag gets darker inwards, band by band: light hardly reaches a throat, and no renderer here casts shadows."""
+"""The mouth bag gets darker inwards, band by band: light hardly reaches a throat, and previews cast no shadows."""
 
 from __future__ import annotations
 
