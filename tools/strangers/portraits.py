@@ -1,4 +1,4 @@
-"""The pictures: small, Cycles, skin and lips and brows in the default head's colours; kept by what is in them."""
+"""The pictures: small, Cycles, painted in the default head's colours, one light; kept by what is in them."""
 
 from __future__ import annotations
 
@@ -18,14 +18,15 @@ from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.lettering import write_picture
 from risorius.scene.pictures.look import Engine, Look
 
-from . import paint
+from . import light, paint
+from .light import relight
 from .sittings import Sitting
 
 #: Small, on a background a little darker than the skin, and exposed as a photograph of a face would be (stops).
-LOOK = Look(engine=Engine.CYCLES, width=288, height=288, background=(0.13, 0.14, 0.15))
-EXPOSURE = 0.6
+LOOK = Look(engine=Engine.CYCLES, width=288, height=288, background=(0.16, 0.175, 0.19))
+EXPOSURE = 0.3
 
-#: Roughness of painted skin: no highlights.
+#: Roughness of skin: no highlights.
 ROUGHNESS = 0.8
 
 #: The face is larger than in a portrait by so much, about a centre so much lower, in picture heights.
@@ -37,8 +38,11 @@ LIP_EDGE, BROW_EDGE = 0.0012, 0.012
 #: The material that `paint_parts` gives the skin.
 _SKIN = "Risorius plain skin"
 
-#: The attribute of each vertex: along and above its brow, depth into the lips in `LIP_EDGE`.
-_PAINT = "strangers_paint"
+#: The materials that it gives eyeballs.
+_EYE_MATERIALS = ("Risorius plain sclera", "Risorius plain iris", "Risorius plain pupil")
+
+#: Attributes of each vertex: along and above its brow, depth into the lips in `LIP_EDGE`; beside and above its iris.
+_PAINT, _EYES = "strangers_paint", "strangers_eyes"
 
 
 def picture(head: str, face: Face, asked: Sequence[tuple[Sitting, Floats]], folder: Path) -> dict[Sitting, Path]:
@@ -59,7 +63,7 @@ def picture(head: str, face: Face, asked: Sequence[tuple[Sitting, Floats]], fold
 def digest(face: Face, sitting: Sitting, pose: Floats) -> str:
     """What a picture depends on, in 24 letters: the paint, the head, its pose to 0.01 mm, the view."""
     known = hashlib.sha256()
-    for source in (Path(__file__), Path(paint.__file__)):
+    for source in (Path(__file__), Path(light.__file__), Path(paint.__file__)):
         known.update(source.read_bytes())
     known.update(f"{sitting.head} {sitting.turned}".encode())
     for positions in (face.vertices, pose):
@@ -70,15 +74,24 @@ def digest(face: Face, sitting: Sitting, pose: Floats) -> str:
 def _sitter(head: str, face: Face) -> Sitter:
     """A head as it is pictured here."""
     obj = object_alone(head, face)
+    _dull(obj)
     if head != "default":
         _put_on_paint(obj, face)
     whole = framing_of(obj)
     framing = replace(whole, centre=whole.point(0.0, -LOWER, 0.0), height=CLOSENESS * whole.height)
-    return Sitter([obj], framing=framing, look=LOOK)
+    return Sitter([obj], framing=framing, look=LOOK, relight=relight)
+
+
+def _dull(obj: Any) -> None:
+    """No highlights on the skin, the default head's or plain."""
+    for material in obj.data.materials:
+        if material.name.endswith("skin"):
+            for shading in principled_of(material):
+                shading.inputs["Roughness"].default_value = ROUGHNESS
 
 
 def _put_on_paint(obj: Any, face: Face) -> None:
-    """Brows, lips and the default head's skin on the plain skin material.
+    """Brows, lips, irises and the default head's skin on the plain materials.
 
     Each vertex says where it lies in brow and lips; the picture's points in between find out on their own, so that the
     edges are sharper than the mesh.
@@ -86,18 +99,56 @@ def _put_on_paint(obj: Any, face: Face) -> None:
     points = {name: point.position for name, point in face.points.items()}
     brow, lips = paint.brow_places(face.vertices, points), paint.lip_depths(face.vertices, points)
     write_vectors(obj.data, _PAINT, np.column_stack([brow, lips / LIP_EDGE]))
+    _paint_eyes(obj, face)
     colours = {material.name: material.colour for material in build_default_head().materials}
     skin = next(material for material in obj.data.materials if material.name.startswith(_SKIN))
     tree = node_tree_of(skin)
-    place, parts = tree.nodes.new("ShaderNodeAttribute"), tree.nodes.new("ShaderNodeSeparateXYZ")
-    setattr(place, "attribute_name", _PAINT)  # noqa: B010 - of this kind of node alone
-    tree.links.new(place.outputs["Vector"], parts.inputs[0])
+    parts = tree.nodes.new("ShaderNodeSeparateXYZ")
+    tree.links.new(_stored(tree, _PAINT), parts.inputs[0])
     along, above, depth = parts.outputs
     red = _mixed(tree, colours["skin"], colours["lips"], depth)
     shown = _mixed(tree, red, colours["brow"], _in_brow(tree, along, above), cover=paint.BROW_COVER)
     for shading in principled_of(skin):
         tree.links.new(shown, shading.inputs["Base Color"])
-        shading.inputs["Roughness"].default_value = ROUGHNESS
+
+
+def _paint_eyes(obj: Any, face: Face) -> None:
+    """Grey irises that look straight ahead on whatever eyeballs there are."""
+    between = float(np.linalg.norm(face.points["3.5"].position - face.points["3.6"].position))
+    places = np.full((len(face.vertices), 3), paint.BEHIND)
+    places[:, 2] = 0.0
+    for ball in face.eyeballs:
+        seen = paint.iris_places(face.vertices[ball.vertices], ball, face.axes[2], face.axes[1], between)
+        places[ball.vertices, :2] = seen
+    write_vectors(obj.data, _EYES, places)
+    for material in obj.data.materials:
+        if material.name.startswith(_EYE_MATERIALS):
+            tree = node_tree_of(material)
+            grey = _eye_grey(tree)
+            for shading in principled_of(material):
+                tree.links.new(grey, shading.inputs["Base Color"])
+
+
+def _eye_grey(tree: Any) -> Any:
+    """Socket of the colour of an eye, by how far from the middle of its iris a point lies."""
+    away, greys = tree.nodes.new("ShaderNodeVectorMath"), tree.nodes.new("ShaderNodeValToRGB")
+    away.operation = "LENGTH"
+    tree.links.new(_stored(tree, _EYES), away.inputs[0])
+    widest = paint.EYE_GREYS[-1][0]
+    tree.links.new(_sum(tree, "DIVIDE", away.outputs["Value"], widest), greys.inputs["Fac"])
+    stops = greys.color_ramp.elements
+    while len(stops) < len(paint.EYE_GREYS):
+        stops.new(1.0)
+    for stop, (radius, grey) in zip(stops, paint.EYE_GREYS, strict=True):
+        stop.position, stop.color = radius / widest, (grey, grey, grey, 1.0)
+    return greys.outputs["Color"]
+
+
+def _stored(tree: Any, name: str) -> Any:
+    """The socket of an attribute of the vertices."""
+    node = tree.nodes.new("ShaderNodeAttribute")
+    setattr(node, "attribute_name", name)  # noqa: B010 - of this kind of node alone
+    return node.outputs["Vector"]
 
 
 def _in_brow(tree: Any, along: Any, above: Any) -> Any:

@@ -8,10 +8,22 @@ from typing import Any
 
 import numpy as np
 import pytest
+from risorius.api import EyeballPlace
 from strangers.judges import JUDGES, ask
 from strangers.mini_xception import Network, convolve_each, crop, softmax, widened_square, windows
 from strangers.page import MEAN, Findings, page
-from strangers.paint import LIPS, brow_places, exposed, lip_depths, rounded
+from strangers.paint import (
+    BEHIND,
+    EYE_GREYS,
+    IRIS,
+    LIPS,
+    brow_line,
+    brow_places,
+    exposed,
+    iris_places,
+    lip_depths,
+    rounded,
+)
 from strangers.sittings import EMOTIONS, OWN, REST, Sitting, sittings
 from strangers.verdicts import NO_FACE, confusion, grows, mean_said, named, share_named, tallies
 
@@ -102,6 +114,31 @@ def points() -> dict[str, Any]:
 def test_brows_run_along_their_points_on_both_sides() -> None:
     vertices = np.array([[1.0, 0.0, 2.0], [-3.0, 0.0, 3.0], [5.0, 0.0, 2.6]])
     assert brow_places(vertices, points()) == pytest.approx(np.array([[0.0, 0.0], [0.5, 0.0], [1.0, 0.1]]))
+
+
+def test_a_brow_sets_out_straight_and_is_highest_at_its_middle() -> None:
+    line = brow_line(np.array([12.0, 38.0, 58.0]), np.array([23.0, 26.5, 16.0]))
+    rise = 3.5 / 26.0
+    assert line(np.array([12.0, 38.0, 58.0])) == pytest.approx([23.0, 26.5, 16.0])
+    assert line(np.array([11.0, 12.5])) == pytest.approx([23.0 - rise, 23.0 + 0.5 * rise], abs=0.05)
+    along = np.linspace(10.0, 60.0, 101)
+    assert line(along).max() == pytest.approx(26.5)
+
+
+def test_level_and_ever_rising_brows_are_drawn_too() -> None:
+    along = np.array([10.0, 20.0, 30.0])
+    assert brow_line(along, np.full(3, 5.0))(np.array([8.0, 15.0, 40.0])) == pytest.approx(np.full(3, 5.0))
+    assert brow_line(along, np.array([0.0, 2.0, 4.0]))(np.array([5.0, 25.0])) == pytest.approx([-1.0, 3.0])
+
+
+def test_irises_look_ahead_wherever_a_coarse_ball_has_its_pupil() -> None:
+    gaze = np.array([0.3, -0.9, -0.3]) / np.linalg.norm([0.3, -0.9, -0.3])
+    ball = EyeballPlace(np.arange(4), np.array([30.0, -80.0, 36.0]), gaze, 0.3, 0.1)
+    vertices = ball.centre + 12.0 * np.array([[0, -1, 0], [0.6, -0.8, 0], [0, -0.8, 0.6], [0, 1, 0]])
+    found = iris_places(vertices, ball, np.array([0.0, -1.0, 0.0]), np.array([0.0, 0.0, 1.0]), 64.0)
+    edge = 7.2 / (64.0 * IRIS)
+    assert found == pytest.approx(np.array([[0, 0], [-edge, 0], [0, edge], [BEHIND, BEHIND]]))
+    assert EYE_GREYS[-1][0] < edge  # there is white beside the iris
 
 
 def test_the_red_is_what_lies_within_the_outline() -> None:
