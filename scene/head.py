@@ -100,7 +100,7 @@ def _material(material: HeadMaterial) -> Material:
     found: Material | None = bpy.data.materials.get(name)
     if found is not None and found.library is None:
         return found
-    made = new_material(name, material.colour, roughness=material.roughness)
+    made = new_material(name, material.colour, roughness=material.roughness, metallic=material.metallic)
     if material.name == SKIN:
         draw_in(made)
     return made

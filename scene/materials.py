@@ -23,13 +23,15 @@ def principled_of(material: Material) -> list[Node]:
     return [node for node in node_tree_of(material).nodes if node.type == "BSDF_PRINCIPLED"]
 
 
-def new_material(name: str, colour: Colour, *, roughness: float | None = None) -> Material:
+def new_material(name: str, colour: Colour, *, roughness: float | None = None, metallic: float = 0.0) -> Material:
     """A new material of one colour (linear RGB), for Workbench and for the engines that use nodes."""
     material: Material = bpy.data.materials.new(name)
     material.diffuse_color = (*colour, 1.0)
     if roughness is not None:
         material.roughness = roughness
+    material.metallic = metallic
     for node in principled_of(material):
+        node.inputs["Metallic"].default_value = metallic
         node.inputs["Base Color"].default_value = (*colour, 1.0)
         if roughness is not None:
             node.inputs["Roughness"].default_value = roughness

@@ -1,48 +1,57 @@
-"""The eyebrows: low strips with a steep border that starts just below the skin, so no gap and no flicker shows."""
+"""The eyebrows: low strips of hair with a steep border that starts just below the skin, so no gap and no flicker shows."""
 
 from __future__ import annotations
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ...arrays import Floats, Ints
+from ...arrays import Bools, Floats, Ints
 from ...errors import ModelError
 from ..mesh.parts import Part
 from .figures import BrowFigures
 from .piece import Piece
 from .skin import HeadSkin
 
-SECTIONS = 41
-PROFILE = np.array([-1.0, -0.98, -0.7, -0.35, 0.0, 0.35, 0.7, 0.98, 1.0])  # places across, shares of the half width
-RIM = 0.3  # height of the border's upper edge, as a share of the lift
+TUFTS = 56  # of hair along a brow; each has a crest between two furrows
+PROFILE = np.array([-1.0, -0.97, -0.7, -0.35, 0.0, 0.35, 0.7, 0.97, 1.0])  # places across, shares of the half width
+RIM = 0.5  # height of the border's upper edge, as a share of the lift
 ROUNDING = 0.12  # share of the length over which each end is rounded
+UNEVEN = 0.6180339887  # turns from one tuft's length to the next: never the same twice
 
 
 def build_brow(figures: BrowFigures, skin: HeadSkin) -> Piece:
-    """Left brow on the finished skin.
+    """Left brow on the finished skin: tufts that lean outwards, each reaching farther than the furrows beside it.
 
     Raises
     ------
     ModelError : where the centre line leaves the front of the head.
     """
-    along = (0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, SECTIONS))).astype(np.float64)
-    line, half_width = _centre_line(figures, along)
-    tangent = np.gradient(line, along, axis=0)
-    tangent /= np.linalg.norm(tangent, axis=1)[:, None]
-    up = np.stack([-tangent[:, 1], tangent[:, 0]], axis=-1)
+    along = (0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 2 * TUFTS + 1))).astype(np.float64)
+    crest = np.arange(len(along)) % 2 == 1
     end = np.clip(np.minimum(along, 1.0 - along) / ROUNDING, 0.0, 1.0)
-    rounded = np.sqrt(1.0 - (1.0 - end) ** 2)
-    width = half_width * np.maximum(rounded, 0.05)
-    plan = line[:, None, :] + up[:, None, :] * (width[:, None] * PROFILE)[..., None]
+    rounded = np.maximum(np.sqrt(1.0 - (1.0 - end) ** 2), 0.05)
+    across = PROFILE * _reach(figures.fringe, crest)[:, np.where(PROFILE < 0.0, 0, 1)]
+    lean = figures.lean * (along * (1.0 - along))[:, None] * across
+    line, half_width, up = _centre_line(figures, along[:, None] + lean)
+    plan = line + up * (half_width * rounded[:, None] * across)[..., None]
     foot, normal = front_surface(skin, plan.reshape(-1, 2))
-    thick = figures.lift * np.clip(1.3 * width / np.max(width), 0.4, 1.0)
+    thick = figures.lift * np.clip(1.3 * rounded, 0.4, 1.0) * np.where(crest, 1.0, figures.furrow)
     lift = thick[:, None] * (RIM + (1.0 - RIM) * (1.0 - PROFILE**2))
     lift[:, [0, -1]] = -figures.sink
     lift[[0, -1]] = -figures.sink
     vertices = foot + normal * lift.reshape(-1, 1)
-    k = np.arange(SECTIONS * len(PROFILE)).reshape(SECTIONS, len(PROFILE))
+    k = np.arange(len(along) * len(PROFILE)).reshape(len(along), len(PROFILE))
     quads = np.stack([k[:-1, :-1], k[1:, :-1], k[1:, 1:], k[:-1, 1:]], axis=-1).reshape(-1, 4)
-    return Piece(vertices, quads.astype(np.int64), Part.OTHER, ("brow",) * len(quads))
+    tuft = np.repeat(np.arange(TUFTS), len(quads) // TUFTS)
+    light = (tuft * UNEVEN) % 1.0 < figures.light
+    return Piece(vertices, quads.astype(np.int64), Part.OTHER, tuple(np.where(light, "brow_light", "brow").tolist()))
+
+
+def _reach(fringe: float, crest: Bools) -> Floats:
+    """(N, 2) how far the lower and the upper border reach at each section, shares of the half width."""
+    tuft = np.arange(len(crest)) // 2
+    unlike = np.stack([(tuft * UNEVEN) % 1.0, (tuft * UNEVEN + 0.5) % 1.0], axis=1)
+    return np.asarray(1.0 - fringe * np.where(crest[:, None], 0.6 * unlike, 1.0), dtype=np.float64)
 
 
 def front_surface(skin: HeadSkin, places: Floats) -> tuple[Floats, Floats]:
@@ -96,9 +105,13 @@ def vertex_normals(vertices: Floats, quads: Ints) -> Floats:
     return np.asarray(normals / np.where(length > 0.0, length, 1.0), dtype=np.float64)
 
 
-def _centre_line(figures: BrowFigures, along: Floats) -> tuple[Floats, Floats]:
-    """Points (N, 2) and half widths (N,) at shares of the brow's length."""
+def _centre_line(figures: BrowFigures, along: Floats) -> tuple[Floats, Floats, Floats]:
+    """Points (..., 2), half widths (...) and upward unit normals (..., 2) at shares of the brow's length."""
     steps = np.linalg.norm(np.diff(figures.line, axis=0), axis=1)
     share = np.concatenate([[0.0], np.cumsum(steps)]) / np.sum(steps)
-    line = np.asarray(CubicSpline(share, figures.line)(along), dtype=np.float64)
-    return line, np.asarray(np.interp(along, share, figures.half_widths), dtype=np.float64)
+    spline = CubicSpline(share, figures.line)
+    inside = np.clip(along, 0.0, 1.0)
+    tangent = spline(inside, 1)
+    tangent /= np.linalg.norm(tangent, axis=-1)[..., None]
+    up = np.stack([-tangent[..., 1], tangent[..., 0]], axis=-1)
+    return np.asarray(spline(inside), dtype=np.float64), np.interp(inside, share, figures.half_widths), up

@@ -119,21 +119,30 @@ class BrowFigures:
     ----------
     line : (N, 2) its centre in x and z from the front. half_widths : (N,).
     lift, sink : height of its middle over the skin, depth of its border under it.
+    furrow : height between two tufts, as a share of it.
+    fringe : how much farther tufts reach than the furrows between them, at most, as a share of the half width.
+    lean : how far tufts lean outwards on their way up: 0 not at all, 1 lying flat.
+    light : share of the tufts that are of a lighter colour.
     """
 
     line: Floats
     half_widths: Floats
     lift: float
     sink: float
+    furrow: float
+    fringe: float
+    lean: float
+    light: float
 
 
 @dataclass(frozen=True)
 class MaterialFigures:
-    """A material: name, base colour (linear RGB, 0..1) and roughness (0..1)."""
+    """A material: name, base colour (linear RGB, 0..1), roughness (0..1) and how metallic it is (0..1)."""
 
     name: str
     colour: tuple[float, float, float]
     roughness: float
+    metallic: float
 
 
 @dataclass(frozen=True)
@@ -191,8 +200,7 @@ def read_figures(path: str | Path = DEFAULT_FIGURES) -> HeadFigures:
     """
     table = read_toml(path)
     table.choice("unit", ("mm",))
-    eyeball, brow = table.table("eyeball"), table.table("brow")
-    line = brow.numbers("line", None, 3) * MM
+    eyeball = table.table("eyeball")
     points, pairs = _feature_points(table.table("feature_points"))
     return HeadFigures(
         nodes=_nodes(table),
@@ -208,7 +216,7 @@ def read_figures(path: str | Path = DEFAULT_FIGURES) -> HeadFigures:
         teeth_upper=_teeth(table.table("teeth_upper")),
         teeth_lower=_teeth(table.table("teeth_lower")),
         tongue=_tongue(table.table("tongue")),
-        brow=BrowFigures(line[:, :2], line[:, 2], _length(brow, "lift"), _length(brow, "sink")),
+        brow=_brow(table.table("brow")),
         condyle=_vector(table.table("jaw"), "condyle"),
         neck_pivot=_vector(table.table("neck"), "pivot"),
         materials=tuple(_material(name, row) for name, row in table.tables("materials").items()),
@@ -270,7 +278,8 @@ def _material(name: str, row: TomlTable) -> MaterialFigures:
     red, green, blue = (float(value) for value in row.numbers("colour", 3))
     if not all(0.0 <= value <= 1.0 for value in (red, green, blue)):
         raise row.refuse("must be three numbers between 0 and 1", "colour")
-    return MaterialFigures(name, (red, green, blue), row.number("roughness", least=0.0, most=1.0))
+    metallic = row.number("metallic", least=0.0, most=1.0) if "metallic" in row else 0.0
+    return MaterialFigures(name, (red, green, blue), row.number("roughness", least=0.0, most=1.0), metallic)
 
 
 def _teeth(row: TomlTable) -> TeethFigures:
@@ -296,6 +305,21 @@ def _lid_margin(row: TomlTable) -> LidMarginFigures:
         _length(row, "shift"),
         _length(row, "canthus_shift"),
         _vector(row, "opening"),
+    )
+
+
+def _brow(row: TomlTable) -> BrowFigures:
+    """The left brow."""
+    line = row.numbers("line", None, 3) * MM
+    return BrowFigures(
+        line[:, :2],
+        line[:, 2],
+        _length(row, "lift"),
+        _length(row, "sink"),
+        row.number("furrow", above=0.0, most=1.0),
+        row.number("fringe", least=0.0, most=1.0),
+        row.number("lean", least=0.0, most=1.0),
+        row.number("light", least=0.0, most=1.0),
     )
 
 

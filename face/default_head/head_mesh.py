@@ -20,11 +20,13 @@ class Material:
     name : short name, such as "skin".
     colour : base colour, linear RGB, each 0..1.
     roughness : 0 (mirror) .. 1 (chalk).
+    metallic : 0 (skin) .. 1 (metal); highlights of a metal have its colour, so that a black one has none.
     """
 
     name: str
     colour: tuple[float, float, float]
     roughness: float
+    metallic: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

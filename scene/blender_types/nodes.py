@@ -84,6 +84,7 @@ class Material(Datablock, Protocol):
     use_nodes: bool
     diffuse_color: Numbers
     roughness: float
+    metallic: float
 
     @property
     def node_tree(self) -> NodeTree | None: ...
