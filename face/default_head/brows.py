@@ -1,4 +1,4 @@
-"""The eyebrows: low strips of hair with a steep border that starts just below the skin, so no gap and no flicker shows."""
+"""The eyebrows: low strips of hair; their steep border starts just below the skin, so no gap and no flicker shows."""
 
 from __future__ import annotations
 
