@@ -33,8 +33,12 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--aspect", type=_aspect, default=16.0 / 9.0, help="landmarks: WIDTH:HEIGHT of the image (default: 16:9)"
     )
-    about = "landmarks: time range in seconds with a neutral face (default: found automatically)"
-    parser.add_argument("--neutral", type=float, nargs=2, metavar=("FROM", "TO"), help=about)
+    about = "time range in seconds with a neutral face, from which all is counted (default: the tracker's zero; of "
+    about += "landmarks, the usual shape)"
+    neutral = parser.add_mutually_exclusive_group()
+    neutral.add_argument("--neutral", type=float, nargs=2, metavar=("FROM", "TO"), help=about)
+    about = "the same for one frame, by its number from 0"
+    neutral.add_argument("--neutral-frame", type=int, metavar="N", help=about)
 
 
 def read_as_told(
@@ -52,7 +56,7 @@ def read_as_told(
         face=arguments.face,
         flip=arguments.flip,
         aspect=arguments.aspect,
-        neutral=None if arguments.neutral is None else tuple(arguments.neutral),
+        neutral=arguments.neutral_frame if arguments.neutral is None else tuple(arguments.neutral),
         strict=strict,
         progress=when_slow(),
     )

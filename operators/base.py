@@ -109,11 +109,11 @@ class WorkOperator(RisoriusOperator, Generic[T]):
         except RisoriusError as refusal:
             self.report({"ERROR"}, str(refusal))
             return {"CANCELLED"}
-        self.start(context)
+        self.begin(context)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
-    def start(self, context: Context) -> None:
+    def begin(self, context: Context) -> None:
         """Begin the work and its timer, whose ticks `modal` hears. Blender ends with an operator that listens twice."""
         self._work = self.work(context)
         manager = context.window_manager

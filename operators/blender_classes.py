@@ -30,7 +30,9 @@ if TYPE_CHECKING:
             raise NotImplementedError
 
     class Operator:
-        """What a button, a key or a menu entry does."""
+        """What a button, a key or a menu entry does. `layout`: where it draws its fields."""
+
+        layout: UILayout
 
         def report(self, kind: set[str], message: str) -> None:
             """Tell the user."""

@@ -25,8 +25,8 @@ from .film.props import RISORIUS_PG_film
 from .followers.ops import RISORIUS_OT_add_followers, RISORIUS_OT_find_followers, RISORIUS_OT_remove_follower
 from .followers.panel import RISORIUS_PT_followers, RISORIUS_UL_followers
 from .followers.props import RISORIUS_PG_follower
-from .library.ops import RISORIUS_OT_import_fap, RISORIUS_OT_load_preset, RISORIUS_OT_save_preset
-from .library.panel import RISORIUS_FH_fap, RISORIUS_FH_preset, RISORIUS_MT_library
+from .library.ops import RISORIUS_OT_load_preset, RISORIUS_OT_save_preset
+from .library.panel import RISORIUS_FH_preset, RISORIUS_MT_library
 from .muscles.ops import RISORIUS_OT_reset_muscles
 from .muscles.panel import RISORIUS_PT_muscles, RISORIUS_UL_muscles
 from .muscles.props import RISORIUS_PG_by_hand, RISORIUS_PG_muscle_list, RISORIUS_PG_muscle_name, RISORIUS_PG_muscles
@@ -55,6 +55,9 @@ from .props import RISORIUS_PG_object, RISORIUS_PG_scene, RISORIUS_PG_window
 from .read.ops import RISORIUS_OT_clear_reading, RISORIUS_OT_read_animation, RISORIUS_OT_show_beliefs
 from .read.panel import RISORIUS_PT_read, RISORIUS_PT_read_faps, RISORIUS_PT_read_features
 from .read.props import RISORIUS_PG_read
+from .recording.handler import RISORIUS_FH_fap
+from .recording.ops import RISORIUS_OT_bake_recording, RISORIUS_OT_import_fap
+from .recording.props import RISORIUS_PG_recording
 from .shapes.ops import RISORIUS_OT_make_shapes
 from .shapes.props import RISORIUS_PG_shapes
 from .show.props import RISORIUS_PG_show
@@ -94,6 +97,7 @@ PROPERTIES = (
     RISORIUS_PG_variation,
     RISORIUS_PG_timeline,
     RISORIUS_PG_bake,
+    RISORIUS_PG_recording,
     RISORIUS_PG_film,
     RISORIUS_PG_shapes,
     RISORIUS_PG_read,
@@ -160,6 +164,7 @@ OPERATORS = (
     RISORIUS_OT_bake_six,
     RISORIUS_OT_save_preset,
     RISORIUS_OT_load_preset,
+    RISORIUS_OT_bake_recording,
     RISORIUS_OT_import_fap,
     RISORIUS_OT_render_film,
     RISORIUS_OT_export_gltf,

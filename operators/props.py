@@ -18,6 +18,7 @@ from .parts.props import RISORIUS_PG_parts
 from .points.props import RISORIUS_PG_points
 from .preview.props import RISORIUS_PG_preview
 from .read.props import RISORIUS_PG_read
+from .recording.props import RISORIUS_PG_recording
 from .shapes.props import RISORIUS_PG_shapes
 from .show.props import RISORIUS_PG_show
 from .timeline.props import RISORIUS_PG_timeline
@@ -34,6 +35,7 @@ class RISORIUS_PG_object(PropertyGroup):
     muscles: Annotated[RISORIUS_PG_muscles, PointerProperty(type=RISORIUS_PG_muscles)]
     tissue: Annotated[RISORIUS_PG_tissue, PointerProperty(type=RISORIUS_PG_tissue)]
     bake: Annotated[RISORIUS_PG_bake, PointerProperty(type=RISORIUS_PG_bake)]
+    recording: Annotated[RISORIUS_PG_recording, PointerProperty(type=RISORIUS_PG_recording)]
 
 
 class RISORIUS_PG_scene(PropertyGroup):

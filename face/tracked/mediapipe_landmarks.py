@@ -6,22 +6,20 @@ from collections.abc import Mapping
 from functools import lru_cache
 from types import MappingProxyType
 
-import numpy as np
-
-from ...errors import ParameterError
 from ...mpeg4.streams.capture import CAPTURE_PRESETS, Landmarks
 from ...tables import TomlTable, read_toml
 from .landmarks import LandmarkReading, read_points
+from .neutral import Neutral, neutral_rows
 
 TOPOLOGIES = CAPTURE_PRESETS.parent / "topologies"
 
 
-def read_landmarks(landmarks: Landmarks, *, neutral: tuple[float, float] | None = None) -> LandmarkReading:
+def read_landmarks(landmarks: Landmarks, *, neutral: Neutral | None = None) -> LandmarkReading:
     """FAPs of MediaPipe's landmarks.
 
     Parameters
     ----------
-    neutral : seconds from and to which the face is neutral; None: its usual shape is.
+    neutral : seconds from and to which the face is neutral, or a frame's number; None: its usual shape is.
 
     Raises
     ------
@@ -31,9 +29,7 @@ def read_landmarks(landmarks: Landmarks, *, neutral: tuple[float, float] | None 
     tracked = {name: index for name, index in points.items() if index < landmarks.positions.shape[1]}
     stretch = None
     if neutral is not None:
-        inside = np.flatnonzero((landmarks.times >= neutral[0]) & (landmarks.times <= neutral[1]))
-        if len(inside) == 0:
-            raise ParameterError("neutral", f"must be in 0..{landmarks.times[-1]:.2f} seconds", neutral)
+        inside = neutral_rows(neutral, landmarks.times, landmarks.rate)
         stretch = (int(inside[0]), int(inside[-1]))
     return read_points(
         landmarks.positions[:, list(tracked.values())],

@@ -13,6 +13,7 @@ from ...mpeg4.streams.capture import Samples, frames_of, read_json_document, rea
 from ...mpeg4.streams.capture.delimited import decoded
 from ...mpeg4.streams.capture.text_logs import is_text_log, read_text_log
 from ...mpeg4.streams.fap_file import looks_like_fap
+from ...mpeg4.streams.fap_json import FORMAT
 from ...mpeg4.streams.fba import begins_as_fba
 from .formats import READABLE, StreamFormat
 from .seeming import names_in, what_begins_so, what_it_seems
@@ -20,6 +21,8 @@ from .trackers import RECORDINGS, TABLES, Content, Told, Tracker
 
 #: Bytes at a file's beginning that tell FAP files, JSON and tables apart.
 HEAD = 4096
+#: What FAPs as JSON say at their beginning.
+STREAM_AS_JSON = f'"{FORMAT}"'
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,18 @@ def open_stream(path: str | Path, format: StreamFormat | None = None) -> Opened:
     problem = f"has none of the columns of {_listed(TABLES)}: {what_it_seems(table.columns)}"
     unknown = FormatError(file, problem, line=1)
     return _recognised(file, format, table, TABLES, unknown)
+
+
+def states_all(path: str | Path) -> bool:
+    """Whether a file begins as a stream of FAPs by the standard, or as JSON: those leave no rate, face or sign open.
+
+    Raises
+    ------
+    FormatError : it cannot be read.
+    """
+    head = read_bytes(path)[:HEAD]
+    text = (decoded(head) or head.decode("utf-8-sig", errors="replace"))[:HEAD]
+    return begins_as_fba(head) or looks_like_fap(text) or STREAM_AS_JSON in text
 
 
 def _json(file: Path, format: StreamFormat | None) -> Opened:

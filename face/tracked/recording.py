@@ -22,6 +22,7 @@ from ...mpeg4.streams.fap_json import stream_of_document
 from ...progress import Report
 from .flipping import checked_flips, flipped
 from .formats import WRITABLE, StreamFormat
+from .neutral import Neutral, counted_from
 from .opening import Opened, open_stream
 from .trackers import ASPECT, Told
 
@@ -78,7 +79,7 @@ def read_recording(
     face: int | None = None,
     flip: Sequence[str] = (),
     aspect: float = ASPECT,
-    neutral: tuple[float, float] | None = None,
+    neutral: Neutral | None = None,
     strict: bool = False,
     progress: Report | None = None,
 ) -> Recording:
@@ -97,7 +98,9 @@ def read_recording(
     flip : turns of a tracker's file that are the other way round: "yaw", "pitch", "roll" of the head, "eye_yaw",
         "eye_pitch".
     aspect : landmarks only: the picture's width over its height.
-    neutral : landmarks only: seconds from and to which the face is neutral; None: its usual shape is.
+    neutral : of a tracker's file, counted from its first row: seconds from and to which the face is neutral, or the
+        number of one frame at the file's own rate. What shows there is taken off every frame; landmarks are measured
+        from it. None: the tracker's zero; of landmarks, the face's usual shape.
     strict : .fba only: refuse any damage.
     progress : .fba only: called as it is decoded.
 
@@ -117,7 +120,7 @@ def read_recording(
     flips = checked_flips(flip)
     opened = open_stream(path, None if format is None else StreamFormat.of(format))
     if opened.samples is None:
-        _refuse_options({"rate": rate, "start": start, "face": face, "flip": flips or None})
+        _refuse_options({"rate": rate, "start": start, "face": face, "flip": flips or None, "neutral": neutral})
     if opened.format is StreamFormat.FBA:
         decoded = decode_fba(read_bytes(path), path=path, strict=strict, progress=progress)
         return Recording(_at(decoded.stream, fps), StreamFormat.FBA, damage=decoded.damage)
@@ -126,6 +129,8 @@ def read_recording(
     if opened.samples is None:
         return Recording(_at(stream_of_document(path, opened.document), fps), StreamFormat.JSON)
     samples = opened.samples(Told(rate, start, face, aspect, neutral))
+    if neutral is not None and opened.format is not StreamFormat.LANDMARKS:
+        samples = counted_from(samples, neutral)
     frames, per_second = samples.evenly(fps)
     frames = flipped(frames, flips)
     stream = FapStream(frames=frames, fps=per_second, name=_name(opened), assumed=samples.assumed)
@@ -142,7 +147,7 @@ def read_stream(
     face: int | None = None,
     flip: Sequence[str] = (),
     aspect: float = ASPECT,
-    neutral: tuple[float, float] | None = None,
+    neutral: Neutral | None = None,
 ) -> FapStream:
     """The stream of a file of any format; parameters and errors as `read_recording`.
 
@@ -167,7 +172,7 @@ def read_capture(
     face: int | None = None,
     flip: Sequence[str] = (),
     aspect: float = ASPECT,
-    neutral: tuple[float, float] | None = None,
+    neutral: Neutral | None = None,
 ) -> FapStream:
     """The stream of a tracker's file: the older name of `read_stream`, whose `format` is called `kind` here.
 

@@ -19,6 +19,7 @@ from ...mpeg4.streams.capture.mediapipe_scores import read_scores
 from ...mpeg4.streams.capture.openface import PY_FEAT, holds_openface, holds_py_feat, read_openface
 from .formats import StreamFormat
 from .mediapipe_landmarks import read_landmarks
+from .neutral import Neutral
 
 #: Width over height of an image, if nobody says it.
 ASPECT = 16.0 / 9.0
@@ -34,7 +35,7 @@ class Told:
     start: float | str | None = None
     face: int | None = None
     aspect: float = ASPECT
-    neutral: tuple[float, float] | None = None
+    neutral: Neutral | None = None
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,15 @@ from collections.abc import Sequence
 from ...scene.bake import shape_keys
 from ...scene.rig.kept import Followed, kept_clips
 from ..active import active_object
-from ..blender_types import Context, UILayout
+from ..blender_types import Context, Object, UILayout
 from ..sidebar import LINE
 from .ops import RISORIUS_OT_bake_again, RISORIUS_OT_clear
 from .settings import stale_clips, stale_rig_clips
 
 #: Letters that an icon, or a step to the right, takes from a line.
 STEP = 4
+#: So much of what was assumed is shown; the report has all.
+SAID = 6
 
 
 def draw_baked(layout: UILayout, context: Context) -> None:
@@ -31,6 +33,7 @@ def draw_baked(layout: UILayout, context: Context) -> None:
         box = layout.box().column(align=True)
         for clip, keys in clips.items():
             _draw_clip(box, clip, f"{len(keys)} key{'s' * (len(keys) != 1)}", stale=clip in stale, on_rig=False)
+            _draw_read(box, obj, clip)
     if on_rig:
         box, now = layout.box().column(align=True), float(scene.frame_current)
         box.label(text="On your own controls")
@@ -40,6 +43,7 @@ def draw_baked(layout: UILayout, context: Context) -> None:
             _draw_clip(box, clip, state, stale=clip in stale_on_rig, on_rig=True)
             if followed is not None and (len(on_rig) == 1 or first <= now <= last):
                 _draw_details(box, followed)
+            _draw_read(box, obj, clip)
     if stale or stale_on_rig:
         layout.operator(RISORIUS_OT_bake_again.bl_idname, icon="FILE_REFRESH")
     layout.operator(RISORIUS_OT_clear.bl_idname, text="Clear All Bakes", icon="TRASH").clip = ""
@@ -52,6 +56,18 @@ def _draw_clip(box: UILayout, clip: str, state: str, *, stale: bool, on_rig: boo
     row.label(text="out of date" if stale else state)
     button = row.operator(RISORIUS_OT_clear.bl_idname, text="", icon="X")
     button.clip, button.on_rig = clip, on_rig
+
+
+def _draw_read(box: UILayout, obj: Object, clip: str) -> None:
+    """What was assumed when the recording behind a clip was read, and what was not read."""
+    recording = obj.risorius.recording
+    if recording.clip != clip or not recording.said:
+        return
+    column = box.column(align=True)
+    column.active = False
+    for said in recording.said.splitlines()[:SAID]:
+        for index, line in enumerate(textwrap.wrap(said, LINE - STEP)[:2]):
+            column.label(text=line, icon="BLANK1" if index else "INFO")
 
 
 def _draw_details(box: UILayout, followed: Followed) -> None:

@@ -14,6 +14,9 @@ from .destination import bake_reason, destination_of, may_have_controls, user_ke
 from .ops import RISORIUS_OT_bake_expression, RISORIUS_OT_bake_motion, RISORIUS_OT_bake_strips
 from .settings import clip_name
 
+#: The operator that imports recordings, by name: it knows the bakes, and not the other way round.
+IMPORT = "risorius.import_fap"
+
 
 class RISORIUS_PT_bake(MeshSidebar, Panel):
     """Timing, the bakes, and what has been baked."""
@@ -44,6 +47,7 @@ class RISORIUS_PT_bake(MeshSidebar, Panel):
         else:
             column.operator(RISORIUS_OT_bake_expression.bl_idname, icon="SHAPEKEY_DATA")
             column.operator(RISORIUS_OT_bake_motion.bl_idname, icon="PHYSICS")
+        layout.operator(IMPORT, text="Import Recording...", icon="IMPORT").filepath = ""
         draw_baked(layout, context)
 
     def _draw_destination(self, layout: UILayout, context: Context) -> None:

@@ -1,4 +1,4 @@
-"""Operators that save and load presets, and import .fap files; by menu, or by dropping a file on the viewport."""
+"""Operators that save and load presets; by menu, or by dropping a file on the viewport."""
 
 from __future__ import annotations
 
@@ -8,18 +8,11 @@ from pathlib import Path
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
-from ...errors import FormatError, SceneError
+from ...errors import SceneError
 from ...mpeg4.preset_file import PresetKind, read_preset, write_preset
-from ...progress import Work
-from ...scene.bake.baking import BakeResult
-from ...scene.bake.motion import FapMotion, at_rate
-from ...scene.bake.timing import scene_fps
 from ...scene.blender_types import Event
-from ...scene.points.found import Finding
 from ..active import active_object, face_reason
 from ..annotated import Annotated
-from ..bake.ops import BakeOperator
-from ..bake.work import stream_work
 from ..base import RisoriusOperator
 from ..blender_classes import ImportHelper, Operator
 from ..blender_types import Context
@@ -112,60 +105,3 @@ class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, Operator):
         """Load it."""
         path = Path(bpy.path.abspath(self.filepath))
         return f"{load(read_preset(path), active_object(context), context)} from {path.name}"
-
-
-class RISORIUS_OT_import_fap(BakeOperator, ImportHelper, Operator):
-    """Bake a stream of MPEG-4 facial animation parameters (.fap) on the face, starting at the current frame"""
-
-    bl_idname = "risorius.import_fap"
-    bl_label = "Import FAP"
-    bl_options = {"REGISTER", "UNDO"}
-    title = "Baking the FAP file"
-
-    filename_ext = ".fap"
-    filter_glob: Annotated[
-        str, StringProperty(default="*.fap;*.fba;*.json;*.jsonl;*.csv;*.tsv;*.txt;*.log", options={"HIDDEN"})
-    ]
-    filepath: Annotated[
-        str, StringProperty(name="File", description="FAP file to bake", subtype="FILE_PATH", options={"SKIP_SAVE"})
-    ]
-
-    _was_asked_for = False
-    _assumed: tuple[str, ...] = ()
-
-    def invoke(self, context: Context, event: Event) -> set[str]:
-        """Ask for the file, unless one was dropped."""
-        if self.filepath:
-            return BakeOperator.invoke(self, context, event)
-        self._was_asked_for = True
-        return ImportHelper.invoke(self, context, event)
-
-    def run(self, context: Context) -> str:
-        """Run straight through; after the file browser, between events like any bake."""
-        if self._was_asked_for and not bpy.app.background:
-            bpy.ops.risorius.import_fap("INVOKE_DEFAULT", filepath=self.filepath)
-            return f"Baking {Path(self.filepath).name}"
-        return super().run(context)
-
-    def show_apex(self, context: Context) -> None:
-        """Stay at the frame: it is where the motion begins."""
-
-    def finish(self, context: Context, result: BakeResult | Finding) -> str:
-        """Say what the file left open, and what was written."""
-        for assumed in self._assumed:
-            self.report({"WARNING"}, f"{Path(self.filepath).name}: {assumed}")
-        return super().finish(context, result)
-
-    def baking(self, context: Context) -> Work[BakeResult]:
-        """Simulate the stream at the scene's rate."""
-        from ... import api
-
-        obj, path = active_object(context), Path(bpy.path.abspath(self.filepath))
-        recording = api.read_recording(path)
-        played, said = recording.played()
-        self._assumed = recording.assumed + said
-        frames = at_rate(played, recording.stream.fps, scene_fps(context.scene))
-        if len(frames) == 0:
-            raise FormatError(path, "contains no frames")
-        start = float(context.scene.frame_current)
-        return stream_work(obj, context.scene, FapMotion(frames), clip=path.stem, start=start)

@@ -8,8 +8,9 @@ from ...mpeg4.preset_file import PresetKind
 from ..active import face_reason
 from ..blender_classes import FileHandler, Menu
 from ..blender_types import Context
+from ..recording.ops import RISORIUS_OT_import_fap
 from .exchange import BUNDLED, preset_files
-from .ops import RISORIUS_OT_import_fap, RISORIUS_OT_load_preset, RISORIUS_OT_save_preset
+from .ops import RISORIUS_OT_load_preset, RISORIUS_OT_save_preset
 
 
 class RISORIUS_MT_library(Menu):
@@ -32,7 +33,7 @@ class RISORIUS_MT_library(Menu):
         layout.separator()
         # Left over from a preset above, the path would be loaded instead of asked for.
         layout.operator(RISORIUS_OT_load_preset.bl_idname, text="Load from File...", icon="FILE_FOLDER").filepath = ""
-        layout.operator(RISORIUS_OT_import_fap.bl_idname, text="Import FAP...", icon="IMPORT").filepath = ""
+        layout.operator(RISORIUS_OT_import_fap.bl_idname, text="Import Recording...", icon="IMPORT").filepath = ""
 
 
 class RISORIUS_FH_preset(FileHandler):
@@ -46,23 +47,4 @@ class RISORIUS_FH_preset(FileHandler):
     @classmethod
     def poll_drop(cls, context: Context) -> bool:
         """On a viewport, with a face to load it on."""
-        return dropped_on_face(context)
-
-
-class RISORIUS_FH_fap(FileHandler):
-    """Streams of FAPs dropped on the viewport"""
-
-    bl_idname = "RISORIUS_FH_fap"
-    bl_label = "MPEG-4 FAP"
-    bl_import_operator = RISORIUS_OT_import_fap.bl_idname
-    bl_file_extensions = ".fap"
-
-    @classmethod
-    def poll_drop(cls, context: Context) -> bool:
-        """On a viewport, with a face to bake it on."""
-        return dropped_on_face(context)
-
-
-def dropped_on_face(context: Context) -> bool:
-    """Whether a file dropped here has a face to go to."""
-    return context.area is not None and context.area.type == "VIEW_3D" and face_reason(context.object) is None
+        return context.area is not None and context.area.type == "VIEW_3D" and face_reason(context.object) is None

@@ -146,7 +146,7 @@ class RISORIUS_OT_click_points(WorkOperator[Finding], Operator):
             self._ask(context, clicks)
             return {"RUNNING_MODAL"}
         self._let_go()
-        self.start(context)
+        self.begin(context)
         return {"RUNNING_MODAL"}
 
     def _ask(self, context: Context, clicks: Clicks) -> None:

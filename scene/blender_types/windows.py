@@ -49,6 +49,13 @@ class Overlay(Protocol):
     show_overlays: bool
 
 
+class FileParams(Protocol):
+    """What a file browser shows and has chosen."""
+
+    directory: bytes
+    filename: str
+
+
 class Space(Protocol):
     """An editor. From `overlay` on: members of some kinds only."""
 
@@ -60,6 +67,7 @@ class Space(Protocol):
     show_gizmo_navigate: bool
     mode: str
     image: Image
+    params: FileParams | None
 
 
 class Spaces(Items[Space], Protocol):

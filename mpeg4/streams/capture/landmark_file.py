@@ -18,10 +18,11 @@ from ....arrays import Floats, Ints
 from ....errors import FormatError, ParameterError
 from .faces import one_face
 from .json_file import JsonFrame, chosen_face, json_times
+from .rates import usual_rate
 from .row_names import FACE_NAMES, NUMBER_NAMES, first_named, time_named
 from .stamps import table_times
 from .table_file import TableFile
-from .times import Times
+from .times import USUAL_RATE, Times
 
 #: Landmarks beyond this are in pixels; within it they are shares of the picture (a face may stick out a little).
 NORMALISED = 4.0
@@ -46,6 +47,13 @@ class Landmarks:
     times: Floats
     positions: Floats
     rows: Times | None = None
+
+    @property
+    def rate(self) -> float:
+        """Frames per second: as the file says, else the usual rate of the times."""
+        if self.rows is not None:
+            return self.rows.rate
+        return usual_rate(np.diff(self.times)) if len(self.times) > 1 else USUAL_RATE
 
 
 def landmarks_from_json(

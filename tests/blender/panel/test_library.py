@@ -14,8 +14,9 @@ from risorius.face.contractible import contractibles
 from risorius.operators.emotion.performance import performance_of
 from risorius.operators.library import exchange
 from risorius.operators.library.exchange import BUNDLED, expression_of, preset_files, timeline_of
-from risorius.operators.library.panel import RISORIUS_FH_fap, RISORIUS_FH_preset
+from risorius.operators.library.panel import RISORIUS_FH_preset
 from risorius.operators.muscles.props import by_hand_of, set_by_hand
+from risorius.operators.recording.handler import RISORIUS_FH_fap
 from risorius.scene.bake.motion import at_rate
 from risorius.scene.bake.shape_keys import read_own
 from risorius.scene.head import add_default_head
@@ -145,7 +146,7 @@ def test_frames_keep_their_seconds_at_another_rate() -> None:
 def test_files_may_be_dropped_on_a_viewport_with_a_face(head: Any) -> None:
     viewport, timeline = SimpleNamespace(type="VIEW_3D"), SimpleNamespace(type="DOPESHEET_EDITOR")
     cube = bpy.data.objects.new("cube", bpy.data.meshes.new("cube"))
-    for handler, extension in ((RISORIUS_FH_preset, ".toml"), (RISORIUS_FH_fap, ".fap")):
+    for handler, extension in ((RISORIUS_FH_preset, ".toml"), (RISORIUS_FH_fap, ";".join(api.READABLE_STREAMS))):
         assert handler.bl_file_extensions == extension
         assert handler.bl_import_operator.partition(".")[2] in dir(bpy.ops.risorius)
         assert handler.poll_drop(SimpleNamespace(area=viewport, object=head))

@@ -149,3 +149,18 @@ def test_wrong_requests_are_refused(stream: FapStream, tmp_path: Path) -> None:
     (tmp_path / "a.json").write_text(json.dumps(FRAMES))
     with pytest.raises(FormatError, match=r"a\.json: is not a file of the format openface: leave the format out"):
         api.read_stream(tmp_path / "a.json", "openface")
+
+
+@pytest.mark.parametrize("neutral", [2, (0.07, 0.09)])
+def test_scores_are_counted_from_a_neutral_face(neutral: int | tuple[float, float], tmp_path: Path) -> None:
+    path = tmp_path / "take.csv"
+    path.write_text("timestamp,jawOpen,HeadYaw\n0.00,0.5,0.1\n0.04,,\n0.08,0.2,0.3\n0.12,0.6,0.4\n")
+    plain, counted = (api.read_stream(path, neutral=told).frames for told in (None, neutral))
+    np.testing.assert_allclose(counted, plain - plain[2])
+    assert counted[2, 2] == 0.0
+    for nobody in (1, 9, (5.0, 6.0)):
+        with pytest.raises(ParameterError, match=r"neutral must (be|contain)"):
+            api.read_stream(path, neutral=nobody)
+    api.write_stream(tmp_path / "a.fap", api.read_stream(path))
+    with pytest.raises(ParameterError, match="neutral must be left out"):
+        api.read_stream(tmp_path / "a.fap", neutral=neutral)
