@@ -161,7 +161,7 @@ def test_a_refused_file_changes_nothing(head: Any, tmp_path: Path) -> None:
         with pytest.raises(RuntimeError, match=problem):
             bpy.ops.risorius.import_fap(filepath=str(path))
     path.unlink()
-    with pytest.raises(RuntimeError, match="take.csv"):
+    with pytest.raises(RuntimeError, match=r"take\.csv"):
         bpy.ops.risorius.import_fap(filepath=str(path))
     assert file_state.differences(before, file_state.file_state()) == []
 
