@@ -20,6 +20,7 @@ class Mechanism(StrEnum):
     FIRMNESS = "firmness"  # scalp, nose, lid plates, chin pad and neck are held more firmly than the rest
     SLIDING = "sliding"  # skin slides over the bone rather than lifts off it
     BULGE = "bulge"  # squeezed tissue bulges
+    HOOD = "hood"  # skin between brow and lid goes with the brow and folds over the lid
     FOLDS = "folds"  # squeezed skin folds along known lines
     # Additions: how muscles pull
     SEPARATION = "separation"  # lips and lids are told apart by distance along the skin, not through the air

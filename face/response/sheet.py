@@ -1,8 +1,8 @@
 """The elastic response of one face's skin: forces in, displacements out, all linear and prefactored.
 
 A displacement field v of the sheet solves K v = f with one scalar sparse matrix K for all three components
-(`physics.elastic`). What the face shows is W v: skin slides over the skull rather than lifts off it, and bulges where
-it is squeezed. Every muscle field and every correction goes through W.
+(`physics.elastic`). What the face shows is W v: skin slides over the skull rather than lifts off it, bulges where it is
+squeezed, and goes with the brow where it hangs on it. Every muscle field and every correction goes through W.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from ...arrays import Floats
 from ...physics.elastic import Factor, elastic_matrix
 from ...physics.mesh import Sparse
 from ..mechanisms.bulge import Bulge
+from ..mechanisms.hood import Hood
 from ..mechanisms.sliding import sliding
 from ..skin.outer import OuterSkin
 from . import regions
@@ -54,6 +55,11 @@ class ElasticSheet:
         """How skin bulges where it is squeezed."""
         return Bulge(self.skin)
 
+    @cached_property
+    def hood(self) -> Hood:
+        """How the skin between brow and lid goes with the brow."""
+        return Hood(self.skin)
+
     def show(self, fields: Floats) -> Floats:
         """W v: sheet fields (n, 3) or (k, n, 3) as what the face shows, same shape, metres."""
         if not fields.size:
@@ -61,11 +67,12 @@ class ElasticSheet:
         flat = fields.reshape(-1, self.skin.vertex_count, 3)
         normals = self.skin.normals
         slid = flat - (self._slide * normals) * (flat * normals).sum(axis=2, keepdims=True)
-        return np.asarray((slid + self.bulge.lift(slid)).reshape(fields.shape))
+        return np.asarray(self.hood.carry(slid + self.bulge.lift(slid)).reshape(fields.shape))
 
     def show_transposed(self, loads: Floats) -> Floats:
         """W' f for loads (k, n, 3): the sheet forces that stand for forces on what the face shows."""
         normals = self.skin.normals
+        loads = self.hood.carry_transposed(loads)
         back = loads + self.bulge.lift_transposed(loads)
         return np.asarray(back - (self._slide * normals) * (back * normals).sum(axis=2, keepdims=True))
 

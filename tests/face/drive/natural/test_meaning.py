@@ -121,3 +121,12 @@ def test_a_wrong_row_is_refused(tmp_path: Path, old: str, new: str, said: str) -
     (tmp_path / "prototypes.toml").write_text(text.replace(old, new, 1), encoding="utf-8")
     with pytest.raises(FormatError, match=said):
         load_prototypes(tmp_path / "prototypes.toml")
+
+
+def test_anger_draws_the_brows_heads_down_and_together_and_narrows_the_eyes() -> None:
+    for activation in (3.0, None, 7.0):
+        asked = meant("anger", activation)
+        assert asked[31 - 1] < asked[33 - 1] < asked[35 - 1] < 0.0  # a V: the head of the brow lower than its middle
+        assert asked[37 - 1] > 25.0
+        assert asked[19 - 1] > 0.0  # raised upper lids read as fear
+        assert asked[21 - 1] > 100.0

@@ -41,6 +41,13 @@ def heap_of_a_squeeze(face: Face) -> float:
     return float((moved.skin * sheet.normals).sum(axis=1)[spot].mean())
 
 
+def shelf_over_the_eye(face: Face) -> float:
+    """Lowered brows: how far the skin half way between lid and brow comes down, over the brow's own way."""
+    moved = posed(face, {31: -80.0, 32: -80.0, 33: -130.0, 34: -130.0})
+    lid, brow = (face.anatomy.skin.points[name] for name in ("3.1", "4.3"))
+    return float(moved.at((lid + brow) / 2.0)[1] / moved.at("4.3")[1])
+
+
 def gain_lost_when_stretched(face: Face) -> float:
     """Corners drawn up and back: motion per contraction at a tenth of the amplitude over that at all of it."""
     names = [name for name in face.muscles if name.startswith(("zygomaticus", "risorius"))]
@@ -67,6 +74,7 @@ CLAIMS = (
     Claim(Mechanism.FIRMNESS, scalp_at_rest, 16.0),
     Claim(Mechanism.SLIDING, along_the_bone, 2.0),
     Claim(Mechanism.BULGE, heap_of_a_squeeze, 0.8),
+    Claim(Mechanism.HOOD, shelf_over_the_eye, 0.9),
     Claim(Mechanism.BIPHASIC, gain_lost_when_stretched, 1.05),
     Claim(Mechanism.FOLDS, fold_beside_the_nose, 0.85, "ict"),
 )
