@@ -5,8 +5,8 @@ hangs on the brow, with the orbital part of the orbicularis oculi and its skin. 
 as one, down to the crease, where the skin folds over a lid whose plate stays: lowered brows lie over the eye like a
 shelf. An elastic sheet that is tied evenly to bone spreads that way over the whole hood instead and folds nowhere.
 
-Here the hood shows a share of the motion of the brow above it, the same wherever the pull comes from: u = v + m (s B v -
-v), where B reads the brow's line, s is the share and m where it holds.
+Here the hood shows a share of the motion of the brow above it, wherever the pull comes from: u = v + m (s B v - v),
+where B reads the brow's line, s is the share and m where it holds.
 
 Source: scans of lowered and of raised inner brows, which agree (docs/muscles.md).
 """

@@ -20,7 +20,8 @@ def under_the_brow(face: Face, moved: np.ndarray) -> np.ndarray:
     upper, lower = skin.lid_distances("l")
     inner, outer = (skin.points[name][0] for name in ("3.11", "3.7"))
     beside = (skin.positions[:, 0] > inner) & (skin.positions[:, 0] < outer)
-    return np.asarray(away[beside & (upper < lower) & (upper > 6.0 * MM) & (skin.positions[:, 1] < skin.points["4.1"][1])])
+    below = skin.positions[:, 1] < skin.points["4.1"][1]
+    return np.asarray(away[beside & below & (upper < lower) & (upper > 6.0 * MM)])
 
 
 @pytest.mark.slow
