@@ -105,7 +105,7 @@ def _of_one_eye(skin: OuterSkin, side: str) -> Sparse:
         * (skin.positions[:, 0] * brow.outwards > 0.0)
     )
     share = smoothstep((way - HOOD.carried[0]) / HOOD.carried[1])
-    change: Sparse = sparse.diags_array(holds * share) @ brow.reader - sparse.diags_array(holds)
+    change: Sparse = (sparse.diags_array(holds * share) @ brow.reader - sparse.diags_array(holds)).tocsr()
     return change
 
 
