@@ -322,7 +322,7 @@ class Face:
         *,
         drive: str | Drive = Drive.NATURAL,
         emotions: ArrayLike | None = None,
-        integrator: str = "implicit",
+        integrator: str = "reduced",
         substeps: int = 2,
         tissue: str | Tissue = "default",
     ) -> Iterator[Floats]:
@@ -348,7 +348,7 @@ class Face:
         drive: str | Drive = Drive.NATURAL,
         contractions: Sequence[Mapping[str, float]] | None = None,
         liveliness: Liveliness | None = None,
-        integrator: str = "implicit",
+        integrator: str = "reduced",
         substeps: int = 2,
         tissue: str | Tissue = "default",
     ) -> Iterator[Floats]:
@@ -375,7 +375,7 @@ class Face:
         *,
         drive: str | Drive = Drive.NATURAL,
         emotions: ArrayLike | None = None,
-        integrator: str = "implicit",
+        integrator: str = "reduced",
         substeps: int = 2,
         tissue: str | Tissue = "default",
     ) -> Clip:
@@ -386,7 +386,7 @@ class Face:
         frames : (T, 68) FAP units; NaN = silent.
         fps : frames per second.
         emotions : (T, 6) strength of each archetype over time (`emotion_weights`), where the words are known.
-        integrator : "implicit" (default) or "rk2", the paper's.
+        integrator : "reduced" (default); for reference "implicit", or "rk2", the paper's.
         substeps : steps per frame, after each of which contact is seen to; rk2 cuts them as it needs.
         tissue : "default", "young", "aged" or "stiff" (presets/tissue.toml), or figures of its own.
 

@@ -17,13 +17,13 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ParameterError
 from ..physics.implicit import ImplicitSolver
-from ..physics.oscillator import Oscillator
 from ..physics.rk2 import Rk2Solver
 from ..physics.skin import State
-from ..physics.tissue import Tissue, as_tissue
+from ..physics.tissue import Tissue
 from .anatomy import Anatomy
 from .bodies.contact import Contact, Slack
 from .bodies.surroundings import Look, Surroundings
+from .jaw_follower import JawFollower, jaw_motion, resting
 from .mechanisms.jaw import JawMotion
 from .mechanisms.lid_movers import LidMove
 from .posture import Posture
@@ -31,8 +31,8 @@ from .response.actuators import Amounts
 from .response.spring_skin import spring_skin
 
 
-class Integrator(StrEnum):
-    """How the equation of motion is integrated: backward Euler, or the paper's second-order Runge-Kutta."""
+class Stepping(StrEnum):
+    """How every node is taken on: by backward Euler, or by the paper's second-order Runge-Kutta."""
 
     IMPLICIT = "implicit"
     RK2 = "rk2"
@@ -97,21 +97,21 @@ class MovingFace:
     @property
     def jaw_motion(self) -> JawMotion:
         """Where the mandible is."""
-        return _jaw_motion(self.jaw[0])
+        return jaw_motion(self.jaw[0])
 
 
 class FaceMotion:
     """Takes one face from setpoint to setpoint."""
 
     def __init__(
-        self, anatomy: Anatomy, duration: float, *, integrator: str, substeps: int, tissue: str | Tissue
+        self, anatomy: Anatomy, duration: float, *, stepping: Stepping, substeps: int, tissue: str | Tissue
     ) -> None:
         """Prepare for steps of one length.
 
         Parameters
         ----------
         anatomy : of the face. duration : of a step from setpoint to setpoint, seconds.
-        integrator : a name of `Integrator`. substeps : in each step, 1 or more; contact is seen to after each.
+        stepping : how nodes are taken on. substeps : in each step, 1 or more; contact is seen to after each.
         tissue : a name in presets/tissue.toml, or figures of its own.
 
         Raises
@@ -121,20 +121,18 @@ class FaceMotion:
         """
         if substeps < 1:
             raise ParameterError("substeps", "must be 1 or more", substeps)
-        if integrator not in list(Integrator):
-            raise ParameterError("integrator", f"must be one of {', '.join(Integrator)}", integrator)
         self.anatomy = anatomy
         self.skin = spring_skin(anatomy.skin, tissue)
         self.substeps = substeps
         self.length = duration / substeps
-        solver = ImplicitSolver if integrator == Integrator.IMPLICIT else Rk2Solver
+        solver = ImplicitSolver if stepping is Stepping.IMPLICIT else Rk2Solver
         self.solver: ImplicitSolver | Rk2Solver = solver(self.skin, self.length)
-        self._jaw_step = _jaw_oscillator(tissue).propagator(self.length)
+        self.jaw = JawFollower(tissue, self.length)
 
     def at_rest(self, setpoint: Setpoint) -> MovingFace:
         """The face at rest where a setpoint has it."""
         positions = self._anchors(setpoint, setpoint.jaw) + setpoint.elastic
-        return MovingFace(State.at_rest(positions), np.stack([setpoint.jaw, np.zeros(3)]))
+        return MovingFace(State.at_rest(positions), resting(setpoint.jaw))
 
     def follow(self, face: MovingFace, before: Setpoint, after: Setpoint) -> MovingFace:
         """The face one step on, its setpoint changing evenly from one to the other.
@@ -154,36 +152,14 @@ class FaceMotion:
 
     def _substep(self, face: MovingFace, start: Setpoint, midway: Setpoint, end: Setpoint) -> MovingFace:
         """The face one substep on; forces are taken midway."""
-        jaw = self._swung(face.jaw, start.jaw, end.jaw)
+        jaw = self.jaw.swung(face.jaw, start.jaw, end.jaw)
         anchors = self._anchors(midway, 0.5 * (face.jaw[0] + jaw[0]))
         load = -self.skin.force(anchors + midway.elastic, anchors)
         skin = self.solver.step(face.skin, load, anchors)
-        at = Surroundings(_jaw_motion(jaw[0]), end.looks)
+        at = Surroundings(jaw_motion(jaw[0]), end.looks)
         return MovingFace(self.anatomy.contact.hold(skin, end.lip_share, at, end.slack, self.length), jaw)
 
     def _anchors(self, setpoint: Setpoint, jaw: Floats) -> Floats:
         """(n, 3) where a jaw (3,), lids and contact would carry skin that no muscle pulls."""
-        carried = self.anatomy.actuators.carried(Amounts(np.zeros(0), setpoint.lids, _jaw_motion(jaw)))
+        carried = self.anatomy.actuators.carried(Amounts(np.zeros(0), setpoint.lids, jaw_motion(jaw)))
         return np.asarray(self.skin.rest + carried + setpoint.pushed)
-
-    def _swung(self, jaw: Floats, start: Floats, end: Floats) -> Floats:
-        """The mandible (2, 3) one substep on, while what it follows goes from start (3,) to end (3,).
-
-        Teeth stop it: it does not close further than it rests, or than is asked.
-        """
-        after: Floats = self._jaw_step @ np.stack([*jaw, start, (end - start) / self.length])
-        least = min(0.0, float(end[0]))
-        if after[0, 0] < least:
-            after[:, 0] = least, max(float(after[1, 0]), 0.0)
-        return after
-
-
-def _jaw_motion(jaw: Floats) -> JawMotion:
-    """A mandible's angle and slides (3,) by name."""
-    return JawMotion(*jaw.tolist())
-
-
-def _jaw_oscillator(tissue: str | Tissue) -> Oscillator:
-    """How the mandible follows what is asked of it."""
-    figures = as_tissue(tissue)
-    return Oscillator(figures.jaw_frequency, figures.jaw_damping_ratio)

@@ -67,6 +67,15 @@ class Posture:
         return self.carried + self.elastic + self.pushed
 
 
+@dataclass(frozen=True, eq=False)
+class Effort:
+    """A plan, what it wants of the points of a face, and the amounts that explain it."""
+
+    plan: Plan
+    targets: Targets
+    amounts: Amounts
+
+
 class Balance:
     """Finds the postures in which one face's skin is in balance."""
 
@@ -81,13 +90,33 @@ class Balance:
         ParameterError : an unknown muscle set by hand, or a contraction outside 0..1.
         SolverError : contractions beyond what the skin can bear.
         """
+        effort = self.effort(plan)
+        return self.reached(effort, self.anatomy.relaxation.pulled(effort.amounts, memory=memory))
+
+    def effort(self, plan: Plan) -> Effort:
+        """What a plan takes of muscles, lids and jaw, before the skin answers; errors as `posture`."""
         anatomy, rules = self.anatomy, DRIVES[plan.request.drive]
         targets = held_together(anatomy.inverse.rows, rules.targets(anatomy.inverse.rows, plan), anatomy.skin.sewn)
         found = anatomy.inverse.solve(targets) if rules.muscles else anatomy.actuators.none()
         amounts = set_by_hand(anatomy.actuators, found, plan.request.by_hand)
         if plan.request.by_hand and rules.correction is Correction.CONTACT:
             targets = self._moved_by_hand(targets, found, amounts)
-        return self._corrected(self._pulled(plan, amounts, memory), targets, rules.correction)
+        return Effort(plan, targets, amounts)
+
+    def reached(self, effort: Effort, pulled: Floats) -> Posture:
+        """The posture of an effort whose muscles pull the skin so (n, 3), metres."""
+        plan, amounts = effort.plan, effort.amounts
+        carried = self.anatomy.actuators.carried(amounts)
+        looks = {ball.side: ball.look(plan.request.faps) for ball in self.anatomy.eyeballs}
+        posture = Posture(
+            amounts,
+            carried,
+            elastic=pulled,
+            pushed=np.zeros_like(carried),
+            surroundings=Surroundings(amounts.jaw, looks),
+            lip_share=lip_share(plan.evened),
+        )
+        return self._corrected(posture, effort.targets, DRIVES[plan.request.drive].correction)
 
     def held(self, plan: Plan) -> dict[int, str]:
         """FAP number -> why it is not met, of what sewn lips and shut lids keep a plan from."""
@@ -101,19 +130,6 @@ class Balance:
         before, after = (actuators.carried(each) + actuators.low_strain(each) for each in (found, amounts))
         change = np.asarray(self.anatomy.inverse.matrix @ (after - before).ravel())
         return replace(targets, displacements=targets.displacements + change)
-
-    def _pulled(self, plan: Plan, amounts: Amounts, memory: Memory | None) -> Posture:
-        """The posture that amounts alone make, in balance with the muscles' forces."""
-        anatomy = self.anatomy
-        carried = anatomy.actuators.carried(amounts)
-        return Posture(
-            amounts,
-            carried,
-            elastic=anatomy.relaxation.pulled(amounts, memory=memory),
-            pushed=np.zeros_like(carried),
-            surroundings=Surroundings(amounts.jaw, {b.side: b.look(plan.request.faps) for b in anatomy.eyeballs}),
-            lip_share=lip_share(plan.evened),
-        )
 
     def _corrected(self, posture: Posture, targets: Targets, correction: Correction) -> Posture:
         """A posture held off what its skin meets, and taken the rest of the way to targets."""

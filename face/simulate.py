@@ -7,15 +7,31 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError, SolverError
 from ..physics.tissue import Tissue
+from ..progress import Work, run
 from .drive.plan import Plan
-from .motion import FaceMotion, MovingFace, Setpoint
+from .mechanisms.jaw import JawMotion
+from .motion import FaceMotion, MovingFace, Setpoint, Stepping
 from .pose import Poser
+from .reduced_motion import ReducedMotion
+
+
+class Integrator(StrEnum):
+    """How the equation of motion is integrated.
+
+    reduced : in a few displacement fields about the balance, the production way. implicit, rk2 : of every node, by two
+    backward-Euler stages or by the paper's second-order Runge-Kutta; for reference.
+    """
+
+    REDUCED = "reduced"
+    IMPLICIT = "implicit"
+    RK2 = "rk2"
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +40,28 @@ class Clip:
 
     positions: Floats
     fps: float
+
+
+class Moving(Iterator[Floats]):
+    """Positions (V, 3) frame by frame, and the work that comes before the first of them.
+
+    The work is done with the first frame; a window that must not stand still drives `prepare` before.
+    """
+
+    def __init__(self, work: Work[Iterator[Floats]]) -> None:
+        self._work: Work[Iterator[Floats]] | None = work
+        self._frames: Iterator[Floats] = iter(())
+
+    def prepare(self) -> Work[None]:
+        """Do what comes before the first frame; errors as the frames'."""
+        if self._work is not None:
+            self._frames = yield from self._work
+            self._work = None
+
+    def __next__(self) -> Floats:
+        """The next frame."""
+        run(self.prepare())
+        return next(self._frames)
 
 
 class Simulation:
@@ -36,7 +74,7 @@ class Simulation:
         ----------
         poser : poses the same face.
         fps : steps per second, above 0.
-        integrator, substeps, tissue : as for `FaceMotion`.
+        integrator : a name of `Integrator`. substeps, tissue : as for `FaceMotion`.
 
         Raises
         ------
@@ -45,26 +83,54 @@ class Simulation:
         """
         if not (np.isfinite(fps) and fps > 0):
             raise ParameterError("fps", "must be above 0", fps)
+        if integrator not in list(Integrator):
+            raise ParameterError("integrator", f"must be one of {', '.join(Integrator)}", integrator)
         self.poser = poser
-        self.motion = FaceMotion(poser.anatomy, 1.0 / fps, integrator=integrator, substeps=substeps, tissue=tissue)
+        self.motion: ReducedMotion | FaceMotion
+        if integrator == Integrator.REDUCED:
+            self.motion = ReducedMotion(poser.balance, 1.0 / fps, substeps=substeps, tissue=tissue)
+        else:
+            stepping = Stepping(integrator)
+            self.motion = FaceMotion(poser.anatomy, 1.0 / fps, stepping=stepping, substeps=substeps, tissue=tissue)
 
-    def run(self, plans: Iterable[Plan]) -> Iterator[Floats]:
-        """Positions (V, 3) in the face's coordinates, one array per plan; the first is at rest in its pose.
+    def run(self, plans: Iterable[Plan]) -> Moving:
+        """Positions in the face's coordinates, one array per plan; the first is at rest in its pose.
 
         Raises
         ------
-        SolverError : names the step whose motion was not solved.
+        SolverError : names the step whose motion was not solved, where one step was solved after the other.
         """
+        if isinstance(self.motion, ReducedMotion):
+            return Moving(self._reduced(self.motion, list(plans)))
+        return Moving(_at_once(self._followed(self.motion, plans)))
+
+    def _reduced(self, motion: ReducedMotion, plans: list[Plan]) -> Work[Iterator[Floats]]:
+        """Frames of a clip that is known as a whole."""
+        course = yield from motion.course(plans)
+        return (self._assembled(*moved, plan) for moved, plan in zip(motion.along(course), plans, strict=True))
+
+    def _followed(self, motion: FaceMotion, plans: Iterable[Plan]) -> Iterator[Floats]:
+        """Frames one after the other."""
         moving: MovingFace | None = None
         before: Setpoint | None = None
         for step, plan in enumerate(plans):
             setpoint = Setpoint.of(self.poser.balance.posture(plan), self.poser.anatomy.contact)
             if moving is None or before is None:
-                moving = self.motion.at_rest(setpoint)
+                moving = motion.at_rest(setpoint)
             else:
                 try:
-                    moving = self.motion.follow(moving, before, setpoint)
+                    moving = motion.follow(moving, before, setpoint)
                 except SolverError as error:
                     raise SolverError(f"the motion could not be solved: {error}", frame=step) from error
             before = setpoint
-            yield self.poser.assembly.positions(self.motion.displacement(moving), moving.jaw_motion, plan.request)
+            yield self._assembled(motion.displacement(moving), moving.jaw_motion, plan)
+
+    def _assembled(self, displacement: Floats, jaw: JawMotion, plan: Plan) -> Floats:
+        """(V, 3) the whole face about its outer skin (n, 3)."""
+        return self.poser.assembly.positions(displacement, jaw, plan.request)
+
+
+def _at_once(frames: Iterator[Floats]) -> Work[Iterator[Floats]]:
+    """Frames that need nothing before the first."""
+    yield from ()
+    return frames

@@ -178,6 +178,12 @@ class Skin:
         """Elastic energy in J; see `energy_and_force`."""
         return self.energy_and_force(positions, anchors)[0]
 
+    def held_stiffness_between(self, fields: Floats) -> Floats:
+        """(k, k) N/m: what bending and anchors make of displacement fields (k, V, 3), each by each."""
+        flat = fields.reshape(len(fields), -1)
+        held = [(self._linear @ field).ravel() for field in fields]
+        return np.asarray(flat @ np.stack(held).T)
+
     def kinetic_energy(self, velocities: Floats) -> float:
         """1/2 sum m |v|^2 in J, for `velocities` (V, 3) m/s."""
         return 0.5 * float(self.mass @ (velocities**2).sum(axis=1))

@@ -209,6 +209,22 @@ class SpringNetwork:
         """Elastic energy in J at `positions` (V, 3) m; 0 where every spring has its rest length."""
         return self.energy_and_force(positions)[0]
 
+    def stiffness_between(self, positions: Floats, apart: Floats) -> Floats:
+        """(k, k) N/m: what the true stiffness at positions (V, 3) m makes of k displacement fields, each by each.
+
+        `apart` (3, S, k) is how far each field takes the ends of each spring apart, along x, y and z.
+        """
+        way = np.stack([self.incidence @ column for column in np.ascontiguousarray(positions.T)])
+        length = np.linalg.norm(way, axis=0)
+        stretch = length - self.rest_length
+        extra, limit = self._figures
+        pull, _ = _tension_and_work(stretch, self.stiffness_low, extra, limit, self.law)
+        across = pull / np.where(length > 0, length, 1.0)
+        along = self.stiffness_low + extra * (stretch > limit) - across
+        lengthened = np.einsum("cs,csk->sk", way / np.where(length > 0, length, 1.0), apart)
+        turned = sum((part.T @ (across[:, None] * part) for part in apart), np.zeros(2 * (apart.shape[2],)))
+        return np.asarray(turned + lengthened.T @ (along[:, None] * lengthened))
+
     def laplacian(self, *, high: bool = False) -> Sparse:
         """Graph Laplacian (V, V) N/m of the low (or high) constants: a bound from above on the true stiffness."""
         weights = self.stiffness_high if high else self.stiffness_low

@@ -1,0 +1,141 @@
+"""The skin and mandible of a face in motion, quickly: the production way.
+
+What `motion` integrates step by step is here the balance of each step and, in a few fields (`physics.reduced`), how far
+inertia and damping leave the skin behind it. The muscles' part of the balance is foretold from a few equilibria of the
+clip (`response.sampled`). All else, jaw, lids, correction and contact, is as exact as there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import ParameterError
+from ..physics.elastic import Factor
+from ..physics.reduced import ReducedSkin, principal_fields
+from ..physics.skin import State
+from ..physics.tissue import Tissue
+from ..progress import Progress, Work, part_of
+from .anatomy import Anatomy
+from .bodies.surroundings import Surroundings
+from .drive.plan import Plan
+from .jaw_follower import JawFollower, jaw_motion, resting
+from .mechanisms.jaw import JawMotion
+from .motion import Setpoint
+from .posture import Balance, Effort, Posture
+from .response.actuators import Amounts
+from .response.sampled import SampledPull, farthest, sampled_pull
+from .response.spring_skin import spring_skin
+
+#: Fields of the balance in which the skin may be left behind; its answers to their inertia and damping come on top.
+FIELDS = 12
+
+#: So many places of lids and jaw, the farthest from each other, are among what these fields are made of.
+CARRIED_PLACES = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """What is known of a clip before its first step.
+
+    Attributes
+    ----------
+    efforts : of its steps. pull : the muscles' part of their balances.
+    reduced : how the skin is left behind; None where nothing moves. stiffness : (m, k, k) of it, where `pull` was solved.
+    """
+
+    efforts: Sequence[Effort]
+    pull: SampledPull
+    reduced: ReducedSkin | None
+    stiffness: Floats
+
+
+class ReducedMotion:
+    """Takes one face along whole clips."""
+
+    def __init__(self, balance: Balance, duration: float, *, substeps: int, tissue: str | Tissue) -> None:
+        """Prepare for steps of a duration, seconds.
+
+        Parameters
+        ----------
+        balance : of the face. substeps : in each step, 1 or more, over each of which the jaw goes evenly.
+        tissue : a name in presets/tissue.toml, or figures of its own.
+
+        Raises
+        ------
+        ParameterError : names the parameter and its rule.
+        """
+        if substeps < 1:
+            raise ParameterError("substeps", "must be 1 or more", substeps)
+        self.balance, self.anatomy = balance, balance.anatomy
+        self.duration, self.substeps = duration, substeps
+        self.skin = spring_skin(self.anatomy.skin, tissue)
+        self._jaw = JawFollower(tissue, duration / substeps)
+
+    def course(self, plans: Sequence[Plan]) -> Work[Course]:
+        """What a clip of plans, one for each step, needs before it can be run through.
+
+        Raises
+        ------
+        ParameterError, SolverError : as `Balance.posture`.
+        """
+        efforts: list[Effort] = []
+        for plan in plans:
+            efforts.append(self.balance.effort(plan))
+            yield Progress(0.2 * len(efforts) / len(plans), "Finding the muscles behind the motion")
+        amounts = [effort.amounts for effort in efforts]
+        pull = yield from part_of(sampled_pull(self.anatomy.relaxation, amounts), 0.2, 0.8)
+        places = np.array([_carried_place(self.anatomy, each) for each in amounts])
+        postures: dict[int, Posture] = {}
+        for step in [*pull.steps.tolist(), *farthest(places, [int(pull.steps[0])], CARRIED_PLACES)]:
+            postures[step] = self.balance.reached(efforts[step], pull.at(step))
+            yield Progress(0.8, "Finding how the skin is left behind")
+        carried = [posture.carried for posture in postures.values()]
+        balances = np.array([posture.displacement for posture in postures.values()] + carried)
+        fields = principal_fields(balances, FIELDS)
+        yield Progress(0.9, "Finding how the skin is left behind")
+        if not len(fields):
+            return Course(efforts, pull, None, np.zeros((len(pull.steps), 0, 0)))
+        reduced = ReducedSkin(self.skin, Factor(self.skin.matrix()), fields, self.duration / self.substeps)
+        solved = [self.skin.rest + postures[step].displacement for step in pull.steps.tolist()]
+        return Course(efforts, pull, reduced, np.array([reduced.stiffness(positions) for positions in solved]))
+
+    def along(self, course: Course) -> Iterator[tuple[Floats, JawMotion]]:
+        """Displacement (n, 3) of the outer skin in head space, metres, and the mandible, step by step."""
+        before: Setpoint | None = None
+        jaw, state, felt = np.zeros((2, 3)), np.empty(0), np.empty(0)
+        contact, reduced = self.anatomy.contact, course.reduced
+        for step, effort in enumerate(course.efforts):
+            after = Setpoint.of(self.balance.reached(effort, course.pull.at(step)), contact)
+            if before is None:
+                before, jaw = after, resting(after.jaw)
+                if reduced is not None:
+                    state, felt = reduced.at_rest(), reduced.read(self._balanced(after, jaw)[None])[0]
+            stiffness = np.tensordot(course.pull.weights[step], course.stiffness, axes=1)
+            for number in range(self.substeps if step else 0):
+                start, end = (before.towards(after, (number + part) / self.substeps) for part in (0.0, 1.0))
+                jaw = self._jaw.swung(jaw, start.jaw, end.jaw)
+                if reduced is not None:
+                    now = reduced.read(self._balanced(end, jaw)[None])[0]
+                    state, felt = reduced.follow(state, felt, now, stiffness), now
+            balanced = self._balanced(after, jaw)
+            shown = balanced if reduced is None else balanced + reduced.displacement(state[None])[0]
+            at = Surroundings(jaw_motion(jaw[0]), after.looks)
+            moved = State.at_rest(self.skin.rest + shown)
+            held = contact.hold(moved, after.lip_share, at, after.slack, self.duration)
+            yield held.positions - self.skin.rest, at.jaw
+            before = after
+
+    def _balanced(self, setpoint: Setpoint, jaw: Floats) -> Floats:
+        """(n, 3) where the outer skin would be in balance, carried by the mandible (2, 3) as it is."""
+        carried = self.anatomy.actuators.carried(Amounts(np.zeros(0), setpoint.lids, jaw_motion(jaw[0])))
+        return carried + setpoint.elastic + setpoint.pushed
+
+
+def _carried_place(anatomy: Anatomy, amounts: Amounts) -> Floats:
+    """What lids and jaw are at, metres."""
+    jaw = amounts.jaw
+    return np.array([*amounts.lids.values(), jaw.angle * anatomy.actuators.chin_lever, jaw.left, jaw.forward])

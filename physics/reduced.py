@@ -1,0 +1,126 @@
+"""Skin that deviates a little from a moving balance, in a few displacement fields.
+
+Skin whose balance moves from b(t) to b(t + h) is left behind by its inertia and its damping. With x = b + F d, where the
+columns of F are a few fields over the nodes,
+
+    F'M F d'' + F'C F d' + F'K F d = -F'(M b'' + C b'),
+
+K being the true stiffness of springs, bending and anchors in the balance. While a balance moves evenly between two
+moments, this is solved exactly by one matrix exponential, whatever the step. Fields that a motion of its own needs are those of
+its balance and the skin's quasi-static answers to their inertia and damping (Brandt, Eisemann and Hildebrandt 2018,
+Hyper-reduced projective dynamics, ACM Trans. Graph. 37(4)); these are the smallest part of what a force moves.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import expm
+
+from ..arrays import Floats
+from ..errors import ParameterError
+from .elastic import Factor
+from .skin import Skin
+
+_SMALLEST = 1e-5
+"""Fields smaller than this share of the largest one are left out: they are what rounding left of it."""
+
+
+def principal_fields(fields: Floats, count: int) -> Floats:
+    """(k, n, 3) the fields, at most `count`, that most of some displacement fields (m, n, 3) are sums of."""
+    flat = fields.reshape(len(fields), -1)
+    values, vectors = np.linalg.eigh(flat @ flat.T)
+    largest = np.argsort(values)[::-1][:count]
+    kept = largest[values[largest] > _SMALLEST**2 * max(float(values[-1]), np.finfo(float).tiny)]
+    return (vectors[:, kept].T / np.sqrt(values[kept])[:, None] @ flat).reshape(-1, *fields.shape[1:])
+
+
+class ReducedSkin:
+    """How a skin follows its moving balance, step after step of one length.
+
+    Parameters
+    ----------
+    skin : the skin.
+    factor : of `skin.matrix()`, or of one near it.
+    balances : (m, n, 3) m, displacement fields that the balance moves in; m >= 1.
+    step : s, above 0.
+
+    Attributes
+    ----------
+    fields : (k, n, 3), orthonormal in the skin's mass.
+
+    Raises
+    ------
+    ParameterError : a step that is not above 0, or fields of another shape.
+    """
+
+    def __init__(self, skin: Skin, factor: Factor, balances: Floats, step: float) -> None:
+        if not (np.isfinite(step) and step > 0):
+            raise ParameterError("step", "must be finite and above 0", step)
+        if balances.ndim != 3 or balances.shape[1:] != skin.rest.shape or not len(balances):
+            raise ParameterError("balances", f"must be fields of the shape {skin.rest.shape}", balances.shape)
+        self.step, self._skin = step, skin
+        answers = [_answer(factor, weight[:, None] * field) for field in balances for weight in _inertias(skin)]
+        self.fields = _orthonormal(np.concatenate([balances, answers]), skin.mass)
+        self._weighted = (skin.mass[:, None] * self.fields).reshape(len(self.fields), -1)
+        self._damped = (skin.damping[:, None] * self.fields).reshape(len(self.fields), -1)
+        self._damping = self.fields.reshape(len(self.fields), -1) @ self._damped.T
+        self._held = skin.held_stiffness_between(self.fields)
+        columns = self.fields.transpose(2, 1, 0)
+        self._apart = np.stack([skin.springs.incidence @ np.ascontiguousarray(column) for column in columns])
+
+    def read(self, balances: Floats) -> Floats:
+        """(T, 2k) what the skin feels of balances (T, n, 3), displacements in m: `F'M b` beside `F'C b`."""
+        flat = balances.reshape(len(balances), -1)
+        return np.concatenate([flat @ self._weighted.T, flat @ self._damped.T], axis=1)
+
+    def at_rest(self) -> Floats:
+        """(3k,) the state of a skin that rests in its balance, which has not moved."""
+        return np.zeros(3 * len(self.fields))
+
+    def stiffness(self, positions: Floats) -> Floats:
+        """(k, k) N/m, true at some positions (n, 3) m of the skin."""
+        return self._held + self._skin.springs.stiffness_between(positions, self._apart)
+
+    def follow(self, state: Floats, before: Floats, after: Floats, stiffness: Floats) -> Floats:
+        """The state (3k,) one step on: deviation, its rate, and the rate of what was felt of the balance by mass.
+
+        Parameters
+        ----------
+        before, after : (2k,) of `read`, of the balance at both ends of the step.
+        stiffness : (k, k) between them.
+        """
+        count = len(self.fields)
+        felt = (after - before) / self.step
+        rates = np.zeros((2 * count + 1, 2 * count + 1))
+        rates[:count, count:-1] = np.eye(count)
+        rates[count:-1, :count] = -stiffness
+        rates[count:-1, count:-1] = -self._damping
+        rates[count:-1, -1] = -felt[count:]
+        jolted = np.concatenate([state[:count], state[count : 2 * count] - (felt[:count] - state[2 * count :]), [1.0]])
+        return np.concatenate([(expm(self.step * rates) @ jolted)[:-1], felt[:count]])
+
+    def displacement(self, states: Floats) -> Floats:
+        """(T, n, 3) m, how far the skin is from its balance in states (T, 3k)."""
+        shape = (len(states), *self.fields.shape[1:])
+        return (states[:, : len(self.fields)] @ self.fields.reshape(len(self.fields), -1)).reshape(shape)
+
+
+def _inertias(skin: Skin) -> tuple[Floats, Floats]:
+    """What a node's acceleration and its speed weigh, (n,) each."""
+    return skin.mass, skin.damping
+
+
+def _answer(factor: Factor, force: Floats) -> Floats:
+    """(n, 3) where a force (n, 3) would bring the skin."""
+    return factor.solve(force)
+
+
+def _orthonormal(fields: Floats, mass: Floats) -> Floats:
+    """(k, n, 3) fields that span the same as some (m, n, 3), of length 1 and at right angles in the mass (n,)."""
+    root = np.sqrt(mass)[:, None]
+    flat = (root * fields).reshape(len(fields), -1)
+    flat = flat / np.maximum(np.linalg.norm(flat, axis=1, keepdims=True), np.finfo(float).tiny)
+    left, values, _ = np.linalg.svd(flat @ flat.T)
+    kept = values > _SMALLEST**2 * values[0]
+    turned = (left[:, kept] / np.sqrt(values[kept])).T @ flat
+    return turned.reshape(-1, *fields.shape[1:]) / root
