@@ -93,10 +93,15 @@ class Balance:
         effort = self.effort(plan)
         return self.reached(effort, self.anatomy.relaxation.pulled(effort.amounts, memory=memory))
 
-    def effort(self, plan: Plan) -> Effort:
-        """What a plan takes of muscles, lids and jaw, before the skin answers; errors as `posture`."""
+    def effort(self, plan: Plan, *, before: Effort | None = None) -> Effort:
+        """What a plan takes of muscles, lids and jaw, before the skin answers; errors as `posture`.
+
+        An effort `before` that wanted the same is known to take the same.
+        """
         anatomy, rules = self.anatomy, DRIVES[plan.request.drive]
         targets = held_together(anatomy.inverse.rows, rules.targets(anatomy.inverse.rows, plan), anatomy.skin.sewn)
+        if before is not None and plan.request.by_hand == before.plan.request.by_hand == () and targets.same(before.targets):
+            return Effort(plan, before.targets, before.amounts)
         found = anatomy.inverse.solve(targets) if rules.muscles else anatomy.actuators.none()
         amounts = set_by_hand(anatomy.actuators, found, plan.request.by_hand)
         if plan.request.by_hand and rules.correction is Correction.CONTACT:

@@ -27,11 +27,14 @@ from .mechanisms.jaw import JawMotion
 from .motion import Setpoint
 from .posture import Balance, Effort, Posture
 from .response.actuators import Amounts
-from .response.sampled import SampledPull, farthest, sampled_pull
+from .response.sampled import SampledPull, farthest, foretelling, sampled_pull
 from .response.spring_skin import spring_skin
 
 #: Fields of the balance in which the skin may be left behind; its answers to their inertia and damping come on top.
 FIELDS = 12
+
+#: The skin's stiffness is taken at so many steps, the farthest from each other.
+STIFFNESSES = 6
 
 #: So many places of lids and jaw, the farthest from each other, are among what these fields are made of.
 CARRIED_PLACES = 8
@@ -44,13 +47,15 @@ class Course:
     Attributes
     ----------
     efforts : of its steps. pull : the muscles' part of their balances.
-    reduced : how the skin is left behind; None where nothing moves. stiffness : (m, k, k) of it, where `pull` was solved.
+    reduced : how the skin is left behind; None where nothing moves.
+    stiffness : (p, k, k) of it at some steps. shares : (T, p) how that of every step is a sum of these.
     """
 
     efforts: Sequence[Effort]
     pull: SampledPull
     reduced: ReducedSkin | None
     stiffness: Floats
+    shares: Floats
 
 
 class ReducedMotion:
@@ -84,7 +89,7 @@ class ReducedMotion:
         """
         efforts: list[Effort] = []
         for plan in plans:
-            efforts.append(self.balance.effort(plan))
+            efforts.append(self.balance.effort(plan, before=efforts[-1] if efforts else None))
             yield Progress(0.2 * len(efforts) / len(plans), "Finding the muscles behind the motion")
         amounts = [effort.amounts for effort in efforts]
         pull = yield from part_of(sampled_pull(self.anatomy.relaxation, amounts), 0.2, 0.8)
@@ -98,36 +103,39 @@ class ReducedMotion:
         fields = principal_fields(balances, FIELDS)
         yield Progress(0.9, "Finding how the skin is left behind")
         if not len(fields):
-            return Course(efforts, pull, None, np.zeros((len(pull.steps), 0, 0)))
+            return Course(efforts, pull, None, np.empty((0, 0, 0)), np.empty((len(plans), 0)))
         reduced = ReducedSkin(self.skin, Factor(self.skin.matrix()), fields, self.duration / self.substeps)
-        solved = [self.skin.rest + postures[step].displacement for step in pull.steps.tolist()]
-        return Course(efforts, pull, reduced, np.array([reduced.stiffness(positions) for positions in solved]))
+        stiff = pull.steps[:STIFFNESSES].tolist()
+        stiffness = [reduced.stiffness(self.skin.rest + postures[step].displacement) for step in stiff]
+        return Course(efforts, pull, reduced, np.array(stiffness), foretelling(pull.places, stiff))
 
     def along(self, course: Course) -> Iterator[tuple[Floats, JawMotion]]:
         """Displacement (n, 3) of the outer skin in head space, metres, and the mandible, step by step."""
-        before: Setpoint | None = None
-        jaw, state, felt = np.zeros((2, 3)), np.empty(0), np.empty(0)
         contact, reduced = self.anatomy.contact, course.reduced
-        for step, effort in enumerate(course.efforts):
-            after = Setpoint.of(self.balance.reached(effort, course.pull.at(step)), contact)
-            if before is None:
-                before, jaw = after, resting(after.jaw)
-                if reduced is not None:
-                    state, felt = reduced.at_rest(), reduced.read(self._balanced(after, jaw)[None])[0]
-            stiffness = np.tensordot(course.pull.weights[step], course.stiffness, axes=1)
+        before = after = self._setpoint(course, 0)
+        jaw = resting(after.jaw)
+        balanced = self._balanced(after, jaw)
+        state, felt = (np.empty(0), np.empty(0)) if reduced is None else (reduced.at_rest(), reduced.read(balanced))
+        for step in range(len(course.efforts)):
+            if step:
+                before, after = after, self._setpoint(course, step)
+                stiffness = np.tensordot(course.shares[step], course.stiffness, axes=1)
             for number in range(self.substeps if step else 0):
                 start, end = (before.towards(after, (number + part) / self.substeps) for part in (0.0, 1.0))
                 jaw = self._jaw.swung(jaw, start.jaw, end.jaw)
+                balanced = self._balanced(end, jaw)
                 if reduced is not None:
-                    now = reduced.read(self._balanced(end, jaw)[None])[0]
+                    now = reduced.read(balanced)
                     state, felt = reduced.follow(state, felt, now, stiffness), now
-            balanced = self._balanced(after, jaw)
-            shown = balanced if reduced is None else balanced + reduced.displacement(state[None])[0]
+            shown = balanced if reduced is None else balanced + reduced.displacement(state)
             at = Surroundings(jaw_motion(jaw[0]), after.looks)
             moved = State.at_rest(self.skin.rest + shown)
             held = contact.hold(moved, after.lip_share, at, after.slack, self.duration)
             yield held.positions - self.skin.rest, at.jaw
-            before = after
+
+    def _setpoint(self, course: Course, step: int) -> Setpoint:
+        """What a step of a course asks for."""
+        return Setpoint.of(self.balance.reached(course.efforts[step], course.pull.at(step)), self.anatomy.contact)
 
     def _balanced(self, setpoint: Setpoint, jaw: Floats) -> Floats:
         """(n, 3) where the outer skin would be in balance, carried by the mandible (2, 3) as it is."""

@@ -59,19 +59,18 @@ class ReducedSkin:
         if balances.ndim != 3 or balances.shape[1:] != skin.rest.shape or not len(balances):
             raise ParameterError("balances", f"must be fields of the shape {skin.rest.shape}", balances.shape)
         self.step, self._skin = step, skin
-        answers = [_answer(factor, weight[:, None] * field) for field in balances for weight in _inertias(skin)]
+        answers = [factor.solve(weight[:, None] * field) for field in balances for weight in _inertias(skin)]
         self.fields = _orthonormal(np.concatenate([balances, answers]), skin.mass)
-        self._weighted = (skin.mass[:, None] * self.fields).reshape(len(self.fields), -1)
-        self._damped = (skin.damping[:, None] * self.fields).reshape(len(self.fields), -1)
-        self._damping = self.fields.reshape(len(self.fields), -1) @ self._damped.T
+        flat = self.fields.reshape(len(self.fields), -1)
+        self._felt = np.concatenate([(w[:, None] * self.fields).reshape(flat.shape) for w in _inertias(skin)])
+        self._damping = flat @ self._felt[len(flat) :].T
         self._held = skin.held_stiffness_between(self.fields)
         columns = self.fields.transpose(2, 1, 0)
         self._apart = np.stack([skin.springs.incidence @ np.ascontiguousarray(column) for column in columns])
 
-    def read(self, balances: Floats) -> Floats:
-        """(T, 2k) what the skin feels of balances (T, n, 3), displacements in m: `F'M b` beside `F'C b`."""
-        flat = balances.reshape(len(balances), -1)
-        return np.concatenate([flat @ self._weighted.T, flat @ self._damped.T], axis=1)
+    def read(self, balance: Floats) -> Floats:
+        """(2k,) what the skin feels of a balance (n, 3), a displacement in m: `F'M b` before `F'C b`."""
+        return np.asarray(self._felt @ balance.ravel())
 
     def at_rest(self) -> Floats:
         """(3k,) the state of a skin that rests in its balance, which has not moved."""
@@ -99,20 +98,14 @@ class ReducedSkin:
         jolted = np.concatenate([state[:count], state[count : 2 * count] - (felt[:count] - state[2 * count :]), [1.0]])
         return np.concatenate([(expm(self.step * rates) @ jolted)[:-1], felt[:count]])
 
-    def displacement(self, states: Floats) -> Floats:
-        """(T, n, 3) m, how far the skin is from its balance in states (T, 3k)."""
-        shape = (len(states), *self.fields.shape[1:])
-        return (states[:, : len(self.fields)] @ self.fields.reshape(len(self.fields), -1)).reshape(shape)
+    def displacement(self, state: Floats) -> Floats:
+        """(n, 3) m, how far the skin is from its balance in a state (3k,)."""
+        return np.tensordot(state[: len(self.fields)], self.fields, axes=1)
 
 
 def _inertias(skin: Skin) -> tuple[Floats, Floats]:
     """What a node's acceleration and its speed weigh, (n,) each."""
     return skin.mass, skin.damping
-
-
-def _answer(factor: Factor, force: Floats) -> Floats:
-    """(n, 3) where a force (n, 3) would bring the skin."""
-    return factor.solve(force)
 
 
 def _orthonormal(fields: Floats, mass: Floats) -> Floats:

@@ -167,5 +167,6 @@ class Inverse:
             return np.zeros((self.actuators.skin.vertex_count, 3))
         compliance = self.compliance[np.ix_(known, known)] * self._scale
         loose = (doubts[known] / SKIN.share) ** 2 + 1e-9
-        weights = linalg.solve(compliance + np.diag(loose), residual[known], assume_a="pos") * self._scale
-        return np.tensordot(weights, self.skin_responses[known], axes=1)
+        weights: Floats = np.zeros(len(residual))
+        weights[known] = linalg.solve(compliance + np.diag(loose), residual[known], assume_a="pos") * self._scale
+        return np.tensordot(weights, self.skin_responses, axes=1)

@@ -74,6 +74,13 @@ class Targets:
     opening: float
     slide: float
 
+    def same(self, other: Targets) -> bool:
+        """Whether others want exactly the same."""
+        mine, theirs = ((t.displacements, t.doubts, t.corrected, t.carried) for t in (self, other))
+        alike = all(np.array_equal(a, b, equal_nan=a.dtype.kind == "f") for a, b in zip(mine, theirs, strict=True))
+        usual = (self.muscles, self.opening, self.slide) == (other.muscles, other.opening, other.slide)
+        return alike and usual
+
 
 def natural_targets(rows: FapRows, plan: Plan) -> Targets:
     """Every planned row, asked ones more firmly; what is asked and has no range, exactly."""

@@ -7,11 +7,13 @@ margin by nearly the same angle, and slides a little towards the nose as it clos
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ...arrays import Floats
+from ...arrays import Floats, Ints
 from ..figures import Length, Pair, Place, Share, read_figures
 from ..mechanism import Mechanism
 from ..mesh.eye_parts import is_flat
@@ -104,25 +106,34 @@ class Eye:
     slides: dict[LidMove, Floats]
     angle_per_metre: dict[LidMove, float]
 
-    def angles(self, moves: dict[LidMove, float]) -> tuple[Floats, Floats]:
-        """Angles (n,) and nasal slides (n,) of the skin for lid movements in metres at the middle of the lid."""
-        angle = np.zeros_like(next(iter(self.weights.values())))
-        slide = np.zeros_like(angle)
-        for move, amount in moves.items():
-            turn = amount * self.angle_per_metre[move]
-            angle += _MOVES[move][1] * turn * self.weights[move]
-            slide += turn * self.slides[move]
-        return angle, slide
+    @cached_property
+    def _near(self) -> Ints:
+        """(k,) skin vertices that any move takes along."""
+        moved = [share != 0.0 for share in (*self.weights.values(), *self.slides.values())]
+        return np.flatnonzero(np.any(moved, axis=0))
+
+    @cached_property
+    def _near_shares(self) -> Mapping[LidMove, tuple[Floats, Floats]]:
+        """Move -> (k,) radians that vertices turn by, and metres that they slide, where a lid's middle goes a metre."""
+        return {
+            move: (_MOVES[move][1] * rate * self.weights[move][self._near], rate * self.slides[move][self._near])
+            for move, rate in self.angle_per_metre.items()
+        }
 
     def skin(self, positions: Floats, moves: dict[LidMove, float]) -> Floats:
-        """Displacement (n, 3) of the outer skin by lid movements, as exact rotations about the eyeball's axis."""
-        angle, slide = self.angles(moves)
-        y, z = positions[:, 1] - self.centre[1], positions[:, 2] - self.centre[2]
-        cosine, sine = np.cos(angle), np.sin(angle)
+        """Displacement (n, 3) of the outer skin by lid movements, as exact rotations about the eyeball's axis.
+
+        moves : metres at the middle of the lid.
+        """
+        angle, slide = np.zeros((2, len(self._near)))
+        for move, amount in moves.items():
+            turned, slid = self._near_shares[move]
+            angle, slide = angle + amount * turned, slide + amount * slid
+        y, z = positions[self._near, 1] - self.centre[1], positions[self._near, 2] - self.centre[2]
+        sine, fall = np.sin(angle), np.cos(angle) - 1.0
         moved = np.zeros_like(positions)
-        moved[:, 0] = slide * (-1.0 if self.side == "l" else 1.0)
-        moved[:, 1] = (cosine - 1.0) * y - sine * z
-        moved[:, 2] = sine * y + (cosine - 1.0) * z
+        nasal = slide * (-1.0 if self.side == "l" else 1.0)
+        moved[self._near] = np.stack([nasal, fall * y - sine * z, sine * y + fall * z], axis=1)
         return moved
 
 

@@ -22,6 +22,7 @@ from ...physics.elastic import Factor, diagonal_matrix
 from ...physics.mesh import Sparse
 from ...polygons import PolygonTable
 from ..figures import Length, read_figures
+from .rotations import nearest_rotations
 
 #: Roots follow this many carriers, chosen among so many in space; the farthest counts for nothing, or hardly anything.
 NEIGHBOURS, SEARCHED, FAINT = 12, 24, 1e-9
@@ -94,10 +95,7 @@ class RootedParts:
         moment = np.einsum("rk,rki,rkj->rij", self._near, self._away + against, self._away)
         size = np.einsum("rk,rki,rki->r", self._near, self._away, self._away)
         moment += np.maximum(LINE_TIE * size, mesh.SHORTEST**2)[:, None, None] * np.eye(3)
-        left, _, right = np.linalg.svd(moment)
-        mirrored = np.linalg.det(left @ right) < 0.0
-        left[mirrored, :, 2] *= -1.0
-        turns: Floats = left @ right
+        turns = nearest_rotations(moment)
         turns[(against == 0.0).all(axis=(1, 2))] = np.eye(3)
         return turns
 
