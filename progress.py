@@ -11,7 +11,7 @@ take `progress` call it in the same way.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Iterator
 from typing import Any, Generic, NamedTuple, Self, TypeAlias, TypeVar, overload
 
 from .errors import ParameterError
@@ -111,3 +111,35 @@ def worked_out(owner: object, name: str) -> Work[None]:
         yield from found.steps(owner)
     else:
         getattr(owner, name)
+
+
+class Prepared(Iterator[T]):
+    """Things one after the other, and the work that comes before the first of them.
+
+    The work is done when the first is wanted; a window that must not stand still drives `prepare` before.
+    """
+
+    def __init__(self, work: Work[Iterator[T]]) -> None:
+        self._work: Work[Iterator[T]] | None = work
+        self._things: Iterator[T] = iter(())
+
+    @classmethod
+    def at_once(cls, things: Iterator[T]) -> Self:
+        """Things that need nothing before the first."""
+
+        def nothing() -> Work[Iterator[T]]:
+            yield from ()
+            return things
+
+        return cls(nothing())
+
+    def prepare(self) -> Work[None]:
+        """Do what comes before the first; what goes wrong is raised here."""
+        if self._work is not None:
+            self._things = yield from self._work
+            self._work = None
+
+    def __next__(self) -> T:
+        """The next of them."""
+        run(self.prepare())
+        return next(self._things)

@@ -5,7 +5,9 @@ The spine, from the public `Face` down; each knows only what stands below it:
 face            the public `Face`
 simulate        a face in motion, plan by plan
 pose            a face in balance: request -> plan -> targets -> amounts -> pose
-motion          how skin and mandible follow postures
+reduced_motion  how skin and mandible follow postures, in a few fields: the production way
+motion          the same, node by node: for reference
+jaw_follower    how the mandible follows
 posture         from a plan to amounts, and where they bring the outer skin
 assembly        from the outer skin to all vertices
 measure         FAPs and features read off a deformed face

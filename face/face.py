@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
+from collections.abc import Iterable, Mapping, Sequence, Sized
 from functools import cached_property
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Floats, Ints
 from ..mpeg4 import Cue, Liveliness
 from ..physics.tissue import Tissue
-from ..progress import Progress, Work, run
+from ..progress import Prepared, Progress, Work, run
 from .anatomy import Anatomy
 from .bodies.eyeball import EyeballPlace
 from .drive.over_time import cue_plans, stream_plans
@@ -325,7 +325,7 @@ class Face:
         integrator: str = "reduced",
         substeps: int = 2,
         tissue: str | Tissue = "default",
-    ) -> Iterator[Floats]:
+    ) -> Prepared[Floats]:
         """Positions (V, 3) frame by frame of the moving face; see `simulate`.
 
         Examples
@@ -351,12 +351,13 @@ class Face:
         integrator: str = "reduced",
         substeps: int = 2,
         tissue: str | Tissue = "default",
-    ) -> Iterator[Floats]:
+    ) -> Prepared[Floats]:
         """Positions (V, 3) frame by frame of expressions in time (`sequence` gives their frames).
 
         In the natural drive each cue is planned at its apex and the plans are blended, so that an apex that is held is
         the pose of its profile. `contractions`, one mapping per cue, are set by hand and come and go with it.
-        `liveliness` adds blinks and small motions of head and eyes. Other keywords and errors as `simulate`.
+        `liveliness` adds blinks and small motions of head and eyes. Other keywords and errors as `simulate`. The
+        result's `prepare` does what comes before the first frame bit by bit.
 
         Examples
         --------

@@ -100,7 +100,11 @@ class Balance:
         """
         anatomy, rules = self.anatomy, DRIVES[plan.request.drive]
         targets = held_together(anatomy.inverse.rows, rules.targets(anatomy.inverse.rows, plan), anatomy.skin.sewn)
-        if before is not None and plan.request.by_hand == before.plan.request.by_hand == () and targets.same(before.targets):
+        if (
+            before is not None
+            and plan.request.by_hand == before.plan.request.by_hand == ()
+            and targets.same(before.targets)
+        ):
             return Effort(plan, before.targets, before.amounts)
         found = anatomy.inverse.solve(targets) if rules.muscles else anatomy.actuators.none()
         amounts = set_by_hand(anatomy.actuators, found, plan.request.by_hand)

@@ -30,8 +30,8 @@ from .response.actuators import Amounts
 from .response.sampled import SampledPull, farthest, foretelling, sampled_pull
 from .response.spring_skin import spring_skin
 
-#: Fields of the balance in which the skin may be left behind; its answers to their inertia and damping come on top.
-FIELDS = 12
+#: Fields of the balance in which the skin may be left behind, and how many these and the skin's answers to them may be.
+FIELDS, WITH_ANSWERS = 12, 36
 
 #: The skin's stiffness is taken at so many steps, the farthest from each other.
 STIFFNESSES = 6
@@ -104,10 +104,12 @@ class ReducedMotion:
         yield Progress(0.9, "Finding how the skin is left behind")
         if not len(fields):
             return Course(efforts, pull, None, np.empty((0, 0, 0)), np.empty((len(plans), 0)))
-        reduced = ReducedSkin(self.skin, Factor(self.skin.matrix()), fields, self.duration / self.substeps)
+        reduced = ReducedSkin(
+            self.skin, Factor(self.skin.matrix()), fields, self.duration / self.substeps, count=WITH_ANSWERS
+        )
         stiff = pull.steps[:STIFFNESSES].tolist()
         stiffness = [reduced.stiffness(self.skin.rest + postures[step].displacement) for step in stiff]
-        return Course(efforts, pull, reduced, np.array(stiffness), foretelling(pull.places, stiff))
+        return Course(efforts, pull, reduced, np.array(stiffness), _parts(foretelling(pull.places, stiff)))
 
     def along(self, course: Course) -> Iterator[tuple[Floats, JawMotion]]:
         """Displacement (n, 3) of the outer skin in head space, metres, and the mandible, step by step."""
@@ -141,6 +143,12 @@ class ReducedMotion:
         """(n, 3) where the outer skin would be in balance, carried by the mandible (2, 3) as it is."""
         carried = self.anatomy.actuators.carried(Amounts(np.zeros(0), setpoint.lids, jaw_motion(jaw[0])))
         return carried + setpoint.elastic + setpoint.pushed
+
+
+def _parts(weights: Floats) -> Floats:
+    """(T, p) weights as parts of a whole: none negative, so that no stiffness is taken away."""
+    parts = np.maximum(weights, 0.0)
+    return np.asarray(parts / parts.sum(axis=1, keepdims=True))
 
 
 def _carried_place(anatomy: Anatomy, amounts: Amounts) -> Floats:

@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ParameterError, SolverError
 from ..physics.tissue import Tissue
-from ..progress import Work, run
+from ..progress import Prepared, Work
 from .drive.plan import Plan
 from .mechanisms.jaw import JawMotion
 from .motion import FaceMotion, MovingFace, Setpoint, Stepping
@@ -40,28 +40,6 @@ class Clip:
 
     positions: Floats
     fps: float
-
-
-class Moving(Iterator[Floats]):
-    """Positions (V, 3) frame by frame, and the work that comes before the first of them.
-
-    The work is done with the first frame; a window that must not stand still drives `prepare` before.
-    """
-
-    def __init__(self, work: Work[Iterator[Floats]]) -> None:
-        self._work: Work[Iterator[Floats]] | None = work
-        self._frames: Iterator[Floats] = iter(())
-
-    def prepare(self) -> Work[None]:
-        """Do what comes before the first frame; errors as the frames'."""
-        if self._work is not None:
-            self._frames = yield from self._work
-            self._work = None
-
-    def __next__(self) -> Floats:
-        """The next frame."""
-        run(self.prepare())
-        return next(self._frames)
 
 
 class Simulation:
@@ -93,7 +71,7 @@ class Simulation:
             stepping = Stepping(integrator)
             self.motion = FaceMotion(poser.anatomy, 1.0 / fps, stepping=stepping, substeps=substeps, tissue=tissue)
 
-    def run(self, plans: Iterable[Plan]) -> Moving:
+    def run(self, plans: Iterable[Plan]) -> Prepared[Floats]:
         """Positions in the face's coordinates, one array per plan; the first is at rest in its pose.
 
         Raises
@@ -101,8 +79,8 @@ class Simulation:
         SolverError : names the step whose motion was not solved, where one step was solved after the other.
         """
         if isinstance(self.motion, ReducedMotion):
-            return Moving(self._reduced(self.motion, list(plans)))
-        return Moving(_at_once(self._followed(self.motion, plans)))
+            return Prepared(self._reduced(self.motion, list(plans)))
+        return Prepared.at_once(self._followed(self.motion, plans))
 
     def _reduced(self, motion: ReducedMotion, plans: list[Plan]) -> Work[Iterator[Floats]]:
         """Frames of a clip that is known as a whole."""
@@ -128,9 +106,3 @@ class Simulation:
     def _assembled(self, displacement: Floats, jaw: JawMotion, plan: Plan) -> Floats:
         """(V, 3) the whole face about its outer skin (n, 3)."""
         return self.poser.assembly.positions(displacement, jaw, plan.request)
-
-
-def _at_once(frames: Iterator[Floats]) -> Work[Iterator[Floats]]:
-    """Frames that need nothing before the first."""
-    yield from ()
-    return frames

@@ -7,6 +7,7 @@ elastic, springs, tissue         the linear skin, factored once; biphasic spring
 muscles                          the paper's three muscles
 skin                             all of it as one mechanical system
 equilibrium, implicit, rk2       three ways to solve it
+reduced                          small motions about a moving balance, in a few fields
 quasi_newton                     what the first two of them minimise with
 oscillator                       how a rigid thing on springs, such as the mandible, follows
 """

@@ -1,14 +1,16 @@
 """Skin that deviates a little from a moving balance, in a few displacement fields.
 
-Skin whose balance moves from b(t) to b(t + h) is left behind by its inertia and its damping. With x = b + F d, where the
-columns of F are a few fields over the nodes,
+Skin whose balance b(t) moves is left behind by its inertia and its damping. With x = b + F d, where the columns of F
+are a few fields over the nodes,
 
     F'M F d'' + F'C F d' + F'K F d = -F'(M b'' + C b'),
 
 K being the true stiffness of springs, bending and anchors in the balance. While a balance moves evenly between two
-moments, this is solved exactly by one matrix exponential, whatever the step. Fields that a motion of its own needs are those of
-its balance and the skin's quasi-static answers to their inertia and damping (Brandt, Eisemann and Hildebrandt 2018,
-Hyper-reduced projective dynamics, ACM Trans. Graph. 37(4)); these are the smallest part of what a force moves.
+moments, this is solved exactly by one matrix exponential, whatever the step. The fields that a motion needs are those
+of its balance, the skin's quasi-static answers to the inertia and damping of these, the answers to the answers', and so
+on (Bai and Su 2005, Dimension reduction of large-scale second-order dynamical systems via a second-order Arnoldi
+method, SIAM J. Sci. Comput. 26(5); Brandt, Eisemann and Hildebrandt 2018, Hyper-reduced projective dynamics, ACM Trans.
+Graph. 37(4)).
 """
 
 from __future__ import annotations
@@ -31,7 +33,8 @@ def principal_fields(fields: Floats, count: int) -> Floats:
     values, vectors = np.linalg.eigh(flat @ flat.T)
     largest = np.argsort(values)[::-1][:count]
     kept = largest[values[largest] > _SMALLEST**2 * max(float(values[-1]), np.finfo(float).tiny)]
-    return (vectors[:, kept].T / np.sqrt(values[kept])[:, None] @ flat).reshape(-1, *fields.shape[1:])
+    turned: Floats = vectors[:, kept].T / np.sqrt(values[kept])[:, None] @ flat
+    return turned.reshape(-1, *fields.shape[1:])
 
 
 class ReducedSkin:
@@ -43,6 +46,7 @@ class ReducedSkin:
     factor : of `skin.matrix()`, or of one near it.
     balances : (m, n, 3) m, displacement fields that the balance moves in; m >= 1.
     step : s, above 0.
+    count : answers to answers are added while there are no more fields than this.
 
     Attributes
     ----------
@@ -53,14 +57,13 @@ class ReducedSkin:
     ParameterError : a step that is not above 0, or fields of another shape.
     """
 
-    def __init__(self, skin: Skin, factor: Factor, balances: Floats, step: float) -> None:
+    def __init__(self, skin: Skin, factor: Factor, balances: Floats, step: float, *, count: int) -> None:
         if not (np.isfinite(step) and step > 0):
             raise ParameterError("step", "must be finite and above 0", step)
         if balances.ndim != 3 or balances.shape[1:] != skin.rest.shape or not len(balances):
             raise ParameterError("balances", f"must be fields of the shape {skin.rest.shape}", balances.shape)
         self.step, self._skin = step, skin
-        answers = [factor.solve(weight[:, None] * field) for field in balances for weight in _inertias(skin)]
-        self.fields = _orthonormal(np.concatenate([balances, answers]), skin.mass)
+        self.fields = _orthonormal(_with_answers(skin, factor, balances, count), skin.mass)
         flat = self.fields.reshape(len(self.fields), -1)
         self._felt = np.concatenate([(w[:, None] * self.fields).reshape(flat.shape) for w in _inertias(skin)])
         self._damping = flat @ self._felt[len(flat) :].T
@@ -77,8 +80,10 @@ class ReducedSkin:
         return np.zeros(3 * len(self.fields))
 
     def stiffness(self, positions: Floats) -> Floats:
-        """(k, k) N/m, true at some positions (n, 3) m of the skin."""
-        return self._held + self._skin.springs.stiffness_between(positions, self._apart)
+        """(k, k) N/m, true at some positions (n, 3) m of the skin; where it would buckle, nothing holds it."""
+        true = self._held + self._skin.springs.stiffness_between(positions, self._apart)
+        values, ways = np.linalg.eigh(0.5 * (true + true.T))
+        return np.asarray((ways * np.maximum(values, 0.0)) @ ways.T)
 
     def follow(self, state: Floats, before: Floats, after: Floats, stiffness: Floats) -> Floats:
         """The state (3k,) one step on: deviation, its rate, and the rate of what was felt of the balance by mass.
@@ -103,6 +108,16 @@ class ReducedSkin:
         return np.tensordot(state[: len(self.fields)], self.fields, axes=1)
 
 
+def _with_answers(skin: Skin, factor: Factor, balances: Floats, count: int) -> Floats:
+    """(k, n, 3) balances (m, n, 3), the answers to their inertia and damping, and answers to these up to a count."""
+    fields, last = [balances], balances
+    while len(fields) == 1 or sum(map(len, fields)) + 2 * len(last) <= count:
+        answers = [factor.solve(weight[:, None] * field) for field in last for weight in _inertias(skin)]
+        last = _orthonormal(np.array(answers), skin.mass)
+        fields.append(last)
+    return np.concatenate(fields)
+
+
 def _inertias(skin: Skin) -> tuple[Floats, Floats]:
     """What a node's acceleration and its speed weigh, (n,) each."""
     return skin.mass, skin.damping
@@ -115,5 +130,5 @@ def _orthonormal(fields: Floats, mass: Floats) -> Floats:
     flat = flat / np.maximum(np.linalg.norm(flat, axis=1, keepdims=True), np.finfo(float).tiny)
     left, values, _ = np.linalg.svd(flat @ flat.T)
     kept = values > _SMALLEST**2 * values[0]
-    turned = (left[:, kept] / np.sqrt(values[kept])).T @ flat
-    return turned.reshape(-1, *fields.shape[1:]) / root
+    turned = ((left[:, kept] / np.sqrt(values[kept])).T @ flat).reshape(-1, *fields.shape[1:])
+    return np.asarray(turned / root)

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.interpolate import RBFInterpolator
 
 from ...arrays import Floats, Ints
+from ...errors import SolverError
 from ...progress import Progress, Work
 from .actuators import Amounts
 from .relaxation import Relaxation
@@ -57,7 +58,8 @@ class SampledPull:
     def at(self, step: int) -> Floats:
         """(n, 3) displacement at a step, metres."""
         flat = self.beyond.reshape(len(self.steps), -1)
-        return self.low_strain(step) + (self.weights[step] @ flat).reshape(self.beyond.shape[1:])
+        beyond: Floats = self.weights[step] @ flat
+        return self.low_strain(step) + beyond.reshape(self.beyond.shape[1:])
 
 
 def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[SampledPull]:
@@ -65,7 +67,7 @@ def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[Sample
 
     Raises
     ------
-    SolverError : contractions beyond what the skin can bear.
+    SolverError : contractions beyond what the skin can bear; names the step.
     """
 
     def low_strain(step: int) -> Floats:
@@ -82,7 +84,10 @@ def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[Sample
         for step in tried:
             yield Progress(1.0 - 1.0 / (1.0 + len(beyond) / (1 + places.shape[1])), TEXT)
             linear = low_strain(step)
-            added = relaxation.pulled(clip[step]) - linear
+            try:
+                added = relaxation.pulled(clip[step]) - linear
+            except SolverError as error:
+                raise SolverError(f"the motion could not be solved: {error}", frame=step) from error
             foretold = sum((w * field for w, field in zip(weights[step], beyond, strict=False)), np.zeros_like(added))
             off = max(off, float(np.linalg.norm(added - foretold, axis=1).max()))
             largest = max(largest, float(np.linalg.norm(linear, axis=1).max()))

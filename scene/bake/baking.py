@@ -140,9 +140,11 @@ def bake_motion(
     face = yield from part_of(face_steps(source), 0.02, 0.03)
     yield from part_of(face.prepare(), 0.03, 0.1)
     moving = np.empty((count, *face.vertices.shape))
-    for index, positions in enumerate(motion.positions(face, rate, drive)):
+    frames = motion.positions(face, rate, drive)
+    yield from part_of(frames.prepare(), 0.1, 0.25)
+    for index, positions in enumerate(frames):
         moving[index] = positions
-        yield Progress(0.1 + 0.7 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
+        yield Progress(0.25 + 0.55 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
     missed = yield from part_of(face.unmet_steps(motion.asked, moving), 0.8, 0.87)
     yield Progress(0.87, "Compressing the motion to shape keys")
     moving -= face.vertices

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -11,6 +11,7 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import ParameterError
 from ...mpeg4 import Cue, Liveliness, strengths
+from ...progress import Prepared
 
 if TYPE_CHECKING:
     from ...face.face import Face
@@ -24,7 +25,7 @@ class Motion(Protocol):
         """Number of frames at a frame rate."""
         ...
 
-    def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
+    def positions(self, face: Face, fps: float, drive: str) -> Prepared[Floats]:
         """Positions (V, 3) frame by frame."""
         ...
 
@@ -51,7 +52,7 @@ class CueMotion:
         """Frames to the end of the last cue."""
         return len(strengths(self.cues, fps=fps))
 
-    def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
+    def positions(self, face: Face, fps: float, drive: str) -> Prepared[Floats]:
         """The performance."""
         return face.performance(
             self.cues,
@@ -83,7 +84,7 @@ class FapMotion:
         """The stream's own frames."""
         return len(self.stream)
 
-    def positions(self, face: Face, fps: float, drive: str) -> Iterator[Floats]:
+    def positions(self, face: Face, fps: float, drive: str) -> Prepared[Floats]:
         """The stream, each frame planned by itself; see `Face.simulation`."""
         return face.simulation(self.stream, fps, drive=drive, emotions=self.emotions)
 

@@ -172,9 +172,11 @@ def bake_motion_onto(
     source, face, rig, controls = yield from _prepared(target, find_rig)
     retargeting = api.Retargeting(face, controls, symmetric=onto.symmetric)
     take = retargeting.take(frames_to_look_at(rig, count))
-    for index, positions in enumerate(motion.positions(face, rate, drive)):
+    frames = motion.positions(face, rate, drive)
+    yield from part_of(frames.prepare(), 0.7, 0.75)
+    for index, positions in enumerate(frames):
         take.add(positions)
-        yield Progress(0.7 + 0.2 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
+        yield Progress(0.75 + 0.15 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
     work = settled_values(rig, retargeting, take, fps=rate, requested=motion.asked, smooth=onto.smooth)
     found = yield from part_of(work, 0.9, 1.0)
     values = rig.channel_values(found.names, found.values)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import fields, replace
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from risorius.face.drive.over_time import stream_plans
 from risorius.face.drive.request import Drive
 from risorius.face.pose import Poser
 from risorius.face.simulate import Simulation
+from risorius.physics.elastic import Factor
 from risorius.physics.tissue import Tissue, tissue
 
 JOY = api.archetype("joy", 1)
@@ -145,13 +147,62 @@ def test_finer_steps_converge(small: Face) -> None:
     That the skin alone converges to the paper's motion is shown on a small sheet in verification/.
     """
     frames = clip_of([0.0, 0.25, 0.6, 1.0, 1.0])
-    *rough, reference = (small.simulate(frames, fps=60.0, substeps=n).positions for n in (1, 2, 4, 16))
+    *rough, reference = (
+        small.simulate(frames, fps=60.0, substeps=n, integrator="implicit").positions for n in (1, 2, 4, 16)
+    )
     motion = np.abs(reference - small.vertices).max()
     assert motion > 5e-3
     coarse, medium, fine = (np.abs(positions - reference).max() / motion for positions in rough)
     assert medium < 0.01
     assert medium < 0.35 * coarse
     assert fine < 0.4 * medium
+
+
+OVERLAPPING = [
+    api.Cue(api.expression(word), start=0.4 * i, onset=0.3, apex=0.1, offset=0.3)
+    for i, word in enumerate(("joy", "anger", "surprise"))
+]
+
+
+@pytest.mark.slow
+def test_a_few_fields_move_the_face_as_every_node_does(face: Face) -> None:
+    """Within 1 % of the largest motion at any vertex and frame, where emotions overlap and the jaw drops."""
+    quick = np.array(list(face.performance(OVERLAPPING, 25.0)))
+    reference = np.array(list(face.performance(OVERLAPPING, 25.0, integrator="implicit", substeps=8)))
+    motion = np.linalg.norm(reference - face.vertices, axis=2).max()
+    assert motion > 10e-3
+    assert np.linalg.norm(quick - reference, axis=2).max() < 0.01 * motion
+
+
+@pytest.mark.slow
+def test_equilibria_are_solved_for_few_frames_only(face: Face, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever the clock says: few solves with a factored matrix for each frame."""
+    solved: list[int] = []
+    solve = Factor.solve
+
+    def counted(factor: Factor, right: np.ndarray) -> np.ndarray:
+        if factor.shape[0] == face.anatomy.skin.vertex_count:
+            solved.append(1)
+        return solve(factor, right)
+
+    face.pose(JOY.frame())
+    monkeypatch.setattr(Factor, "solve", counted)
+    counts = {}
+    for integrator in ("reduced", "implicit"):
+        solved.clear()
+        frames = len(list(face.performance(OVERLAPPING, 50.0, integrator=integrator)))
+        counts[integrator] = len(solved) / frames
+    assert counts["implicit"] > 15.0
+    assert counts["reduced"] < 4.0
+
+
+def test_what_comes_before_the_first_frame_can_be_done_bit_by_bit(small: Face) -> None:
+    moving = small.performance(OVERLAPPING[:1], 25.0)
+    steps = list(moving.prepare())
+    assert len(steps) > 10
+    assert all(a.fraction <= b.fraction for a, b in pairwise(steps))
+    at_once = small.performance(OVERLAPPING[:1], 25.0)
+    np.testing.assert_array_equal(np.array(list(moving)), np.array(list(at_once)))
 
 
 @pytest.mark.slow
