@@ -36,6 +36,9 @@ FIELDS, WITH_ANSWERS = 12, 36
 #: The skin's stiffness is taken at so many steps, the farthest from each other.
 STIFFNESSES = 6
 
+#: How far the work of a clip is once its muscles are found, once its equilibria are solved; what is said thereafter.
+EFFORTS, SOLVED, LEFT_BEHIND = 0.2, 0.8, "Finding how the skin is left behind"
+
 #: So many places of lids and jaw, the farthest from each other, are among what these fields are made of.
 CARRIED_PLACES = 8
 
@@ -90,18 +93,18 @@ class ReducedMotion:
         efforts: list[Effort] = []
         for plan in plans:
             efforts.append(self.balance.effort(plan, before=efforts[-1] if efforts else None))
-            yield Progress(0.2 * len(efforts) / len(plans), "Finding the muscles behind the motion")
+            yield Progress(EFFORTS * len(efforts) / len(plans), "Finding the muscles behind the motion")
         amounts = [effort.amounts for effort in efforts]
-        pull = yield from part_of(sampled_pull(self.anatomy.relaxation, amounts), 0.2, 0.8)
+        pull = yield from part_of(sampled_pull(self.anatomy.relaxation, amounts), EFFORTS, SOLVED)
         places = np.array([_carried_place(self.anatomy, each) for each in amounts])
         postures: dict[int, Posture] = {}
         for step in [*pull.steps.tolist(), *farthest(places, [int(pull.steps[0])], CARRIED_PLACES)]:
             postures[step] = self.balance.reached(efforts[step], pull.at(step))
-            yield Progress(0.8, "Finding how the skin is left behind")
+            yield Progress(SOLVED, LEFT_BEHIND)
         carried = [posture.carried for posture in postures.values()]
         balances = np.array([posture.displacement for posture in postures.values()] + carried)
         fields = principal_fields(balances, FIELDS)
-        yield Progress(0.9, "Finding how the skin is left behind")
+        yield Progress(SOLVED, LEFT_BEHIND)
         if not len(fields):
             return Course(efforts, pull, None, np.empty((0, 0, 0)), np.empty((len(plans), 0)))
         reduced = ReducedSkin(

@@ -61,8 +61,10 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
         3.0,
         1.5,
     ),  # how coarse a mesh may be; averages over vertices
+    "reduced_motion.py": (0.2, 0.8),  # how far the work has come
     "response/followers.py": (1e-4, 4.0),  # a tie that keeps a matrix regular; a kernel's norm
     "response/relaxation.py": (5e-5,),  # how near a sketch comes
+    "response/sampled.py": (2e-3, 2e-5, 1e-4, 0.25),  # how near what is foretold comes; how many are tried at once
     "response/rooted.py": (0.02, 1e-3),  # ties that keep matrices regular
     "response/spring_skin.py": (3e-3,),  # when a sheet buckles
     "skin/coarse.py": (1.2, 0.1, 4.5, 0.7, 0.05, 2.4, 0.05, 1e-3),  # how skin is thinned out; weights of its vertices
