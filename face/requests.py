@@ -77,4 +77,6 @@ def checked_emotion(emotion: EmotionShares | None) -> Feeling | None:
         if not (np.isfinite(share) and share >= 0.0):
             raise ParameterError(f"emotion {name}", "must be a share of 0 or more", share)
     felt = Feeling.of(emotion)
-    return Feeling(felt, activation=felt.activation, strength=felt.strength, prototypes=felt.prototypes)
+    return Feeling(
+        felt, activation=felt.activation, strength=felt.strength, prototypes=felt.prototypes, shows=felt.shows
+    )

@@ -15,13 +15,17 @@ from ...resources import PRESETS
 from ...tables import TomlTable, read_toml
 from .archetypes import BASE_WORDS, VARIANTS
 from .profile import ARCHETYPES, Archetype
+from .prototypes import Prototype, read_prototype
 from .wheel import ACTIVATION_MAX, ACTIVATION_MIN, position
 from .words import TABLE_WORDS, LazyWords, Word
 
 EMOTION_PRESETS = PRESETS / "emotions"
 """The presets that come with Risorius."""
 
-KEYS = ("activation", "evaluation", "angle", "category", "neighbours", "variants", "neutral", "reason", "source")
+KEYS = (
+    *("activation", "evaluation", "angle", "category", "neighbours", "variants"),
+    *("shows", "neutral", "reason", "source"),
+)
 
 
 def load_emotions(paths: Iterable[str | Path] = (), *, bundled: bool = True) -> Mapping[str, Word]:
@@ -97,6 +101,7 @@ def _word(name: str, table: TomlTable) -> Word:
             category=category,
             neighbours=_neighbours(table, category, angle),
             variants=_variants(table),
+            shows=_shows(name, table, activation),
             neutral=neutral,
             reason=_text(table, "reason"),
             source=_text(table, "source") if known is None or "source" in table else known.source,
@@ -139,6 +144,15 @@ def _neighbours(
     except ParameterError as error:
         raise table.refuse(str(error), "angle") from error
     return first, second
+
+
+def _shows(name: str, table: TomlTable, activation: float | None) -> Prototype | None:
+    """The action units of a word that has some of its own."""
+    if "shows" not in table:
+        return None
+    if activation is None:
+        raise table.refuse("must not be given for a neutral word", "shows")
+    return read_prototype(table.table("shows"), name, "shows", activation)
 
 
 def _variants(table: TomlTable) -> dict[Archetype, int]:

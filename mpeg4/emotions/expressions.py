@@ -61,8 +61,12 @@ def expression(
     {'joy': 0.47, 'fear': 0.53}
     """
     numbers, ways = _numbers_and_ways(variants)
-    plain = _expression(word, activation, angle, numbers, signs, WORDS if words is None else words)
-    return _shown_as(plain, numbers, ways)
+    known = WORDS if words is None else words
+    plain = _expression(word, activation, angle, numbers, signs, known)
+    shown = _shown_as(plain, numbers, ways)
+    if word is None or shown.prototypes:
+        return shown
+    return replace(shown, shows=find_word(word, known).shows)
 
 
 def _expression(

@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -17,6 +17,9 @@ from ...arrays import Floats
 from ...errors import ParameterError
 from ..standard import FAP_COUNT, FAPS, LIP_TWINS, PAIRS
 from .wheel import check_activation, check_angle
+
+if TYPE_CHECKING:
+    from .prototypes import Prototype
 
 Range: TypeAlias = tuple[float, float]
 
@@ -78,6 +81,7 @@ class Feeling(dict[Archetype, float]):
     strength : how much of it shows, 0..1: less while it comes and goes.
     prototypes : archetype -> which of the ways of showing it (presets/prototypes.toml), or "paper": as its
         profile says and no otherwise. Others as usual.
+    shows : what a word shows that has action units of its own, instead of shares of the archetypes' prototypes.
     """
 
     def __init__(
@@ -87,11 +91,13 @@ class Feeling(dict[Archetype, float]):
         activation: float | None = None,
         strength: float = 1.0,
         prototypes: Mapping[Archetype, str] | Mapping[str, str] | None = None,
+        shows: Prototype | None = None,
     ) -> None:
         super().__init__({check_archetype(name): float(share) for name, share in shares.items()})
         self.activation = None if activation is None else check_activation(activation)
         self.strength = strength
         self.prototypes: Mapping[str, str] = {str(name): way for name, way in (prototypes or {}).items()}
+        self.shows = shows
 
     @classmethod
     def of(cls, shares: Mapping[Archetype, float] | Mapping[str, float]) -> Feeling:
@@ -118,6 +124,7 @@ class Profile:
     signs : the sign convention of the ranges. Faces and recognition expect MPEG-4's.
     prototypes : archetype -> the way in which a face shows it in the natural drive, where not the usual one; "paper" is
         as the ranges say and no otherwise.
+    shows : action units by which a face shows the word in the natural drive, where they are not its archetypes'.
 
     Raises
     ------
@@ -134,6 +141,7 @@ class Profile:
     variants: Mapping[Archetype, int] = field(default_factory=dict)
     signs: Signs = Signs.MPEG4
     prototypes: Mapping[Archetype, str] = field(default_factory=dict)
+    shows: Prototype | None = None
 
     def __post_init__(self) -> None:
         """Check and normalise every field."""
@@ -154,7 +162,7 @@ class Profile:
             "ranges": checked,
             "activation": check_activation(self.activation),
             "angle": check_angle(self.angle),
-            "weights": Feeling(weights, activation=self.activation, prototypes=self.prototypes),
+            "weights": Feeling(weights, activation=self.activation, prototypes=self.prototypes, shows=self.shows),
             "category": None if self.category is None else check_archetype(self.category),
             "variants": {check_archetype(name): int(number) for name, number in self.variants.items()},
             "signs": check_signs(self.signs),

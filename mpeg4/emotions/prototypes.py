@@ -1,6 +1,7 @@
 """What an emotion shows at an activation: amounts of action units, after the FACS prototypes.
 
-Source of the figures: presets/prototypes.toml. What an action unit does to a face is the face's matter.
+Source of the figures: presets/prototypes.toml for the archetypes, presets/emotions for words that show something of
+their own. What an action unit does to a face is the face's matter.
 """
 
 from __future__ import annotations
@@ -38,50 +39,62 @@ class Growth:
         return float(np.interp(activation, [self.start, own_activation, ACTIVATION_MAX], [0.0, self.own, self.seven]))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Prototype:
     """One way of showing an emotion.
 
     Attributes
     ----------
     emotion, name : whose it is, and what it is called: "anger", "pressed".
-    units : action unit -> how it grows. still : FAPs that stay at rest.
+    activation : the emotion's own.
+    units : action unit -> how it grows; "AU12_l" is its left half alone. still : FAPs that stay at rest.
     """
 
-    emotion: Archetype
+    emotion: str
     name: str
+    activation: float
     units: Mapping[str, Growth]
     still: tuple[int, ...] = ()
 
     def amounts(self, activation: float) -> dict[str, float]:
         """Action unit -> amount at an activation."""
-        own = BASE_WORDS[check_archetype(self.emotion)].activation
-        return {unit: growth.at(activation, own) for unit, growth in self.units.items()}
+        return {unit: growth.at(activation, self.activation) for unit, growth in self.units.items()}
 
     def vector(self, activation: float, unit_names: tuple[str, ...]) -> Floats:
         """(k,) amounts of half units at an activation."""
-        whole = self.amounts(activation)
-        return np.array([whole.get(name.partition("_")[0], 0.0) for name in unit_names])
-
-
-def _growth(entry: KeyedTable, unit: str) -> Growth:
-    """One action unit of a prototype."""
-    start, own, seven = entry.numbers(unit, 3)
-    if not 0.0 <= start < ACTIVATION_MAX or own < 0.0 or seven < 0.0:
-        raise entry.refuse(
-            "must be the activation of its beginning, from 0 below 7, and two amounts of 0 or more", unit
+        of = self.amounts(activation)
+        return np.array(
+            [of.get(name, 0.0) + of.get(name.partition("_")[0], 0.0) * ("_" in name) for name in unit_names]
         )
+
+    @property
+    def one_sided(self) -> bool:
+        """Whether it differs from left to right."""
+        return any("_" in unit for unit in self.units)
+
+
+def _growth(entry: KeyedTable, unit: str, activation: float) -> Growth:
+    """One action unit of a prototype; activation is the emotion's own."""
+    start, own, seven = map(float, entry.numbers(unit, 3))
+    if not 0.0 <= start < min(activation, ACTIVATION_MAX) or own < 0.0 or seven < 0.0:
+        rule = f"must be the activation of its beginning, from 0 below {activation:g}, and two amounts of 0 or more"
+        raise entry.refuse(rule, unit)
     return Growth(start, own, seven)
 
 
-def _prototype(emotion: Archetype, name: str, entry: KeyedTable) -> Prototype:
-    """One prototype of the table."""
-    units = {unit: _growth(entry, unit) for unit in entry if unit not in ("source", "still")}
+def read_prototype(entry: KeyedTable, emotion: str, name: str, activation: float) -> Prototype:
+    """One prototype of a table, of an emotion with its own activation.
+
+    Raises
+    ------
+    FormatError : names the file, the key and the rule.
+    """
+    units = {unit: _growth(entry, unit, activation) for unit in entry if unit not in ("source", "still")}
     still = tuple(int(number) for number in entry.numbers("still")) if "still" in entry else ()
     for number in still:
         if number not in FAPS:
             raise entry.refuse(f"names FAP {number}, which does not exist", "still")
-    return Prototype(emotion, name, units, still)
+    return Prototype(emotion, name, activation, units, still)
 
 
 @lru_cache(maxsize=4)
@@ -99,7 +112,10 @@ def load_prototypes(path: Path = TABLE) -> Mapping[Archetype, Mapping[str, Proto
     """
     table = read_toml(path)
     return {
-        emotion: {name: _prototype(emotion, name, entry) for name, entry in table.tables(emotion.value).items()}
+        emotion: {
+            name: read_prototype(entry, emotion.value, name, BASE_WORDS[emotion].activation)
+            for name, entry in table.tables(emotion.value).items()
+        }
         for emotion in ARCHETYPES
     }
 

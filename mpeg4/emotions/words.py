@@ -13,6 +13,7 @@ from ...resources import STANDARD
 from ...tables import read_csv
 from .archetypes import VARIANTS
 from .profile import Archetype, check_archetype
+from .prototypes import Prototype
 from .wheel import check_activation, check_angle
 
 
@@ -30,6 +31,7 @@ class Word:
         degree of fear). None where the word lies between archetypes.
     neighbours : the two archetypes it lies between, where they are not those of its angle.
     variants : archetype -> variant of Table 5 that shows this word best; others take the archetype's own default.
+    shows : action units by which the natural drive shows it, where they are not its archetypes'.
     neutral : True where the word is no expression at all (the neutral face).
     reason : why these figures and variants.
     source : where they are from.
@@ -42,6 +44,7 @@ class Word:
     category: Archetype | None = None
     neighbours: tuple[Archetype, Archetype] | None = None
     variants: Mapping[Archetype, int] = field(default_factory=dict)
+    shows: Prototype | None = None
     neutral: bool = False
     reason: str = ""
     source: str = ""

@@ -145,8 +145,9 @@ def _look(wanted: Wanted) -> tuple[object, ...]:
     """All of a wanted expression that a pose depends on."""
     shares = sorted((str(name), share) for name, share in wanted.profile.weights.items())
     ways = sorted((str(name), way) for name, way in wanted.profile.prototypes.items())
-    felt = round(wanted.profile.activation, 6)
-    return wanted.faps.tobytes(), wanted.drive, shares, ways, felt, sorted(wanted.contractions.items())
+    felt, own = round(wanted.profile.activation, 6), wanted.profile.shows
+    units = () if own is None else (own.still, *sorted(own.amounts(felt).items()))
+    return wanted.faps.tobytes(), wanted.drive, shares, ways, units, felt, sorted(wanted.contractions.items())
 
 
 def _resting(obj: Object) -> list[dict[str, float]]:

@@ -59,17 +59,19 @@ class Natural:
     def plan(self, request: Request) -> Plan:
         """The plan for a request; where no emotion is given, it is recognised."""
         data, spread = self.data, self._spread
+        emotion = request.emotion
         even, asymmetric = evened(request.faps)
-        faps = self._meaning.meant(even, request.emotion) if request.emotion else even
+        faps = self._meaning.meant(even, emotion) if emotion else even
         asked = ~np.isnan(faps[data.numbers - 1])
         wanted = np.nan_to_num(faps[data.numbers - 1] * data.per_fap)
         carried = carried_by_jaw(data, wanted)
         within = held(data, wanted, carried)
         doubt = doubts(data, spread, wanted, within, asked)
         limited = smiling_eyes_spared(data, within)
-        shown = Shown.by_word(request.emotion) if request.emotion else Shown.by_sight(faps)
+        shown = Shown.by_word(emotion) if emotion else Shown.by_sight(faps)
         weight = 1.0 / np.sqrt(spread**2 + doubt**2)
-        amounts = self._mixture.amounts(Weighed(limited, asked, weight, asymmetric), shown)
+        one_sided = asymmetric or (emotion is not None and emotion.shows is not None and emotion.shows.one_sided)
+        amounts = self._mixture.amounts(Weighed(limited, asked, weight, one_sided), shown)
         explained = data.units @ amounts
         trust = spread**2 / (spread**2 + doubt**2)
         goal = np.where(asked, explained + trust * (limited - explained), explained)

@@ -39,7 +39,9 @@ class Shown:
 
     @classmethod
     def by_word(cls, emotion: Feeling) -> Shown:
-        """A given word's shares."""
+        """A given word's shares; none where it has action units of its own, which no archetype's sum explains."""
+        if emotion.shows is not None:
+            return cls({}, 1.0)
         shares = {str(name): float(share) for name, share in emotion.items() if share > 0.0}
         return cls(shares, 1.0 if shares else 0.0)
 

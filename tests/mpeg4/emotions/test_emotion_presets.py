@@ -25,6 +25,15 @@ def _write(folder: Path, text: str, name: str = "mine.toml") -> Path:
     return path
 
 
+def test_the_page_of_words_names_every_word_with_its_activation() -> None:
+    page = (Path(__file__).parents[3] / "docs" / "words.md").read_text(encoding="utf-8")
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("| ")]
+    said = {name: row for row in rows[1:] for name in row[0].split(", ")}
+    assert set(said) == set(WORDS)
+    for name, word in WORDS.items():
+        assert said[name][1] == ("–" if word.neutral else f"{word.activation:.1f}")
+
+
 def test_a_users_word_joins_the_bundled_ones(tmp_path: Path) -> None:
     words = load_emotions([_write(tmp_path, GOOD)])
     assert set(words) == {*WORDS, "smug"}

@@ -43,6 +43,14 @@ def test_every_way_of_showing_an_emotion_grows_evenly(emotion: str, way: str) ->
     assert lengths.max() < MOST
 
 
+@pytest.mark.parametrize("word", [name for name, word in api.WORDS.items() if word.shows is not None])
+def test_every_word_with_units_of_its_own_grows_evenly(word: str) -> None:
+    data = NATURAL.data
+    goals = np.array([NATURAL.plan(requested(word, a)).goal[data.numbers - 1] for a in ACTIVATIONS])
+    for over_mean in steps(np.nan_to_num(goals * data.per_fap)):
+        assert LEAST < over_mean.min() <= over_mean.max() < MOST
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("emotion", list(api.ARCHETYPES))
 def test_skin_moves_evenly_further(face: Face, emotion: str) -> None:

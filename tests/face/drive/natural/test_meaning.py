@@ -87,6 +87,49 @@ def test_what_is_meant_is_continuous_in_activation_and_angle() -> None:
     assert steps(frames) < 1.5e-3
 
 
+def test_a_word_with_units_of_its_own_is_no_small_scream() -> None:
+    worried, afraid = api.expression("worried"), meant("afraid")
+    assert worried.frame()[3 - 1] > 200.0  # the paper opens the jaw
+    asked = meant("worried")
+    assert asked[3 - 1] < 30.0
+    assert asked[31 - 1] > 60.0
+    assert asked[37 - 1] > 20.0
+    assert afraid[6 - 1] > asked[6 - 1] + 60.0
+
+
+def test_contempt_raises_one_corner_and_bored_lids_hang(face: Face) -> None:
+    contempt = api.expression("contemptuous")
+    pose = face.pose(contempt.frame(), emotion=contempt.weights)
+    assert pose.achieved[12 - 1] > pose.achieved[13 - 1] + 100.0
+    bored = api.expression("bored")
+    assert face.pose(bored.frame(), emotion=bored.weights).achieved[19 - 1] > 250.0
+
+
+def test_what_is_chosen_wins_over_the_units_of_a_word() -> None:
+    assert api.expression("worried").shows is not None
+    for variants in ({"fear": 8}, 8, "drawn"):
+        assert api.expression("worried", variants=variants).shows is None  # type: ignore[arg-type]
+    printed = api.expression("worried", variants=8).frame()
+    np.testing.assert_allclose(meant("worried", variants=8), printed, rtol=1e-12)
+
+
+def test_a_word_of_ones_own_has_units_of_its_own(tmp_path: Path) -> None:
+    text = '[smug]\nactivation = 3.5\ncategory = "joy"\nreason = "half a smile"\nsource = "own"\n[smug.shows]\n'
+    file = tmp_path / "mine.toml"
+    file.write_text(text + 'source = "own"\nAU12_r = [0, 0.5, 1.0]\n')
+    smug = api.expression("smug", words=api.load_emotions([file]))
+    asked = MEANING.meant(smug.frame(), Feeling.of(smug.weights))
+    assert asked[13 - 1] > 100.0
+    assert abs(np.nan_to_num(asked[12 - 1])) < 1e-9
+    file.write_text(text + 'source = "own"\nAU99 = [0, 0.5, 1.0]\n')
+    strange = api.expression("smug", words=api.load_emotions([file]))
+    with pytest.raises(FormatError, match=r"smug.*AU99"):
+        MEANING.meant(strange.frame(), Feeling.of(strange.weights))
+    file.write_text(text + 'source = "own"\nAU12 = [4, 0.5, 1.0]\n')
+    with pytest.raises(FormatError, match=r"smug\.shows\.AU12: must be the activation .*, from 0 below 3\.5"):
+        api.load_emotions([file])
+
+
 def test_an_unknown_way_lists_those_there_are(face: Face) -> None:
     with pytest.raises(ParameterError, match="bared, pressed"):
         api.expression("anger", variants="icy")
