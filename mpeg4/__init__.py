@@ -65,7 +65,7 @@ from .streams.fap_stream import FapStream
 from .streams.fba import Decoded, decode_fba, encode_fba, read_fba, write_fba
 from .streams.filling import Filling, fill
 from .timing import Cue, Ramp, Timing, emotion_weights, envelope, load_timings, sequence, sequence_at, strengths
-from .variation import Drawn, Liveliness, Overlay, drawn_within
+from .variation import Drawn, Liveliness, Overlay, drawn_within, way_drawn
 
 __all__ = [
     "ACTION_UNITS",
@@ -159,6 +159,7 @@ __all__ = [
     "shown_strength",
     "strengths",
     "viseme_frame",
+    "way_drawn",
     "write_belief_csv",
     "write_fap",
     "write_fap_json",

@@ -18,7 +18,8 @@ from ..arrays import Floats
 from ..errors import ParameterError
 from ..resources import PRESETS
 from ..tables import TomlTable, read_toml
-from .emotions.profile import Profile
+from .emotions.profile import ARCHETYPES, Archetype, Profile
+from .emotions.prototypes import load_prototypes
 from .standard import ANGLE_UNIT, FAP_COUNT
 from .timing import Ramp
 
@@ -195,6 +196,7 @@ def drawn_within(profile: Profile, drawn: Drawn) -> Profile:
     """A profile whose ranges have shrunk to one draw inside them.
 
     An amount of 0 is their middle, 1 a draw as `Profile.frame` makes it, and between on the way from one to the other.
+    The way of showing it is drawn, too; see `way_drawn`.
 
     Raises
     ------
@@ -213,7 +215,39 @@ def drawn_within(profile: Profile, drawn: Drawn) -> Profile:
         raise ParameterError("amount of draws", "must be in 0..1", drawn.amount)
     middle, draw = profile.frame(), profile.frame(np.random.default_rng(drawn.seed))
     frame = middle + drawn.amount * (draw - middle)
-    return replace(profile, ranges={number: (float(frame[number - 1]),) * 2 for number in profile.ranges})
+    ranges = {number: (float(frame[number - 1]),) * 2 for number in profile.ranges}
+    return replace(way_drawn(profile, drawn), ranges=ranges)
+
+
+def way_drawn(profile: Profile, drawn: Drawn) -> Profile:
+    """A profile shown in one of the ways in which people show its emotions: anger with bared teeth or pressed lips.
+
+    An emotion is shown as is usual unless the draw, by chance as large as the amount, picks one of its ways, each
+    alike. What was chosen stays: a way, a variant of Table 5, a word's own action units.
+
+    Returns
+    -------
+    The profile, whose `prototypes` name what was drawn, where there was a choice.
+
+    Examples
+    --------
+    >>> anger = api.expression("anger")
+    >>> {api.way_drawn(anger, api.Drawn(1.0, seed)).prototypes["anger"] for seed in range(9)} == {"bared", "pressed"}
+    True
+    >>> api.way_drawn(api.expression("anger", variants="pressed"), api.Drawn(1.0, 2)).prototypes["anger"]
+    'pressed'
+    """
+    if profile.shows is not None:
+        return profile
+    ways = {emotion: list(load_prototypes()[emotion]) for emotion in profile.weights}
+    open_to_choice = {emotion for emotion, names in ways.items() if len(names) > 1} - set(profile.prototypes)
+    shown: dict[Archetype, str] = dict(profile.prototypes)
+    for number, emotion in enumerate(ARCHETYPES):
+        if emotion in open_to_choice:
+            chance, place = np.random.default_rng((drawn.seed, number)).random(2)
+            names = ways[emotion]
+            shown[emotion] = names[int(place * len(names))] if chance < drawn.amount else names[0]
+    return replace(profile, prototypes=shown)
 
 
 def blink_closure(count: int, fps: float, blinks: Drawn, habit: BlinkHabit) -> Floats:

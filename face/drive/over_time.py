@@ -9,7 +9,18 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ParameterError
-from ...mpeg4 import ARCHETYPES, FAP_COUNT, Cue, Feeling, Liveliness, Overlay, sequence, strengths
+from ...mpeg4 import (
+    ARCHETYPES,
+    FAP_COUNT,
+    Cue,
+    Drawn,
+    Feeling,
+    Liveliness,
+    Overlay,
+    sequence,
+    strengths,
+    way_drawn,
+)
 from .drives import DRIVES
 from .natural.planning import LID_FAPS
 from .plan import Plan, blended
@@ -35,9 +46,10 @@ def cue_plans(
 ) -> Iterator[Plan]:
     """Plans of cues, one for each step of 1/fps seconds.
 
-    In the natural drive each cue is planned once at its apex, and the plans are blended by the cues' strengths. So what
-    a face adds by itself to one expression is not contradicted by FAPs that another cue asks for. Contractions set by
-    hand, one set per cue, come and go with it. Blinks and small motions of head and eyes are laid over all that.
+    In the natural drive each cue is planned once at its apex, and the plans are blended by the cues' strengths. So
+    what a face adds by itself to one expression is not contradicted by FAPs that another cue asks for. A cue with a
+    seed draws the way in which its emotion is shown, where none was chosen. Contractions set by hand, one set per cue,
+    come and go with it. Blinks and small motions of head and eyes are laid over all that.
 
     Raises
     ------
@@ -48,7 +60,7 @@ def cue_plans(
         raise ParameterError("contractions", f"must be one set for each of the {len(cues)} cues", len(hands))
     stream = sequence(cues, fps=fps)
     overlay = (liveliness or Liveliness()).over(len(stream), fps)
-    apexes = [Request(cue.profile.frame(cue.seed), drive, Feeling.of(cue.profile.weights)) for cue in cues]
+    apexes = [Request(cue.profile.frame(cue.seed), drive, _felt(cue)) for cue in cues]
     plans = [DRIVES[drive].plan(apex) for apex in apexes] if drive is Drive.NATURAL else []
     for step, (faps, weights) in enumerate(zip(stream, strengths(cues, fps=fps), strict=True)):
         shares = (weights / max(1.0, weights.sum())).tolist()
@@ -58,6 +70,12 @@ def cue_plans(
             yield _laid_over(blended(request, plans, weights.tolist()), overlay, step)
         else:
             yield DRIVES[drive].plan(request)
+
+
+def _felt(cue: Cue) -> Feeling:
+    """What a cue shows, in the way that its seed draws."""
+    profile = cue.profile if cue.seed is None else way_drawn(cue.profile, Drawn(1.0, cue.seed))
+    return Feeling.of(profile.weights)
 
 
 def _laid_over(plan: Plan, overlay: Overlay, step: int) -> Plan:

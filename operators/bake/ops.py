@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
@@ -22,7 +22,8 @@ from ..annotated import Annotated
 from ..base import RisoriusOperator, WorkOperator
 from ..blender_classes import Operator
 from ..blender_types import Context, Object
-from ..emotion.performance import performance_of
+from ..emotion.performance import drawn_ways, performance_of
+from ..emotion.profile import Wanted, title_of, wanted_of
 from ..points.first import with_points
 from ..points.look import turn_to_face
 from ..points.show import show_finding
@@ -64,11 +65,18 @@ class BakeOperator(WorkOperator[bake.BakeResult | Finding]):
         if not bpy.app.background:
             context.scene.frame_set(int(performance_of(active_object(context), context.scene).apex()) + 1)
 
+    def expressions(self, context: Context) -> Iterable[tuple[str, Wanted]]:
+        """What is baked, by its title."""
+        performance = performance_of(active_object(context), context.scene)
+        return zip(performance.titles, performance.wanted, strict=True)
+
     def finish(self, context: Context, result: bake.BakeResult | Finding) -> str:
         """Name what was written, and remark on what the user should know."""
         if isinstance(result, Finding):
             return show_finding(self, context, result)
         tell(self, active_object(context), [result])
+        for line in drawn_ways(self.expressions(context)):
+            self.report({"INFO"}, line)
         self.show_apex(context)
         if self._is_new:
             turn_to_face(context, read_kept(active_object(context)))
@@ -95,6 +103,11 @@ class RISORIUS_OT_bake_expression(BakeOperator, Operator):
         if not bpy.app.background:
             timing = timing_of(active_object(context), context.scene)
             context.scene.frame_set(int(timing.start + timing.onset * timing.fps) + 1)
+
+    def expressions(self, context: Context) -> Iterable[tuple[str, Wanted]]:
+        """The chosen emotion, whatever the timeline holds."""
+        obj = active_object(context)
+        return [(title_of(obj.risorius.emotion), wanted_of(obj))]
 
     def baking(self, context: Context) -> Work[bake.BakeResult]:
         """Pose the face and write its shape."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -13,7 +14,7 @@ from ..blender_types import Object, Scene
 from ..timeline.bars import Timed
 from ..timeline.props import RISORIUS_PG_variation, playing_clips
 from ..timeline.titles import clip_title
-from .profile import Wanted, title_of, wanted_of
+from .profile import Wanted, title_of, wanted_of, ways_between
 from .props import RISORIUS_PG_emotion
 
 #: Between the seeds of one clip and the next, so that clips of one emotion differ.
@@ -115,7 +116,17 @@ def _drawn(obj: Object, emotion: RISORIUS_PG_emotion, number: int) -> Wanted:
     if variation.draws == 0.0 or emotion.seed:
         return wanted
     profile = drawn_within(wanted.profile, Drawn(variation.draws, variation.draws_seed + _NEXT_SEED * number))
-    return replace(wanted, profile=profile, faps=profile.frame())
+    return replace(wanted, profile=profile, faps=profile.frame(), drawn=ways_between(wanted.profile, profile))
+
+
+def drawn_ways(shown: Iterable[tuple[str, Wanted]]) -> tuple[str, ...]:
+    """What seeds drew of the ways in which titled expressions show their emotions, in words."""
+    return tuple(
+        f"{title}: {emotion} is shown {way}, drawn by its seed"
+        for title, wanted in shown
+        if wanted.drive == "natural"
+        for emotion, way in wanted.drawn.items()
+    )
 
 
 def _told_apart(titles: list[str]) -> tuple[str, ...]:

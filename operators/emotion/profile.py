@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...arrays import Floats
+from ...mpeg4 import Drawn, way_drawn
 from ..blender_types import Object
 from ..muscles.props import by_hand_of
 from .props import DEFAULT_VARIANT, RISORIUS_PG_emotion
@@ -25,21 +26,29 @@ class Wanted:
     Attributes
     ----------
     profile : of the emotion. faps : (68,) FAPs drawn from it, NaN where it is silent. drive : see `api.Drive`.
-    contractions : muscle name -> 0..1, those set by hand.
+    contractions : muscle name -> 0..1, those set by hand. drawn : archetype -> way of showing it that a seed drew.
     """
 
     profile: Profile
     faps: Floats
     drive: str
     contractions: Mapping[str, float] = field(default_factory=dict)
+    drawn: Mapping[str, str] = field(default_factory=dict)
 
 
 def wanted_of(obj: Object, emotion: RISORIUS_PG_emotion | None = None) -> Wanted:
     """What is chosen for `obj` now, or an emotion (of a clip) shown as all that is chosen for `obj` besides it."""
     chosen = obj.risorius.emotion
     shown = chosen if emotion is None else emotion
-    profile = profile_of(shown)
-    return Wanted(profile, frame_of(profile, shown.seed), chosen.drive, by_hand_of(obj))
+    plain = profile_of(shown)
+    profile = way_drawn(plain, Drawn(1.0, shown.seed)) if shown.seed else plain
+    drawn = ways_between(plain, profile)
+    return Wanted(profile, frame_of(profile, shown.seed), chosen.drive, by_hand_of(obj), drawn)
+
+
+def ways_between(chosen: Profile, profile: Profile) -> dict[str, str]:
+    """Archetype -> way of showing it that was not chosen."""
+    return {str(name): way for name, way in profile.prototypes.items() if name not in chosen.prototypes}
 
 
 def profile_of(emotion: RISORIUS_PG_emotion) -> Profile:

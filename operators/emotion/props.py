@@ -184,7 +184,7 @@ class RISORIUS_PG_emotion(PropertyGroup):
         IntProperty(
             name="Seed",
             description="Random seed of the expression. 0 is the typical face; any other number draws a "
-            "different face within the emotion's ranges",
+            "different face within the emotion's ranges, and the way of showing it unless a variant is chosen",
             default=0,
             min=0,
             update=changed,

@@ -109,7 +109,7 @@ class RISORIUS_PG_variation(PropertyGroup):
         _amount(
             "Expressions",
             "How far each expression differs from the typical one: 0 not at all, 1 anywhere within the "
-            "emotion's ranges. Clips with their own seed keep it",
+            "emotion's ranges, in any of the ways people show it. Clips with their own seed keep it",
             1.0,
             update=retimed,
         ),

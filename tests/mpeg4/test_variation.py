@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from risorius.errors import FormatError, ParameterError
-from risorius.mpeg4 import expression
+from risorius.mpeg4 import expression, load_prototypes
 from risorius.mpeg4.variation import (
     HABITS,
     Drawn,
@@ -18,6 +18,7 @@ from risorius.mpeg4.variation import (
     eye_motion,
     head_motion,
     load_habits,
+    way_drawn,
 )
 
 ALL = Liveliness(blinks=Drawn(20.0, 3), head=Drawn(1.0, 4), eyes=Drawn(1.0, 5))
@@ -44,6 +45,24 @@ def test_draws_stay_inside_the_ranges_and_go_from_the_middle_to_the_draw() -> No
     assert np.nanmax(np.abs(frames[2] - frames[0])) > 10.0
     with pytest.raises(ParameterError, match=r"0\.\.1"):
         drawn_within(profile, Drawn(1.1, 1))
+
+
+def test_the_way_of_showing_an_emotion_is_drawn_unless_one_was_chosen() -> None:
+    anger = expression("anger")
+    drawn = [drawn_within(anger, Drawn(1.0, seed)).prototypes["anger"] for seed in range(200)]
+    assert 60 < drawn.count("pressed") < 140
+    assert drawn == [way_drawn(anger, Drawn(1.0, seed)).prototypes["anger"] for seed in range(200)]
+    seldom = [drawn_within(anger, Drawn(0.2, seed)).prototypes["anger"] for seed in range(200)]
+    assert 5 < seldom.count("pressed") < 40
+    assert drawn_within(anger, Drawn(0.0, 1)).prototypes["anger"] == "bared"
+    for variant in ("pressed", 2):
+        chosen = expression("anger", variants=variant)
+        assert all(way_drawn(chosen, Drawn(1.0, seed)) == chosen for seed in range(9))
+    assert way_drawn(expression("bored"), Drawn(1.0, 1)).shows is not None  # has its own units
+    for emotion, ways in load_prototypes().items():
+        assert (len(ways) > 1) == (emotion in way_drawn(expression(emotion), Drawn(1.0, 1)).prototypes)
+    between = expression(angle=250.0, activation=5.0)
+    assert set(way_drawn(between, Drawn(1.0, 1)).prototypes) <= set(between.weights)
 
 
 def test_blinks_come_at_the_rate_asked_for_at_log_normal_intervals() -> None:

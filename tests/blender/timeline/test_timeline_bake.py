@@ -11,7 +11,8 @@ import risorius.api as api
 from risorius.errors import SolverError
 from risorius.face.face import Face
 from risorius.operators.bake.settings import stale_clips
-from risorius.operators.emotion.performance import performance_of
+from risorius.operators.emotion.performance import drawn_ways, performance_of
+from risorius.operators.emotion.profile import Wanted
 from risorius.operators.preview.live import object_of
 from risorius.scene.bake import shape_keys
 from risorius.scene.bake.notes import BakeKind
@@ -167,6 +168,26 @@ def test_draws_differ_between_clips_of_one_word_and_follow_the_seed(head: Any) -
     assert np.nanmax(np.abs(first[0] - drawn()[0])) > 5.0
     for wanted, cue in zip(drawn(), performance_of(head, bpy.context.scene).cues, strict=True):
         np.testing.assert_array_equal(wanted, cue.profile.frame())
+
+
+def test_the_way_of_showing_an_emotion_is_drawn_and_said(head: Any) -> None:
+    for start in (1, 30, 60, 90, 120, 150):
+        clip(head, "anger", start)
+    head.risorius.timeline.clips[0].emotion.variant = "pressed"
+    head.risorius.timeline.variation.draws = 1.0
+
+    def shown() -> list[tuple[str, Wanted]]:
+        performance = performance_of(head, bpy.context.scene)
+        return list(zip(performance.titles, performance.wanted, strict=True))
+
+    ways = [wanted.profile.prototypes["anger"] for _, wanted in shown()]
+    assert ways[0] == "pressed"
+    assert set(ways[1:]) == {"bared", "pressed"}
+    said = drawn_ways(shown())
+    assert len(said) == len(ways) - 1  # the first was chosen
+    assert said[0] == f"{shown()[1][0]}: anger is shown {ways[1]}, drawn by its seed"
+    head.risorius.emotion.drive = "exact"
+    assert drawn_ways(shown()) == ()
 
 
 def test_muted_clips_grey_the_bakes_with_a_reason(head: Any) -> None:
