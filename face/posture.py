@@ -16,6 +16,7 @@ from ..arrays import Floats
 from .anatomy import Anatomy
 from .bodies.contact import lip_share
 from .bodies.surroundings import Surroundings
+from .drive.belief import Belief
 from .drive.by_hand import set_by_hand
 from .drive.drives import DRIVES, Correction
 from .drive.held_together import held_reasons, held_together
@@ -69,11 +70,17 @@ class Posture:
 
 @dataclass(frozen=True, eq=False)
 class Effort:
-    """A plan, what it wants of the points of a face, and the amounts that explain it."""
+    """A plan, what it wants of the points of a face, the amounts that explain it, and what of their motion is a guess.
+
+    Attributes
+    ----------
+    guessed : (n, 3) the part of the muscles' motion that is not believed (`Belief`), metres; 0.0: none.
+    """
 
     plan: Plan
     targets: Targets
     amounts: Amounts
+    guessed: Floats | float = 0.0
 
 
 class Balance:
@@ -105,12 +112,15 @@ class Balance:
             and plan.request.by_hand == before.plan.request.by_hand == ()
             and targets.same(before.targets)
         ):
-            return Effort(plan, before.targets, before.amounts)
+            return replace(before, plan=plan)
         found = anatomy.inverse.solve(targets) if rules.muscles else anatomy.actuators.none()
         amounts = set_by_hand(anatomy.actuators, found, plan.request.by_hand)
+        guessed: Floats | float = 0.0
+        if rules.muscles and self._rounds(rules.correction):
+            guessed = self.belief.guessed(found, amounts, targets)
         if plan.request.by_hand and rules.correction is Correction.CONTACT:
             targets = self._moved_by_hand(targets, found, amounts)
-        return Effort(plan, targets, amounts)
+        return Effort(plan, targets, amounts, guessed)
 
     def reached(self, effort: Effort, pulled: Floats) -> Posture:
         """The posture of an effort whose muscles pull the skin so (n, 3), metres."""
@@ -120,7 +130,7 @@ class Balance:
         posture = Posture(
             amounts,
             carried,
-            elastic=pulled,
+            elastic=pulled - effort.guessed,
             pushed=np.zeros_like(carried),
             surroundings=Surroundings(amounts.jaw, looks),
             lip_share=lip_share(plan.evened),
@@ -145,7 +155,7 @@ class Balance:
         inverse, contact = self.anatomy.inverse, self.anatomy.contact
         at, share = posture.surroundings, posture.lip_share
         wanted = np.where(targets.corrected, targets.displacements, np.nan)
-        rounds = ROUNDS[correction] if Mechanism.CORRECTION in self.anatomy.mechanisms else 0
+        rounds = self._rounds(correction)
         free = posture.carried + posture.elastic
         shown = contact.settle(free, share, at)
         elastic, pushed = posture.elastic, shown - free
@@ -158,6 +168,15 @@ class Balance:
                 shown = contact.settle(free, share, at)
             pushed = pushed + (shown - free)
         return replace(posture, elastic=elastic, pushed=pushed)
+
+    def _rounds(self, correction: Correction) -> int:
+        """How often the skin is corrected."""
+        return ROUNDS[correction] if Mechanism.CORRECTION in self.anatomy.mechanisms else 0
+
+    @cached_property
+    def belief(self) -> Belief:
+        """How far this face's muscles are believed."""
+        return Belief(self.anatomy.inverse)
 
     @cached_property
     def _near_points(self) -> Floats:

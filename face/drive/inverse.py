@@ -97,6 +97,10 @@ class Inverse:
         """(m, k) responses about the closed jaw."""
         return self.actuators.responses(self.matrix)
 
+    def muscles_on_rows(self, amounts: Amounts) -> Floats:
+        """(m,) metres by which the muscles of amounts move the rows, low strain."""
+        return np.asarray(self._still[:, : len(amounts.muscles)] @ amounts.muscles)
+
     @cached_property
     def _weighing(self) -> Floats:
         """(m, m) compliance with a stiff chin and a loose tip of the nose, scaled to a mean of 1."""

@@ -8,15 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Bools, Floats
-from ..figures import Length, read_figures
+from ..figures import Length, Share, read_figures
 from ..mesh.fap_rows import FapRows
 from ..response.actuators import JAW
 from .filled import filled
 from .lip_middles import lip_middles
+from .natural.ranges import possible_shares
+from .natural.synergies import load_synergies
 from .plan import Plan
 
 #: The middle of the inner lower lip and its sides.
 INNER_LOWER_LIP_FAPS = (5, 10, 11)
+BROW_FAPS = range(31, 39)
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,8 @@ class ExactFigures:
 
     filled: Length
     carried: Length
+    beyond: float
+    brow: Share
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,7 @@ class JawFigures:
     opening_silent: Length
     slide_asked: Length
     slide_silent: Length
+    times: float
 
 
 NATURAL = read_figures("targets.natural", NaturalFigures)
@@ -63,6 +69,7 @@ class Targets:
         are for muscles, lids and jaw alone.
     carried : (m,) rows that only say where muscles move them relative to the jaw.
     muscles : muscle name (with side) -> amount in metres that is expected of it.
+    believed : (m,) how far muscles are believed about each row at most, 0..1 (`belief`).
     opening, slide : usual size of the jaw's opening (at the chin) and of its slides, metres.
     """
 
@@ -71,12 +78,13 @@ class Targets:
     corrected: Bools
     carried: Bools
     muscles: Mapping[str, float]
+    believed: Floats
     opening: float
     slide: float
 
     def same(self, other: Targets) -> bool:
         """Whether others want exactly the same."""
-        mine, theirs = ((t.displacements, t.doubts, t.corrected, t.carried) for t in (self, other))
+        mine, theirs = ((t.displacements, t.doubts, t.corrected, t.carried, t.believed) for t in (self, other))
         alike = all(np.array_equal(a, b, equal_nan=a.dtype.kind == "f") for a, b in zip(mine, theirs, strict=True))
         usual = (self.muscles, self.opening, self.slide) == (other.muscles, other.opening, other.slide)
         return alike and usual
@@ -96,6 +104,7 @@ def natural_targets(rows: FapRows, plan: Plan) -> Targets:
         corrected=np.ones(len(rows), dtype=bool),
         carried=np.zeros(len(rows), dtype=bool),
         muscles=plan.muscles,
+        believed=np.ones(len(rows)),
         opening=JAW.usual_opening,
         slide=USUAL.slide_asked if _asks(plan.meant, 14, 15) else USUAL.slide_silent,
     )
@@ -115,9 +124,26 @@ def exact_targets(rows: FapRows, plan: Plan) -> Targets:
         corrected=~silent | rows.unnamed,
         carried=carried,
         muscles={},
+        believed=np.where(silent, 1.0, _believed(rows, faps)),
         opening=USUAL.opening_asked if _asks(faps, 3) else USUAL.opening_silent,
-        slide=USUAL.slide_asked if _asks(faps, 14, 15) else USUAL.slide_silent,
+        slide=_usual_slide(rows, faps),
     )
+
+
+def _believed(rows: FapRows, faps: Floats) -> Floats:
+    """(m,) how far muscles are believed that FAPs (68,) ask something of, 0..1.
+
+    They are less where more is asked than anatomy allows, and at the brows, of which FAPs tell little but the height.
+    """
+    possible = possible_shares(load_synergies(), faps)[rows.numbers - 1] ** EXACT.beyond
+    return np.where(np.isin(rows.numbers, list(BROW_FAPS)), EXACT.brow * possible, possible)
+
+
+def _usual_slide(rows: FapRows, faps: Floats) -> float:
+    """Usual slide of the jaw, metres: some times what FAPs (68,) ask, so that a jaw that is to stay is left alone."""
+    known = np.isin(rows.numbers, (14, 15))
+    asked = float(np.abs(np.nan_to_num(rows.select(faps)[known])).max(initial=0.0))
+    return float(np.clip(USUAL.times * asked, USUAL.slide_silent, USUAL.slide_asked))
 
 
 def _asks(faps: Floats, *numbers: int) -> bool:

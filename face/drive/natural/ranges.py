@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ....arrays import Floats
+from ....mpeg4 import FAP_COUNT
 from .synergies import JAW, JAW_FAP, Synergies
 
 #: Left and right corner of the mouth, drawn outwards: inner lip, outer lip.
@@ -38,6 +39,22 @@ def held(data: Synergies, asked: Floats, carried: Floats) -> Floats:
     Ranges are of what each part does by itself: what the jaw carries along, and what both corners of a mouth that is
     drawn to one side have in common, is not held back.
     """
+    free = _free(data, asked, carried)
+    return free + saturate(asked - free, data.low, data.high, data.low_linear, data.high_linear)
+
+
+def possible_shares(data: Synergies, faps: Floats) -> Floats:
+    """(68,) share of each request that lies within its anatomical range, 0..1; 1 where a FAP is silent or has none."""
+    asked = np.nan_to_num(faps[data.numbers - 1] * data.per_fap)
+    own = asked - _free(data, asked, carried_by_jaw(data, asked))
+    limit = np.where(own < 0.0, -data.low, data.high)
+    shares = np.ones(FAP_COUNT)
+    shares[data.numbers - 1] = limit / np.maximum(np.abs(own), limit)
+    return shares
+
+
+def _free(data: Synergies, asked: Floats, carried: Floats) -> Floats:
+    """(m,) metres of requests that no range holds: what goes with the jaw, or with a mouth that is drawn aside."""
     free = np.where(asked * carried > 0.0, np.sign(asked) * np.minimum(np.abs(asked), np.abs(carried)), 0.0)
     for pair in CORNERS:
         left, right = (data.row_of[number] for number in pair)
@@ -46,4 +63,4 @@ def held(data: Synergies, asked: Floats, carried: Floats) -> Floats:
             aside = np.sign(one) * min(abs(one), abs(other))
             free[left] += aside
             free[right] -= aside
-    return free + saturate(asked - free, data.low, data.high, data.low_linear, data.high_linear)
+    return free
