@@ -62,6 +62,7 @@ class Shading(Protocol):
     curvature_valley_factor: float
     show_shadows: bool
     show_specular_highlight: bool
+    studio_light: str
 
 
 class Display(Protocol):

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ...arrays import Floats
+from ...mpeg4 import Liveliness
 from ..bake.performance import FIRST_FRAME
 from ..bake.timing import scene_fps
 from ..blender_types import Object
@@ -26,15 +27,29 @@ if TYPE_CHECKING:
     from ...api import Cue
 
 
-def apex_frame(cue: Cue, fps: float, first: int = FIRST_FRAME) -> int:
-    """The frame at the end of a cue's apex, when the face has settled; the motion begins at frame `first`."""
-    return first + int(np.floor((cue.start + cue.onset + cue.apex) * fps))
+def apex_frame(cue: Cue, fps: float, first: int = FIRST_FRAME, closure: Floats | None = None) -> int:
+    """The frame at the end of a cue's apex, when the face has settled; the motion begins at frame `first`.
+
+    `closure` (T,): how far blinks close the lids; the last frame of the apex without one is taken, if there is any.
+    """
+    begin, end = (int(np.floor(seconds * fps)) for seconds in (cue.start + cue.onset, cue.start + cue.onset + cue.apex))
+    if closure is not None:
+        open_eyed = np.flatnonzero(closure[begin : end + 1] == 0.0)
+        end = begin + int(open_eyed[-1]) if len(open_eyed) else end
+    return first + end
 
 
-def write_apexes(shown: Sequence[Object], cues: Sequence[Cue], look: Look, path: Path) -> None:
-    """Picture each cue's apex on objects, the head first, with what was asked against what the baked face shows."""
+def write_apexes(
+    shown: Sequence[Object], cues: Sequence[Cue], look: Look, path: Path, liveliness: Liveliness | None = None
+) -> None:
+    """Picture each cue's apex on objects, the head first, with what was asked against what the baked face shows.
+
+    `liveliness`: what the face did besides; its blinks are kept out of the pictures.
+    """
     first, fps = bpy.context.scene.frame_start, scene_fps()
-    frames = [apex_frame(cue, fps, first) for cue in cues]
+    count = int(np.ceil(max(cue.start + cue.duration for cue in cues) * fps)) + 1
+    closure = (liveliness or Liveliness()).over(count, fps).closure
+    frames = [apex_frame(cue, fps, first, closure) for cue in cues]
     framing = framing_of(shown[0])
     with tempfile.TemporaryDirectory(prefix="risorius-") as name:
         pictures = []

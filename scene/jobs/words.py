@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import ParameterError
+from ...mpeg4 import Drawn, Liveliness
+from ...mpeg4.variation import load_habits
 from ...progress import Progress, Report, Work, part_of, run
 from ..bake.motion import CueMotion
 from ..bake.performance import ARCHETYPES, PAUSE, cues_of
@@ -26,6 +28,8 @@ if TYPE_CHECKING:
 
 #: Pixels of a picture on the contact sheet.
 SHEET_SIZE = 640
+#: What the demo's face does besides its expressions: blinks, small motions of head and eyes, as usual at rest.
+ALIVE = Liveliness(blinks=Drawn(load_habits().blink.rate, seed=4), head=Drawn(1.0, seed=4), eyes=Drawn(1.0, seed=4))
 #: Puts the face of a job into a file.
 Load = Callable[[], Work[Subject]]
 
@@ -104,6 +108,8 @@ def demo(
 ) -> Made:
     """One film of all words with onset, apex and offset, the .blend it is from, and a contact sheet of the apexes.
 
+    The face blinks, looks about and moves its head a little; the contact sheet shows no blink.
+
     Parameters
     ----------
     out_dir : folder for risorius.mp4, risorius.blend and risorius.png; made where missing.
@@ -136,13 +142,21 @@ def _begin(outputs: Sequence[Path], load: Load) -> Work[Subject]:
     return (yield from part_of(load(), 0.0, 0.05))
 
 
-def _move(face: Subject, cues: Sequence[Cue], destination: Destination, creases: bool | None) -> Work[Baked]:
+def _move(
+    face: Subject,
+    cues: Sequence[Cue],
+    destination: Destination,
+    creases: bool | None,
+    liveliness: Liveliness | None = None,
+) -> Work[Baked]:
     """Simulate all cues as one motion, from the scene's first frame on."""
     from ... import api
 
     end = max(cue.start + cue.duration for cue in cues)
     rest = api.Cue(api.expression("neutral"), start=end, onset=0.0, apex=PAUSE, offset=0.0)
-    return (yield from destination.motion(face, CueMotion([*cues, rest]), "performance", creases))
+    return (
+        yield from destination.motion(face, CueMotion([*cues, rest], liveliness=liveliness), "performance", creases)
+    )
 
 
 def _bake_file(
@@ -202,10 +216,10 @@ def _demo(out: Path, load: Load, cues: Sequence[Cue], look: Look, creases: bool 
     """See `demo`."""
     blend, movie, sheet = (out / f"risorius.{suffix}" for suffix in ("blend", "mp4", "png"))
     face = yield from _begin([blend, movie, sheet], load)
-    baked = yield from part_of(_move(face, cues, NEW_KEYS, creases), 0.05, 0.35)
+    baked = yield from part_of(_move(face, cues, NEW_KEYS, creases, ALIVE), 0.05, 0.35)
     rendered = yield from part_of(_filming(face, baked, movie, look), 0.35, 0.9)
     yield Progress(0.91, "Composing the contact sheet")
-    write_apexes(face.shown(), cues, replace(look, width=SHEET_SIZE, height=SHEET_SIZE, fine=True), sheet)
+    write_apexes(face.shown(), cues, replace(look, width=SHEET_SIZE, height=SHEET_SIZE, fine=True), sheet, ALIVE)
     yield Progress(0.99, "Saving the .blend")
     made = save_baked(blend, face, baked, look)
     remarks = tuple(dict.fromkeys(made.remarks + rendered.remarks))

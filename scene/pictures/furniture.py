@@ -17,8 +17,8 @@ from .look import Look, apply_look
 
 #: How much of the background's light falls on the face.
 AMBIENT = 0.35
-#: How much of the framing's height a picture shows; 1 is head and neck with air around them.
-CLOSENESS = 0.93
+#: How much of the framing's height a picture shows: 1 is head and neck with air around them, this is the face.
+CLOSENESS = 0.85
 
 
 @dataclass(frozen=True)
@@ -86,9 +86,9 @@ def _lights(scene: Scene, framing: Framing) -> list[Object]:
     """Key, fill and rim light for EEVEE and Cycles; Workbench has its own."""
     made = []
     for name, place, size, power in (
-        ("Key", (1.1, 0.9, 1.6), 0.9, 26.0),
-        ("Fill", (-1.5, 0.1, 1.3), 1.5, 8.0),
-        ("Rim", (-0.9, 1.1, -1.3), 0.7, 12.0),
+        ("Key", (0.75, 1.25, 1.35), 0.5, 32.0),
+        ("Fill", (-1.3, 0.2, 1.5), 1.2, 6.0),
+        ("Rim", (-0.9, 1.1, -1.3), 0.7, 6.0),
     ):
         data = bpy.data.lights.new(f"Risorius {name}", "AREA")
         data.size = size * framing.height

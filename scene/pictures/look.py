@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -9,8 +10,10 @@ from ...errors import ParameterError, SceneError
 from ..blender_types import Scene
 from .gpu_probe import REMEDY, can_draw
 
-#: Stops by which Workbench's studio light is too dark for skin.
-EXPOSURE = 0.45
+#: The light of Workbench: from one side with a dim one from the other, so that folds, nose and brows stand out.
+STUDIO_LIGHT = "studio.sl"
+#: Stops by which it is too dark for skin.
+EXPOSURE = 0.85
 
 
 class Engine(StrEnum):
@@ -46,7 +49,7 @@ class Look:
     width: int = 512
     height: int = 512
     yaw: float = 0.17
-    background: tuple[float, float, float] = (0.42, 0.45, 0.48)
+    background: tuple[float, float, float] = (0.17, 0.18, 0.195)
     camera: Camera = Camera.FACE
     fine: bool = False
 
@@ -84,6 +87,8 @@ def apply_look(scene: Scene, look: Look) -> None:
     scene.display.render_aa = "16" if look.fine else "5"
     shading = scene.display.shading
     shading.light, shading.color_type = "STUDIO", "MATERIAL"
+    with suppress(TypeError):  # a user may have taken it away: Blender's own default stays
+        shading.studio_light = STUDIO_LIGHT
     shading.show_cavity, shading.cavity_type = True, "BOTH" if look.fine else "SCREEN"
     shading.cavity_ridge_factor, shading.cavity_valley_factor = 0.4, 1.0
     shading.curvature_ridge_factor, shading.curvature_valley_factor = 0.2, 0.7

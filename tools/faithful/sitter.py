@@ -26,7 +26,7 @@ from risorius.scene.points.stored import store_points
 from .heads import lash_vertices
 
 #: The face fills the picture: of the height that a portrait shows, this much, about a centre so much lower and deeper.
-CLOSENESS, LOWER, DEEPER = 0.76, 0.045, 0.14
+CLOSENESS, LOWER, DEEPER = 0.8315, 0.045, 0.14
 
 _COLOUR = "faithful"
 

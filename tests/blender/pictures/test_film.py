@@ -14,10 +14,12 @@ from risorius.progress import run
 from risorius.scene import mesh as meshes
 from risorius.scene.bake import shape_keys
 from risorius.scene.pictures import film, gpu_probe
+from risorius.scene.pictures import look as look_module
 from risorius.scene.pictures.contact_sheet import Exhibit, write_sheet
 from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.lettering import Text, read_picture, write_picture, write_text
 from risorius.scene.pictures.look import Camera, Engine, Look, usable_engine
+from risorius.scene.pictures.studio import studio
 
 SMALL = Look(width=96, height=96)
 
@@ -40,6 +42,15 @@ def nodding(head: Any) -> Any:
         block.value = value
         block.keyframe_insert("value", frame=frame)
     return head
+
+
+def test_workbench_lights_from_one_side_or_as_blender_does(nodding: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    framing = framing_of(nodding)
+    with studio([nodding], framing, SMALL) as scene:
+        assert scene.display.shading.studio_light == "studio.sl"
+    monkeypatch.setattr(look_module, "STUDIO_LIGHT", "taken away.sl")
+    with studio([nodding], framing, SMALL) as scene:
+        assert scene.display.shading.studio_light == "Default"
 
 
 @pytest.mark.smoke

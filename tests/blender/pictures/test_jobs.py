@@ -95,6 +95,39 @@ def test_the_demo_leaves_film_file_and_sheet(tmp_path: Path) -> None:
     assert fractions == sorted(fractions)
 
 
+def test_a_contact_sheet_keeps_clear_of_blinks() -> None:
+    (cue,) = cues_of(["joy"])
+    end = apex_frame(cue, 25.0)
+    closure = np.zeros(80)
+    assert apex_frame(cue, 25.0, closure=closure) == end
+    closure[end - 4 :] = 0.5  # frames count from 1: the last with open eyes is the fourth before the end
+    assert apex_frame(cue, 25.0, closure=closure) == end - 4
+    assert apex_frame(cue, 25.0, closure=np.ones(80)) == end
+
+
+@pytest.mark.slow
+def test_the_demos_face_blinks_looks_about_and_is_never_still(tmp_path: Path) -> None:
+    fps, look = 12.5, Look(Engine.WORKBENCH, 16, 16)
+    run(words._demo(tmp_path, partial(subject, Input(fps=fps)), cues_of(["joy"]), look), lambda step: None)
+    (cue,) = cues_of(["joy"])
+    head, face = bpy.data.objects["Risorius Head"], api.default_face()
+    begin, end = 1 + int(np.ceil((cue.start + cue.onset) * fps)), apex_frame(cue, fps)
+    shown = [shown_at(head, frame) for frame in range(1, bpy.context.scene.frame_end + 1)]
+    nose = np.array([positions[face.points["9.3"].vertices[0]] for positions in shown[begin - 1 : end]])
+    assert np.linalg.norm(np.diff(nose, axis=0), axis=1).min() > 2e-5
+    upper, lower = (face.points[name].vertices[0] for name in ("3.1", "3.3"))
+    gaps = np.array([np.linalg.norm(positions[upper] - positions[lower]) for positions in shown])
+    assert gaps.min() < 0.3 * gaps[0] < gaps[end - 1]
+    gaze = [face.measure(positions)[[22, 24]] for positions in shown[:end:4]]
+    assert np.ptp(gaze, axis=0).max() > 1000.0  # units of 0.00001 rad
+
+
+def shown_at(head: Any, frame: int) -> np.ndarray:
+    """(V, 3) what Blender shows of a head at a frame."""
+    bpy.context.scene.frame_set(frame)
+    return meshes.evaluated_vertices(head, bpy.context.evaluated_depsgraph_get())
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["ict", "makehuman"])
 def test_other_heads_from_files(shared: Path, tmp_path: Path, name: str) -> None:
