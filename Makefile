@@ -49,7 +49,7 @@ track-evidence: ## docs/tracking.md: how well FAPs come back from films of known
 rigs: ## docs/rigs.md: how far a character's own keys follow the muscles; ARGS="--sheets" for contact sheets in out/rigs/, too
 	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/rigs.py $(ARGS)
 
-strangers: ## docs/strangers.md: what outside judges see in rendered faces; installs them; ARGS="--help" for more of it
+strangers: ## what outside judges see in rendered faces; installs them; ARGS="--whole" writes docs/strangers.md
 	@$(SETUP) bpy-4.5 strangers && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/ask_strangers.py $(ARGS)
 
 docs-pictures: ## the manual's pictures, taken in a real Blender window; ARGS="--only wheel" for some of them

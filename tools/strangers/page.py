@@ -19,6 +19,7 @@ from .verdicts import (
     grows,
     growth,
     likeliest,
+    mean_growth,
     mean_said,
     named,
     probability,
@@ -48,22 +49,31 @@ scans at hand, and others stand in for it.
 **What these judges cannot tell.** They were trained on small pictures of hurried labels: on FER-2013, people agree with
 the label in about two of three (Goodfellow et al. 2013). Anger and disgust are hard for them on real faces, too. They
 know neither the face at rest nor what came before: a resting face they take for surprised takes its expressions with
-it. They are sensitive to brows, light and frame, and a change of a few hundredths means nothing. They say nothing about
-folds, beauty, or life.
+it. They are sensitive to brows, light and frame: a camera that moved by less than a pixel has changed the control's
+anger from .55 to .31, so a single picture means little, and the share of many more. They know six names and *neutral*;
+what tells *worried* from *afraid*, or *bashful* from *bored*, is no matter of theirs, and much of it no matter of a
+still face: timing, gaze and the head say it. They say nothing about folds, beauty, or life. Light and paint were chosen
+by faces at rest, which should be seen as neutral, and by the control, not by what Risorius shows.
 """
 
 
-ORDER = ", ".join(EMOTIONS)
-SHEET = f"The six from left to right or from top to bottom: {ORDER}. Above each row: what its pictures are named."
+@dataclass(frozen=True)
+class Sheet:
+    """A contact sheet: its title, its file, and what is to be seen on it."""
+
+    title: str
+    file: str
+    told: str
 
 
 @dataclass(frozen=True)
 class Findings:
-    """What was pictured, what each judge and `MEAN` said of it, and contact sheets: title -> file."""
+    """What was pictured, what each judge and `MEAN` said of it, contact sheets, and the file of a chart of growth."""
 
     heads: Sequence[str]
     by_judge: Mapping[str, Judged]
-    sheets: Mapping[str, str]
+    sheets: Sequence[Sheet]
+    chart: str | None = None
 
     @property
     def mean(self) -> Judged:
@@ -83,7 +93,7 @@ def page(found: Findings) -> str:
         _grown(found),
         _words(found),
     ]
-    pictures = [f"## {title}\n\n{SHEET}\n\n![{title}]({file})\n" for title, file in found.sheets.items()]
+    pictures = [f"## {each.title}\n\n{each.told}\n\n![{each.title}]({each.file})\n" for each in found.sheets]
     return "\n".join(part for part in (heading, *parts, *pictures) if part)
 
 
@@ -91,6 +101,11 @@ def _hows(found: Findings) -> list[str]:
     """The activations that were pictured of the six from the front, the words' own first."""
     hows = {sitting.how for sitting in found.mean if sitting.word in EMOTIONS and sitting.turned == 0}
     return sorted(hows - {SCAN, REST}, key=lambda how: (how != OWN, how))
+
+
+def _sides(found: Findings) -> list[int]:
+    """From where else than the front the six were pictured, degrees."""
+    return sorted({sitting.turned for sitting in found.mean} - {0})
 
 
 def _tally_table(rows: Mapping[str, Mapping[str, Tally]]) -> str:
@@ -129,13 +144,16 @@ def _control(found: Findings) -> str:
 def _confusions(found: Findings) -> str:
     """Asked against named, for the mean and for each judge."""
     text = ""
-    for judge, judged in found.by_judge.items():
-        own = chosen(judged, OWN)
+    asked = {judge: chosen(judged, OWN) for judge, judged in found.by_judge.items()}
+    asked |= {f"{MEAN}, at {how}": chosen(found.mean, how) for how in _hows(found) if how == "7"}
+    asked |= {f"{MEAN}, own, from {turned}°": chosen(found.mean, OWN, turned) for turned in _sides(found)}
+    for judge, own in asked.items():
         counts = confusion(own)
         columns = [*EMOTIONS, *([NO_FACE] if any(row[NO_FACE] for row in counts.values()) else [])]
         rows = [[f"**{asked}**", *(str(row[name] or "") for name in columns)] for asked, row in counts.items()]
         text += f"### {judge}: {share_named(own):.2f} named\n\n{table(['asked', *columns], rows)}\n"
-    return f"## Confusion\n\nRows: asked, at the words' own activation, from the front. Columns: named.\n\n{text}"
+    told = "Rows: asked; at the words' own activation and from the front where nothing else is said. Columns: named."
+    return f"## Confusion\n\n{told}\n\n{text}"
 
 
 def _heads(found: Findings) -> str:
@@ -164,7 +182,7 @@ def _cell(said: Said, emotion: str) -> str:
 def _turned(found: Findings) -> str:
     """How many are named from elsewhere."""
     rows = []
-    for turned in sorted({sitting.turned for sitting in found.mean} - {0}):
+    for turned in _sides(found):
         seen = chosen(found.mean, OWN, turned)
         counts = tallies(seen)
         cells = [
@@ -186,8 +204,21 @@ def _grown(found: Findings) -> str:
     if not rows:
         return ""
     told = f"It grows where it is higher at the end and falls by no more than {LEAST_FALL} on the way."
+    chart = f"Grey: a head each; red: their mean.\n\n![Growth]({found.chart})\n\n" if found.chart else ""
+    over = f"Mean of the heads:\n\n{_mean_growths(found)}"
     lines = table(["head", "emotion", *map(str, range(1, 8)), "grows"], rows)
-    return f"## Growth with activation\n\nProbability of the asked emotion. {told}\n\n{lines}"
+    return f"## Growth with activation\n\nProbability of the asked emotion. {told}\n\n{chart}{over}\n{lines}"
+
+
+def _mean_growths(found: Findings) -> str:
+    """A row per emotion: its mean at each activation, from 1 to 7, and on how many heads it grows."""
+    rows = []
+    for emotion in EMOTIONS:
+        mean = mean_growth(found.mean, found.heads, emotion)
+        lines = [line for line in (growth(found.mean, head, emotion) for head in found.heads) if len(line) > 2]
+        cells = [f"{mean[how]:.2f}" if how in mean else "" for how in range(1, 8)]
+        rows.append([emotion, *cells, f"{sum(grows(list(line.values())) for line in lines)} of {len(lines)}"])
+    return table(["emotion", *map(str, range(1, 8)), "grows"], rows)
 
 
 def _words(found: Findings) -> str:

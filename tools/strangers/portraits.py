@@ -11,15 +11,16 @@ from typing import Any
 import numpy as np
 from faithful.sitter import Sitter, object_alone
 from risorius.api import Face, build_default_head
-from risorius.arrays import Floats
 from risorius.scene.attributes import write_vectors
 from risorius.scene.materials import node_tree_of, principled_of
 from risorius.scene.pictures.framing import framing_of
+from risorius.scene.pictures.furniture import CLOSENESS
 from risorius.scene.pictures.lettering import write_picture
 from risorius.scene.pictures.look import Engine, Look
 
 from . import light, paint
 from .light import relight
+from .poses import Poses, digest_of
 from .sittings import Sitting
 
 #: Small, on a background a little darker than the skin, and exposed as a photograph of a face would be (stops).
@@ -29,8 +30,8 @@ EXPOSURE = 0.3
 #: Roughness of skin: no highlights.
 ROUGHNESS = 0.8
 
-#: The face is larger than in a portrait by so much, about a centre so much lower, in picture heights.
-CLOSENESS, LOWER = 0.88, 0.02
+#: So much of a framing's height is shown, about a centre so much lower, in such heights.
+SHOWN, LOWER = 0.8184, 0.02
 
 #: The paint sets in over this depth into the lips (metres) and into a brow (a share of the distance between the eyes).
 LIP_EDGE, BROW_EDGE = 0.0012, 0.012
@@ -45,29 +46,27 @@ _EYE_MATERIALS = ("Risorius plain sclera", "Risorius plain iris", "Risorius plai
 _PAINT, _EYES = "strangers_paint", "strangers_eyes"
 
 
-def picture(head: str, face: Face, asked: Sequence[tuple[Sitting, Floats]], folder: Path) -> dict[Sitting, Path]:
-    """Files of the sittings of one head, each with its pose (V, 3); only what is not there yet is rendered."""
-    files = {sitting: folder / f"{digest(face, sitting, pose)}.png" for sitting, pose in asked}
-    missing = [(sitting, pose) for sitting, pose in asked if not files[sitting].is_file()]
+def picture(head: str, face: Face, asked: Sequence[Sitting], poses: Poses, folder: Path) -> dict[Sitting, Path]:
+    """Files of the sittings of one head; only what is not there yet is rendered."""
+    files = {sitting: folder / f"{digest(face, sitting, poses.digest(sitting))}.png" for sitting in asked}
+    missing = [sitting for sitting in asked if not files[sitting].is_file()]
     if missing:
         folder.mkdir(parents=True, exist_ok=True)
         sitter = _sitter(head, face)
-        for yaw in sorted({sitting.turned for sitting, _ in missing}):
-            wanted = [(sitting, pose) for sitting, pose in missing if sitting.turned == yaw]
-            shots = sitter.shots([pose for _, pose in wanted], float(np.radians(yaw)))
-            for (sitting, _), pixels in zip(wanted, shots, strict=True):
+        for yaw in sorted({sitting.turned for sitting in missing}):
+            wanted = [sitting for sitting in missing if sitting.turned == yaw]
+            shots = sitter.shots([poses.positions(sitting) for sitting in wanted], float(np.radians(yaw)))
+            for sitting, pixels in zip(wanted, shots, strict=True):
                 write_picture(paint.exposed(pixels, EXPOSURE), files[sitting])
     return files
 
 
-def digest(face: Face, sitting: Sitting, pose: Floats) -> str:
-    """What a picture depends on, in 24 letters: the paint, the head, its pose to 0.01 mm, the view."""
+def digest(face: Face, sitting: Sitting, pose: str) -> str:
+    """What a picture depends on, in 24 letters: light and paint, the head, its pose's digest, the view."""
     known = hashlib.sha256()
     for source in (Path(__file__), Path(light.__file__), Path(paint.__file__)):
         known.update(source.read_bytes())
-    known.update(f"{sitting.head} {sitting.turned}".encode())
-    for positions in (face.vertices, pose):
-        known.update(np.round(positions * 1e5).astype(np.int64).tobytes())
+    known.update(f"{sitting.head} {sitting.turned} {digest_of(face.vertices)} {pose}".encode())
     return known.hexdigest()[:24]
 
 
@@ -78,7 +77,7 @@ def _sitter(head: str, face: Face) -> Sitter:
     if head != "default":
         _put_on_paint(obj, face)
     whole = framing_of(obj)
-    framing = replace(whole, centre=whole.point(0.0, -LOWER, 0.0), height=CLOSENESS * whole.height)
+    framing = replace(whole, centre=whole.point(0.0, -LOWER, 0.0), height=SHOWN / CLOSENESS * whole.height)
     return Sitter([obj], framing=framing, look=LOOK, relight=relight)
 
 

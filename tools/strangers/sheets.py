@@ -10,35 +10,74 @@ from faithful.sheet import Cell, write_grid
 from risorius.arrays import Floats
 from risorius.scene.pictures.lettering import read_picture
 
+from .page import Sheet
 from .sittings import EMOTIONS, OWN, SCAN, SCANNED_HEAD, Sitting
-from .verdicts import Judged, named
+from .verdicts import NO_FACE, Judged, likeliest, named
 
 QUALITY = 82
 
 
-def write_sheets(judged: Judged, files: Mapping[Sitting, Path], heads: Sequence[str], folder: Path) -> dict[str, str]:
-    """Title -> name of the sheet in a folder: the six on all heads, and how they grow."""
-    found = {}
+#: Of so many heads growth is shown.
+GROWN_HEADS = 3
+
+#: Pictures in a row of the sheet of all words.
+WORDS_A_ROW = 6
+
+SIX = f"The six from left to right: {', '.join(EMOTIONS)}. Above each row: what its pictures are named."
+GROWN = "Activation 1 to 7 from left to right. Above each row: what its pictures are named."
+WORDS = "Each word at its own activation. Above each picture: what the judges take it for, of seven classes."
+
+
+def write_sheets(judged: Judged, files: Mapping[Sitting, Path], heads: Sequence[str], folder: Path) -> list[Sheet]:
+    """Sheets in a folder: the six on all heads, how they grow on some, and all words where they were pictured."""
+    found = []
     own = [[Sitting(head, emotion, OWN) for emotion in EMOTIONS] for head in heads]
     control = [Sitting(SCANNED_HEAD, emotion, SCAN) for emotion in EMOTIONS]
     rows = {row[0].head: row for row in own if row[0] in files} | ({"scans": control} if control[0] in files else {})
     if rows:
-        title = "The six at their own activation"
-        found[title] = _write(rows, judged, files, folder / "strangers-six.jpg", title)
-    for head in heads:
+        found.append(_write(rows, judged, files, folder / "strangers-six.jpg", "The six at their own activation", SIX))
+    for head in heads[:GROWN_HEADS]:
         grown = {emotion: [Sitting(head, emotion, str(how)) for how in range(1, 8)] for emotion in EMOTIONS}
         if all(sitting in files for row in grown.values() for sitting in row):
-            title = f"Activation 1 to 7: {head}"
-            found[title] = _write(grown, judged, files, folder / f"strangers-growth-{head}.jpg", title)
+            path = folder / f"strangers-growth-{head}.jpg"
+            found.append(_write(grown, judged, files, path, f"Activation 1 to 7: {head}", GROWN))
+    for head in heads:
+        words = [s for s in files if (s.head, s.how, s.turned) == (head, OWN, 0)]
+        if len(words) > len(EMOTIONS):
+            path = folder / f"strangers-words-{head}.jpg"
+            found.append(_write_words(words, judged, files, path, f"All words: {head}"))
     return found
 
 
 def _write(
-    rows: Mapping[str, Sequence[Sitting]], judged: Judged, files: Mapping[Sitting, Path], path: Path, heading: str
-) -> str:
-    """One sheet, a row of pictures per line; returns its file's name."""
+    rows: Mapping[str, Sequence[Sitting]],
+    judged: Judged,
+    files: Mapping[Sitting, Path],
+    path: Path,
+    title: str,
+    told: str,
+) -> Sheet:
+    """One sheet, a row of pictures per line."""
     cells = [Cell(name, _caption(row, judged), [_small(files[s]) for s in row]) for name, row in rows.items()]
-    grid = write_grid(cells, path.with_suffix(".png"), columns=1, heading=heading)
+    _write_jpeg(cells, path, title, columns=1)
+    return Sheet(title, path.name, told)
+
+
+def _write_words(
+    words: Sequence[Sitting], judged: Judged, files: Mapping[Sitting, Path], path: Path, title: str
+) -> Sheet:
+    """A sheet of words, a picture each."""
+    cells = []
+    for sitting in words:
+        taken = likeliest(judged[sitting], 1)
+        cells.append(Cell(sitting.word, taken[0][0] if taken else NO_FACE, [read_picture(files[sitting])]))
+    _write_jpeg(cells, path, title, columns=WORDS_A_ROW)
+    return Sheet(title, path.name, WORDS)
+
+
+def _write_jpeg(cells: Sequence[Cell], path: Path, heading: str, *, columns: int) -> None:
+    """Cells in a grid."""
+    grid = write_grid(cells, path.with_suffix(".png"), columns=columns, heading=heading)
     image = bpy.data.images.load(str(grid))
     try:
         len(image.pixels)  # loads it
@@ -47,7 +86,6 @@ def _write(
     finally:
         bpy.data.images.remove(image)
         grid.unlink()
-    return path.name
 
 
 def _small(file: Path) -> Floats:

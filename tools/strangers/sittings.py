@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import risorius.api as api
-from faithful.heads import ICT_SKIN, heads_folder, inner_displacements, load_face
+from faithful.heads import HEADS, ICT_SKIN, heads_folder, inner_displacements, load_face
 from places import shared_folder
 from risorius.api import Face
 from risorius.arrays import Bools, Floats
@@ -23,6 +23,9 @@ EMOTIONS = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
 
 #: What a sitting does instead of a word at an activation.
 OWN, SCAN, REST = "own", "scan", "rest"
+
+#: Degrees to the side from which the six are seen, too; heads that show all words.
+ASIDE, WORD_HEADS = 20, ("default", "ict")
 
 #: The head that scanned actions belong to.
 SCANNED_HEAD = "ict"
@@ -64,6 +67,14 @@ def sittings(
     if control:
         asked += [Sitting(SCANNED_HEAD, emotion, SCAN, yaw) for yaw in turned for emotion in EMOTIONS]
     return asked
+
+
+def whole_evening() -> list[Sitting]:
+    """All that docs/strangers.md tells: the six on all heads from two sides, their growth, all words on some heads."""
+    six = sittings(HEADS, EMOTIONS, [OWN], [0, ASIDE], control=scans_are_there())
+    grown = sittings(HEADS, EMOTIONS, [str(how) for how in range(1, 8)], [0], control=False)
+    words = sittings(WORD_HEADS, list(api.WORDS), [OWN], [0], control=False)
+    return list(dict.fromkeys([*six, *grown, *words]))
 
 
 def by_head(asked: Iterable[Sitting]) -> dict[str, list[Sitting]]:

@@ -95,6 +95,13 @@ def growth(judged: Judged, head: str, emotion: str) -> dict[int, float]:
     return {how: probability(said, emotion) for how, said in asked.items() if how in seen}
 
 
+def mean_growth(judged: Judged, heads: Iterable[str], emotion: str) -> dict[int, float]:
+    """The same, the mean over those heads of which it was asked."""
+    told = [line for line in (growth(judged, head, emotion) for head in heads) if line]
+    common = [how for how in range(1, 8) if told and all(how in line for line in told)]
+    return {how: sum(line[how] for line in told) / len(told) for how in common}
+
+
 def grows(values: Sequence[float]) -> bool:
     """Whether values rise from the first to the last, and never fall by more than `LEAST_FALL`."""
     return values[-1] > values[0] and all(after >= before - LEAST_FALL for before, after in pairwise(values))

@@ -5,13 +5,17 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+import risorius.api as api
+from faithful.heads import HEADS
 from risorius.api import EyeballPlace
+from strangers.chart import growth_chart
 from strangers.judges import JUDGES, ask
 from strangers.mini_xception import Network, convolve_each, crop, softmax, widened_square, windows
-from strangers.page import MEAN, Findings, page
+from strangers.page import MEAN, Findings, Sheet, page
 from strangers.paint import (
     BEHIND,
     EYE_GREYS,
@@ -24,8 +28,9 @@ from strangers.paint import (
     lip_depths,
     rounded,
 )
-from strangers.sittings import EMOTIONS, OWN, REST, Sitting, sittings
-from strangers.verdicts import NO_FACE, confusion, grows, mean_said, named, share_named, tallies
+from strangers.poses import Poses
+from strangers.sittings import EMOTIONS, OWN, REST, Sitting, sittings, whole_evening
+from strangers.verdicts import NO_FACE, confusion, grows, mean_growth, mean_said, named, share_named, tallies
 
 
 def said(emotion: str, share: float) -> dict[str, float]:
@@ -211,11 +216,65 @@ def test_the_page_tells_each_emotion_and_leaves_out_what_was_not_pictured() -> N
     judged = {Sitting(head, emotion): said(emotion, 0.9) for head in ("a", "b") for emotion in EMOTIONS}
     judged[Sitting("b", "anger")] = said("fear", 0.76)
     judged |= {Sitting("a", "joy", str(how)): said("joy", 0.1 * how) for how in range(1, 8)}
-    text = page(Findings(["a", "b"], {MEAN: judged}, {"A sheet": "pictures/a.jpg"}))
+    judged[Sitting("a", "joy", OWN, 20)] = said("joy", 0.7)
+    sheet = Sheet("A sheet", "pictures/a.jpg", "What is to be seen.")
+    text = page(Findings(["a", "b"], {MEAN: judged}, [sheet], "pictures/growth.svg"))
     assert "**0.92 at its own" in text
     assert "| its own | anger | 1 of 2 | 0.47 | fear |" in text
     assert "| **anger** |  |  | 1 | 1 |  |  |" in text
     assert "| a | joy | 0.10 | 0.20 | 0.30 | 0.40 | 0.50 | 0.60 | 0.70 | yes |" in text
-    assert "![A sheet](pictures/a.jpg)" in text
+    assert "| joy | 0.10 | 0.20 | 0.30 | 0.40 | 0.50 | 0.60 | 0.70 | 1 of 1 |" in text
+    assert "What is to be seen.\n\n![A sheet](pictures/a.jpg)" in text
+    assert "![Growth](pictures/growth.svg)" in text
     assert "## The control" not in text
-    assert "## From the side" not in text
+    assert "| 20° | 1.00 | 1 of 1 |" in text
+    assert "### mean, own, from 20°: 1.00 named" in text
+
+
+def test_a_chart_has_a_line_for_each_head_and_one_for_their_mean() -> None:
+    heads = ("a", "b")
+    judged = {Sitting(head, "joy", str(how)): said("joy", 0.1 * how) for head in heads for how in range(1, 8)}
+    judged[Sitting("b", "joy", "7")] = said("joy", 0.9)
+    assert mean_growth(judged, heads, "joy")[7] == pytest.approx(0.8)
+    drawing = ElementTree.fromstring(growth_chart(judged, heads))
+    lines = [each.attrib["points"].split() for each in drawing.iter("{http://www.w3.org/2000/svg}polyline")]
+    joy = lines[:3]
+    assert [len(line) for line in joy] == [7, 7, 7]
+    heights = [float(line[-1].split(",")[1]) for line in joy]
+    assert heights[0] > heights[2] > heights[1]  # a picture's rows count downwards
+    assert growth_chart({Sitting("a", "joy"): said("joy", 0.9)}, heads) == ""
+
+
+# ---- what is asked ---------------------------------------------------------------------------------------------
+
+
+def test_the_whole_has_every_head_from_two_sides_its_growth_and_all_words() -> None:
+    asked = whole_evening()
+    assert len(asked) == len(set(asked))
+    assert {Sitting(head, "fear", OWN, 20) for head in HEADS} <= set(asked)
+    assert {Sitting(head, "joy", str(how)) for head in HEADS for how in range(1, 8)} <= set(asked)
+    assert {Sitting("ict", word) for word in api.WORDS} <= set(asked)
+    assert Sitting("makehuman", "worried") not in asked
+
+
+def test_a_pose_is_worked_out_once_and_known_the_next_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("strangers.poses.sources_digest", lambda: "as today")
+    worked_out: list[Sitting] = []
+
+    def posed(face: Any, sitting: Sitting) -> Any:
+        worked_out.append(sitting)
+        return np.full((2, 3), float(sitting.how))
+
+    monkeypatch.setattr("strangers.poses.posed", posed)
+    face: Any = None
+    front, side, stronger = Sitting("ict", "joy", "3"), Sitting("ict", "joy", "3", 20), Sitting("ict", "joy", "4")
+    first = Poses(face, tmp_path)
+    assert first.digest(front) == first.digest(side) != first.digest(stronger)
+    assert len(worked_out) == 2
+    second = Poses(face, tmp_path)
+    assert second.digest(front) == first.digest(front)
+    assert len(worked_out) == 2
+    assert second.positions(side).tolist() == [[3.0] * 3] * 2
+    monkeypatch.setattr("strangers.poses.sources_digest", lambda: "as tomorrow")
+    second.digest(front)
+    assert len(list(tmp_path.iterdir())) == 3
