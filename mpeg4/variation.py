@@ -7,6 +7,7 @@ shorter one. Figures and their sources stand in presets/variation.toml.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from pathlib import Path
@@ -21,7 +22,7 @@ from ..tables import TomlTable, read_toml
 from .emotions.profile import ARCHETYPES, Archetype, Profile
 from .emotions.prototypes import load_prototypes
 from .standard import ANGLE_UNIT, FAP_COUNT
-from .timing import Ramp
+from .timing import Cue, Ramp
 
 HABITS = PRESETS / "variation.toml"
 """The figures that come with Risorius."""
@@ -136,7 +137,8 @@ class Liveliness:
 
     Attributes
     ----------
-    blinks : amount in blinks per minute. head, eyes : amount as a multiple of the usual.
+    blinks : amount in blinks per minute. head, eyes : amount as a multiple of the usual. Words that turn head and eyes
+        (`Bearing`) do so as far as these are above 0, and in full from 1 on.
     """
 
     blinks: Drawn = Drawn()
@@ -147,6 +149,17 @@ class Liveliness:
     def any(self) -> bool:
         """Whether it does anything."""
         return any(drawn.amount > 0.0 for drawn in (self.blinks, self.head, self.eyes))
+
+    def borne(self, frame: Floats, cues: Iterable[tuple[Cue, float]]) -> Floats:
+        """A frame (68,) with what the words of cues, each in its share, do with head and eyes."""
+        result = frame
+        for cue, share in cues:
+            if cue.profile.bearing is not None and share > 0.0:
+                turned = share * cue.profile.bearing.frame(
+                    eyes=min(self.eyes.amount, 1.0), head=min(self.head.amount, 1.0)
+                )
+                result = np.where(np.isnan(turned), result, np.nan_to_num(result) + np.nan_to_num(turned))
+        return result
 
     def over(self, count: int, fps: float, habits: Habits | None = None) -> Overlay:
         """What is laid over `count` frames."""

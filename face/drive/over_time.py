@@ -59,13 +59,15 @@ def cue_plans(
     if len(hands) != len(cues):
         raise ParameterError("contractions", f"must be one set for each of the {len(cues)} cues", len(hands))
     stream = sequence(cues, fps=fps)
-    overlay = (liveliness or Liveliness()).over(len(stream), fps)
+    lively = liveliness or Liveliness()
+    overlay = lively.over(len(stream), fps)
     apexes = [Request(cue.profile.frame(cue.seed), drive, _felt(cue)) for cue in cues]
     plans = [DRIVES[drive].plan(apex) for apex in apexes] if drive is Drive.NATURAL else []
     for step, (faps, weights) in enumerate(zip(stream, strengths(cues, fps=fps), strict=True)):
         shares = (weights / max(1.0, weights.sum())).tolist()
         by_hand = tuple(ByHand(hand, share) for hand, share in zip(hands, shares, strict=True) if hand and share > 0.0)
-        request = Request(overlay.upon(faps, step), drive, by_hand=by_hand)
+        borne = lively.borne(faps, zip(cues, shares, strict=True)) if drive is Drive.NATURAL else faps
+        request = Request(overlay.upon(borne, step), drive, by_hand=by_hand)
         if drive is Drive.NATURAL:
             yield _laid_over(blended(request, plans, weights.tolist()), overlay, step)
         else:

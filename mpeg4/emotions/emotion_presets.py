@@ -14,6 +14,7 @@ from ...errors import FormatError, ParameterError
 from ...resources import PRESETS
 from ...tables import TomlTable, read_toml
 from .archetypes import BASE_WORDS, VARIANTS
+from .bearing import read_bearing
 from .profile import ARCHETYPES, Archetype
 from .prototypes import Prototype, read_prototype
 from .wheel import ACTIVATION_MAX, ACTIVATION_MIN, position
@@ -24,7 +25,7 @@ EMOTION_PRESETS = PRESETS / "emotions"
 
 KEYS = (
     *("activation", "evaluation", "angle", "category", "neighbours", "variants"),
-    *("shows", "neutral", "reason", "source"),
+    *("shows", "bearing", "neutral", "reason", "source"),
 )
 
 
@@ -102,6 +103,7 @@ def _word(name: str, table: TomlTable) -> Word:
             neighbours=_neighbours(table, category, angle),
             variants=_variants(table),
             shows=_shows(name, table, activation),
+            bearing=read_bearing(table.table("bearing")) if "bearing" in table else None,
             neutral=neutral,
             reason=_text(table, "reason"),
             source=_text(table, "source") if known is None or "source" in table else known.source,

@@ -66,7 +66,8 @@ def expression(
     shown = _shown_as(plain, numbers, ways)
     if word is None or shown.prototypes:
         return shown
-    return replace(shown, shows=find_word(word, known).shows)
+    entry = find_word(word, known)
+    return replace(shown, shows=entry.shows, bearing=entry.bearing)
 
 
 def _expression(

@@ -19,6 +19,7 @@ from ..standard import FAP_COUNT, FAPS, LIP_TWINS, PAIRS
 from .wheel import check_activation, check_angle
 
 if TYPE_CHECKING:
+    from .bearing import Bearing
     from .prototypes import Prototype
 
 Range: TypeAlias = tuple[float, float]
@@ -125,6 +126,7 @@ class Profile:
     prototypes : archetype -> the way in which a face shows it in the natural drive, where not the usual one; "paper" is
         as the ranges say and no otherwise.
     shows : action units by which a face shows the word in the natural drive, where they are not its archetypes'.
+    bearing : where the word turns eyes and head in a performance.
 
     Raises
     ------
@@ -142,6 +144,7 @@ class Profile:
     signs: Signs = Signs.MPEG4
     prototypes: Mapping[Archetype, str] = field(default_factory=dict)
     shows: Prototype | None = None
+    bearing: Bearing | None = None
 
     def __post_init__(self) -> None:
         """Check and normalise every field."""

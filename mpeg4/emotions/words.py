@@ -12,6 +12,7 @@ from ...errors import ParameterError
 from ...resources import STANDARD
 from ...tables import read_csv
 from .archetypes import VARIANTS
+from .bearing import Bearing
 from .profile import Archetype, check_archetype
 from .prototypes import Prototype
 from .wheel import check_activation, check_angle
@@ -32,6 +33,7 @@ class Word:
     neighbours : the two archetypes it lies between, where they are not those of its angle.
     variants : archetype -> variant of Table 5 that shows this word best; others take the archetype's own default.
     shows : action units by which the natural drive shows it, where they are not its archetypes'.
+    bearing : where it turns eyes and head in a performance.
     neutral : True where the word is no expression at all (the neutral face).
     reason : why these figures and variants.
     source : where they are from.
@@ -45,6 +47,7 @@ class Word:
     neighbours: tuple[Archetype, Archetype] | None = None
     variants: Mapping[Archetype, int] = field(default_factory=dict)
     shows: Prototype | None = None
+    bearing: Bearing | None = None
     neutral: bool = False
     reason: str = ""
     source: str = ""

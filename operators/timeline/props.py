@@ -130,7 +130,8 @@ class RISORIUS_PG_variation(PropertyGroup):
         float,
         _amount(
             "Head",
-            "Small turns of the head: 1 is about one degree, like a person who holds still. Only in a baked motion",
+            "Small turns of the head: 1 is about one degree, like a person who holds still. Words such as bashful or "
+            "bored turn it, too. Only in a baked motion",
             5.0,
         ),
     ]
@@ -139,7 +140,8 @@ class RISORIUS_PG_variation(PropertyGroup):
         float,
         _amount(
             "Eyes",
-            "Small movements of the eyes: 1 looks about two degrees to the side and back. Only in a baked motion",
+            "Small movements of the eyes: 1 looks about two degrees to the side and back. Words such as bashful or "
+            "bored look away, too. Only in a baked motion",
             5.0,
         ),
     ]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import risorius.api as api
+from risorius.face.drive.over_time import cue_plans
+from risorius.face.drive.request import Drive
 from risorius.face.face import Face
 
 
@@ -28,3 +30,17 @@ def test_a_blink_over_a_smile_shuts_the_lids_and_leaves_the_mouth(face: Face) ->
     np.testing.assert_allclose(alive[47:50], overlay.added[shut, 47:50], rtol=0.1, atol=30.0)
     assert np.abs(alive[47:50]).max() > 200.0
     np.testing.assert_allclose(np.nan_to_num(frames[0][0]), 0.0, atol=1.0)
+
+
+def test_a_bored_head_leans_in_a_performance_that_moves_it() -> None:
+    cue = api.Cue(api.expression("bored"), onset=0.2, apex=0.2, offset=0.2)
+    lively = api.Liveliness(head=api.Drawn(1e-9), eyes=api.Drawn(1.0, 1))
+    still, alive, exact = (
+        [plan.request.faps for plan in cue_plans([cue], 10.0, drive, liveliness=wanted)]
+        for drive, wanted in ((Drive.NATURAL, None), (Drive.NATURAL, lively), (Drive.EXACT, lively))
+    )
+    assert np.isnan(still[3][[22, 47]]).all()
+    looks = lively.over(len(alive), 10.0).added[3, 22]
+    assert alive[3][23 - 1] - looks == pytest.approx(np.radians(14.0) / 1e-5)
+    assert exact[3][23 - 1] == pytest.approx(looks)
+    assert alive[0][23 - 1] == pytest.approx(0.0)
