@@ -22,8 +22,9 @@ ANGLES, TURNS = 91, 72
 #: Distance of the points at which a modelled eyeball's surface is taken, metres.
 SPACING = 0.25e-3
 
-#: Directions nearer than this to the border between two places of the grid, in steps of it, belong to both.
-TIE = 1e-6
+#: Directions nearer than this to the border between two places of the grid, in steps of it, belong to both: what single
+#: precision, in which Blender keeps vertices, may turn them by.
+TIE = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
