@@ -44,7 +44,7 @@ def add_strength(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--variant",
         type=_variant,
-        help="number of the emotion's variant in the paper, or how it shows: anger bared or pressed, "
+        help="number of the emotion's variant in the paper, or how it shows: anger bared, pressed or glaring, "
         "joy open or closed, fear drawn or raised, disgust shut or open",
     )
 

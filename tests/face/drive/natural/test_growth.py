@@ -85,3 +85,13 @@ def test_an_emotion_begins_with_what_gives_it_away(emotion: str, first: int, lat
     trace, full = (np.abs(NATURAL.plan(requested(emotion, a)).goal) for a in (1.0, 7.0))
     for number in later:
         assert trace[first - 1] / full[first - 1] > 1.3 * trace[number - 1] / full[number - 1]
+
+
+@pytest.mark.parametrize(("emotion", "way"), [p for p in WAYS if p[0] in ("sadness", "fear", "anger")])
+def test_inner_brows_never_come_back_as_an_emotion_grows(emotion: str, way: str) -> None:
+    goals = np.array([NATURAL.plan(requested(emotion, a, way)).goal for a in ACTIVATIONS])
+    inner, middle = goals[:, 31 - 1], goals[:, 33 - 1]
+    assert (np.diff(np.abs(inner)) > -0.5).all()
+    assert abs(inner[-1]) > 1.5 * abs(inner[1])
+    if emotion != "anger":  # they rise alone, or most
+        assert (inner > middle + 15.0).all()

@@ -173,3 +173,12 @@ def test_anger_draws_the_brows_heads_down_and_together_and_narrows_the_eyes() ->
         assert asked[37 - 1] > 25.0
         assert asked[19 - 1] > 0.0  # raised upper lids read as fear
         assert asked[21 - 1] > 100.0
+
+
+@pytest.mark.parametrize("way", ["pressed", "glaring"])
+def test_pressed_lips_narrow_their_red_and_roll_in(face: Face, way: str) -> None:
+    profile = api.expression("anger", variants=way)
+    shown = face.pose(profile.frame(), emotion=profile.weights).achieved
+    assert shown[51 - 1] - shown[4 - 1] > 90.0  # the upper lip's outer edge nearer to its inner one
+    assert shown[52 - 1] - shown[5 - 1] > 90.0
+    assert shown[17 - 1] < -80.0  # and back
