@@ -108,7 +108,7 @@ def load_prototypes(path: Path = TABLE) -> Mapping[Archetype, Mapping[str, Proto
     Examples
     --------
     >>> list(api.load_prototypes()[api.Archetype.ANGER])
-    ['bared', 'pressed']
+    ['bared', 'pressed', 'glaring']
     """
     table = read_toml(path)
     return {
