@@ -245,8 +245,8 @@ def way_drawn(profile: Profile, drawn: Drawn) -> Profile:
     Examples
     --------
     >>> anger = api.expression("anger")
-    >>> {api.way_drawn(anger, api.Drawn(1.0, seed)).prototypes["anger"] for seed in range(9)} == {"bared", "pressed"}
-    True
+    >>> sorted({api.way_drawn(anger, api.Drawn(1.0, seed)).prototypes["anger"] for seed in range(9)})
+    ['bared', 'glaring', 'pressed']
     >>> api.way_drawn(api.expression("anger", variants="pressed"), api.Drawn(1.0, 2)).prototypes["anger"]
     'pressed'
     """
