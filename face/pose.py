@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Floats
@@ -40,6 +41,8 @@ class Pose:
     reasons : FAP number -> why the goal differs from what was asked, natural drive only; and in every drive what sewn
         lips and shut lids do not let the face do.
     unmet : FAP number -> why, of FAPs that were asked and of which nothing shows.
+    by_muscles : FAP number -> share of its goal that muscles, lids and jaw reach, 0..1, of those that have one; the
+        elastic skin adds the rest where the drive corrects.
     """
 
     positions: Floats
@@ -49,6 +52,7 @@ class Pose:
     achieved: Floats
     reasons: Mapping[int, str]
     unmet: Mapping[int, str]
+    by_muscles: Mapping[int, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +89,16 @@ class Poser:
             achieved=achieved,
             reasons=reasons,
             unmet=unmet(self.anatomy, plan.wanted, achieved, reasons),
+            by_muscles=self._by_muscles(plan, posture),
         )
+
+    def _by_muscles(self, plan: Plan, posture: Posture) -> dict[int, float]:
+        """FAP number -> share of its goal that muscles, lids and jaw reach."""
+        rows = self.anatomy.inverse.rows
+        goal = rows.select(plan.goal)
+        shares = np.clip(posture.explained / np.where(np.abs(goal) > 0.0, goal, np.inf), 0.0, 1.0)
+        told = np.isfinite(goal) & (goal != 0.0)
+        return dict(zip(rows.numbers[told].tolist(), shares[told].tolist(), strict=True))
 
     def sketch(self, request: Request, memory: Memory) -> Sketch:
         """What `pose` shows, a little short of balance and not measured."""

@@ -52,6 +52,7 @@ class Posture:
     elastic : what muscles and the elastic correction add.
     pushed : what contact adds.
     surroundings : where mandible and eyeballs are.
+    explained : (m,) how far muscles (as far as they are believed), lids and jaw move the rows, metres.
     lip_share : the upper lip's part of the way where lips give way to each other, 0..1.
     """
 
@@ -60,6 +61,7 @@ class Posture:
     elastic: Floats
     pushed: Floats
     surroundings: Surroundings
+    explained: Floats
     lip_share: float
 
     @property
@@ -126,13 +128,15 @@ class Balance:
         """The posture of an effort whose muscles pull the skin so (n, 3), metres."""
         plan, amounts = effort.plan, effort.amounts
         carried = self.anatomy.actuators.carried(amounts)
+        elastic = pulled - effort.guessed
         looks = {ball.side: ball.look(plan.request.faps) for ball in self.anatomy.eyeballs}
         posture = Posture(
             amounts,
             carried,
-            elastic=pulled - effort.guessed,
+            elastic=elastic,
             pushed=np.zeros_like(carried),
             surroundings=Surroundings(amounts.jaw, looks),
+            explained=np.asarray(self.anatomy.inverse.matrix @ (carried + elastic).ravel()),
             lip_share=lip_share(plan.evened),
         )
         return self._corrected(posture, effort.targets, DRIVES[plan.request.drive].correction)

@@ -38,6 +38,7 @@ class ExactFigures:
     filled: Length
     carried: Length
     beyond: float
+    most: Share
     brow: Share
 
 
@@ -136,7 +137,7 @@ def _believed(rows: FapRows, faps: Floats) -> Floats:
     They are less where more is asked than anatomy allows, and at the brows, of which FAPs tell little but the height.
     """
     possible = possible_shares(load_synergies(), faps)[rows.numbers - 1] ** EXACT.beyond
-    return np.where(np.isin(rows.numbers, list(BROW_FAPS)), EXACT.brow * possible, possible)
+    return np.where(np.isin(rows.numbers, list(BROW_FAPS)), EXACT.brow, EXACT.most) * possible
 
 
 def _usual_slide(rows: FapRows, faps: Floats) -> float:

@@ -77,6 +77,15 @@ def test_muscles_that_are_not_believed_leave_the_answer_of_the_points(
     assert np.linalg.norm(judged - points) < 0.85 * np.linalg.norm(blindly - points)
 
 
+def test_the_pose_tells_what_muscles_did(face: Face) -> None:
+    """Of a smile that muscles made nearly all; of what no muscle does less; nothing where points are moved alone."""
+    pull = {"zygomaticus_major_l": 0.5, "zygomaticus_major_r": 0.5}
+    smile = face.pose(frame_of({}), drive="muscles", contractions=pull).achieved
+    assert face.pose(smile, drive="exact").by_muscles[12] > 0.8
+    assert face.pose(frame_of(UNLIKE_MUSCLES, other=0.0), drive="exact").by_muscles[4] < 0.5
+    assert face.pose(frame_of({12: 100.0}), drive="points").by_muscles == {12: 0.0}
+
+
 def test_a_muscle_set_by_hand_is_believed(face: Face) -> None:
     """Contracted where nothing that is asked explains it."""
     frame = frame_of({4: 0.0, 8: 0.0, 9: 0.0}, other=np.nan)
