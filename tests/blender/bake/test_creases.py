@@ -95,7 +95,10 @@ def test_the_nodes_say_what_the_model_says(head: Any) -> None:
     assert found["bunny"].max() > 0.5
     strain = evaluated(head, crease_nodes.STRAIN, 1)
     assert strain is not None
-    np.testing.assert_allclose(strain[:, 0], model.strain(posed), atol=1e-4)
+    skin = built.parts == api.Part.SKIN
+    np.testing.assert_allclose(strain[skin, 0], model.strain(posed)[skin], atol=1e-4)
+    # A hair's end is so small that positions in single precision move its strain.
+    np.testing.assert_allclose(strain[:, 0], model.strain(posed), atol=1e-3)
 
 
 @pytest.mark.slow
