@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from ...arrays import Floats, Ints
 from ...physics.mesh import sample_blocks
 from ...progress import Progress, Work
+from ..skin.outer import smoothstep
 from .eyeball import EYEBALL
 from .surroundings import Look, Surroundings
 
@@ -22,9 +23,8 @@ ANGLES, TURNS = 91, 72
 #: Distance of the points at which a modelled eyeball's surface is taken, metres.
 SPACING = 0.25e-3
 
-#: Directions nearer than this to the border between two places of the grid, in steps of it, belong to both: what single
-#: precision, in which Blender keeps vertices, may turn them by.
-TIE = 1e-4
+#: What lies farther below the outermost surface in its direction is another shell, metres.
+SHELL = 0.5e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,32 +81,43 @@ def modelled_ball_steps(rest: Look, vertices: Floats, triangles: Ints) -> Work[B
 
     Of several shells the outermost counts. Directions in which nothing is modelled have the median distance.
     """
-    radii, distances = np.zeros((ANGLES, TURNS)), list[Floats]()
+    places, distances = list[tuple[Floats, Floats]](), list[Floats]()
     for block in sample_blocks(vertices[triangles], SPACING):
         yield Progress(0.0, "Preparing contact of lips and lids")
         away = block - rest.centre
         distances.append(np.maximum(np.linalg.norm(away, axis=1), 1e-9))
-        _raise(radii, away @ _axes(rest.gaze) / distances[-1][:, None], distances[-1])
-    radii[[0, -1]] = radii[[0, -1]].max(axis=1, keepdims=True)
-    radii[radii == 0.0] = np.median(np.concatenate(distances))
+        places.append(_direction(away @ _axes(rest.gaze) / distances[-1][:, None]))
+    angle, turn = (np.concatenate(part) for part in zip(*places, strict=True))
+    distance = np.concatenate(distances)
+    radii = _means(angle, turn, distance)
+    radii[np.isnan(radii)] = np.median(distance)
     return Ball(rest, np.column_stack([radii, radii[:, 0]]))
 
 
-def _raise(radii: Floats, unit: Floats, distance: Floats) -> None:
-    """Let radii (ANGLES, TURNS) be no less than the distances (k,) in some directions (k, 3), in place."""
-    places = _direction(unit)
-    middle = [np.round(place) for place in places]
-    tied = np.flatnonzero(np.max([np.abs(p - m) for p, m in zip(places, middle, strict=True)], axis=0) > 0.5 - 2 * TIE)
-    _raise_at(radii, middle[0], middle[1], distance)
-    for aside in ((-TIE, -TIE), (-TIE, TIE), (TIE, -TIE), (TIE, TIE)):  # halfway between two directions counts for both
-        angle, turn = (np.round(place[tied] + by) for place, by in zip(places, aside, strict=True))
-        _raise_at(radii, angle, turn, distance[tied])
+def _means(angle: Floats, turn: Floats, distance: Floats) -> Floats:
+    """(ANGLES, TURNS) mean distance of the outermost samples (k,) about each direction, NaN where there are none.
 
-
-def _raise_at(radii: Floats, angle: Floats, turn: Floats, distance: Floats) -> None:
-    """The same at places on the grid (k,), (k,)."""
-    at = np.clip(angle.astype(np.int64), 0, ANGLES - 1), turn.astype(np.int64) % TURNS
-    np.maximum.at(radii, at, distance)
+    A sample counts for the four directions round it by how near it is to each, so that none makes a difference by the
+    side of a border that it lies on.
+    """
+    first, before = np.floor(angle).astype(np.int64), np.floor(turn).astype(np.int64)
+    u, v = angle - first, turn - before
+    corners = [
+        (np.minimum(first + i, ANGLES - 1), (before + j) % TURNS, (u if i else 1.0 - u) * (v if j else 1.0 - v))
+        for i in (0, 1)
+        for j in (0, 1)
+    ]
+    outermost = np.zeros((ANGLES, TURNS))
+    for row, column, _ in corners:
+        np.maximum.at(outermost, (row, column), distance)
+    total, weight = np.zeros((2, ANGLES, TURNS))
+    for row, column, share in corners:
+        counts = share * (1.0 - smoothstep((outermost[row, column] - distance) / SHELL))
+        np.add.at(total, (row, column), counts * distance)
+        np.add.at(weight, (row, column), counts)
+    for pole in (0, -1):  # one direction, whatever the turn
+        total[pole], weight[pole] = total[pole].sum(), weight[pole].sum()
+    return np.where(weight > 0.0, total / np.where(weight > 0.0, weight, 1.0), np.nan)
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,7 +30,7 @@ BROWS = {"l": ("4.1", "4.3", "4.5"), "r": ("4.2", "4.4", "4.6")}
 CORNERS = {"l": ("3.11", "3.7"), "r": ("3.8", "3.12")}
 
 #: Places along a brow, and vertices that each is read off.
-STATIONS, NEAREST = 25, 6
+STATIONS, NEAREST = 25, 8
 
 #: What is no distance, metres.
 NO_DISTANCE = 1e-6
@@ -124,7 +124,8 @@ class _Brow:
         share = np.linspace(0.0, 2.0, STATIONS)[:, None]
         line = np.where(share < 1.0, head + share * (middle - head), middle + (share - 1.0) * (tail - middle))
         distance, nearest = (np.reshape(part, (STATIONS, NEAREST)) for part in skin.tree.query(line, k=NEAREST))
-        weight = np.exp(-((distance / np.maximum(distance[:, NEAREST // 2 - 1, None], NO_DISTANCE)) ** 2))
+        # The farthest weighs nothing: which of two that are as far is found is a matter of rounding.
+        weight = (1.0 - (distance / np.maximum(distance[:, -1:], NO_DISTANCE)) ** 2) ** 2
         weight /= weight.sum(axis=1, keepdims=True)
         rows = np.repeat(np.arange(STATIONS), NEAREST)
         n = skin.vertex_count
