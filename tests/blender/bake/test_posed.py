@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
+from risorius.api import Part
 from risorius.errors import SceneError
 from risorius.progress import run
 from risorius.scene import bake
@@ -36,7 +37,10 @@ def rigged(head: Any) -> Any:
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.view_layer.objects.active = head
     heights = meshes.rest_vertices(head.data)[:, 2]
-    low = np.clip((np.quantile(heights, 0.55) - heights) / 0.06, 0.0, 1.0)
+    parts = meshes.read_parts(head.data)
+    assert parts is not None
+    middle = np.quantile(heights[parts == Part.SKIN], 0.55)
+    low = np.clip((middle - heights) / 0.06, 0.0, 1.0)
     groups = {name: head.vertex_groups.new(name=name) for name in ("head", "low")}
     for vertex, weight in enumerate(low.tolist()):
         groups["head"].add([vertex], 1.0 - weight, "REPLACE")
