@@ -28,7 +28,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "bodies/contact.py": (0.02e-3,),  # when repeating stops
     "bodies/dental_arch.py": (1.5, 0.5e-3),  # steps of a grid
     "bodies/eyeball.py": (0.9, 0.1, 0.05, 1.02),  # bounds of an arc sine; which vertices are measured
-    "bodies/eyeball_surface.py": (0.25e-3, 1e-4),  # distance of samples; which directions count as halfway
+    "bodies/eyeball_surface.py": (0.25e-3, 0.5e-3),  # distance of samples; what is another shell
     "bodies/margins.py": (0.05e-3,),  # what counts as equally near
     "bodies/tongue.py": (0.1,),  # when points are not believed
     "drive/inverse.py": (0.05e-3, 8e-3),  # when the skin is left the rest; when the jaw is taken about its opening
