@@ -12,12 +12,13 @@ from .brows import build_brow
 from .cage import Region
 from .eyes import PUPIL_VERTEX, build_eyeball
 from .figures import DEFAULT_FIGURES, HeadFigures, read_figures
+from .folding import folding_skin
 from .groups import skin_groups
 from .head_mesh import HeadMesh, Material
 from .mouth_bag import bag_materials
 from .piece import Piece
 from .points import skin_points
-from .skin import HeadSkin, build_skin
+from .skin import HeadSkin
 from .teeth import DentalArch, build_teeth
 from .tongue import TIP_VERTEX, build_tongue, tongue_vertex
 
@@ -48,7 +49,7 @@ def build_default_head(figures: str | Path | HeadFigures = DEFAULT_FIGURES) -> H
     (3, 4)
     """
     measured = figures if isinstance(figures, HeadFigures) else read_figures(figures)
-    skin = build_skin(measured)
+    skin = folding_skin(measured)
     eye, brow = build_eyeball(measured.eyeball), build_brow(measured.brow, skin)
     upper = build_teeth(measured.teeth_upper, Part.TEETH_UPPER)
     lower = build_teeth(measured.teeth_lower, Part.TEETH_LOWER)

@@ -25,11 +25,12 @@ class HeadSkin:
     Attributes
     ----------
     vertices : (V, 3) float64, metres; the cage nodes first, so every figure is a vertex.
-    quads : (F, 4) int64, outward winding; four per cage quad, in the cage's order.
+    quads : (F, 4) int64, outward winding; in the cage's order, four per cage quad or, where it is denser, more.
     regions : (F,) region of every quad.
     mirror : (V,) int64, the vertex on the other side.
     node_index : cage node name -> vertex.
     cage_matrix : (V, C) sparse; carries weights from cage nodes to vertices as the surface itself is carried.
+    cage_positions : (C, 3) of the cage's nodes, so that the surface passes through its figures.
     cage_edges : the cage's edges, in the order of their vertices.
     cage : the cage's topology.
     """
@@ -40,6 +41,7 @@ class HeadSkin:
     mirror: Ints
     node_index: Mapping[str, int]
     cage_matrix: sparse.csr_matrix
+    cage_positions: Floats
     cage_edges: QuadEdges
     cage: Cage
 
@@ -71,7 +73,7 @@ class HeadSkin:
 
 
 def build_skin(figures: HeadFigures) -> HeadSkin:
-    """Skin through the figures: 4331 vertices, 4272 quads.
+    """Skin through the figures, each cage quad in four.
 
     Raises
     ------
@@ -94,13 +96,19 @@ def build_skin(figures: HeadFigures) -> HeadSkin:
         mirror=_vertex_mirror(cage, step.edges),
         node_index=index,
         cage_matrix=matrix,
+        cage_positions=nodes,
         cage_edges=step.edges,
         cage=cage,
     )
     skin.vertices[: len(targets)] = targets  # to the last bit, not only to the solver's tolerance
+    settle(skin, figures)
+    return skin
+
+
+def settle(skin: HeadSkin, figures: HeadFigures) -> None:
+    """Keep the lids clear of the eyeballs, and both halves alike, in place."""
     _clear_eyeball(skin, figures.eyeball, figures.lid_margin.gap)
     _mirror_left(skin)
-    return skin
 
 
 def _vertex_mirror(cage: Cage, edges: QuadEdges) -> Ints:

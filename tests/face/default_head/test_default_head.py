@@ -12,8 +12,8 @@ from risorius.errors import ModelError
 from risorius.face.default_head import HeadMesh, build_default_head
 from risorius.face.default_head.brows import front_surface
 from risorius.face.default_head.figures import PointFigures, read_figures
+from risorius.face.default_head.folding import folding_skin
 from risorius.face.default_head.points import skin_points
-from risorius.face.default_head.skin import build_skin
 from risorius.face.mesh.parts import Part
 
 MIRROR = np.array([-1.0, 1.0, 1.0])
@@ -111,7 +111,7 @@ def test_every_figure_is_exactly_a_vertex(head: HeadMesh) -> None:
 
 def test_the_surface_carries_what_the_cage_carries(head: HeadMesh) -> None:
     """Weights authored on the cage reach the skin by the matrix that carries the cage itself."""
-    skin = build_skin(read_figures())
+    skin = folding_skin(read_figures())
     assert np.allclose(skin.cage_matrix @ np.ones(len(skin.cage.names)), 1.0)
     assert np.array_equal(skin.vertices, head.vertices[: len(skin.vertices)])
 
@@ -146,7 +146,7 @@ def test_lids_have_a_rim_of_the_stated_thickness(head: HeadMesh) -> None:
 
 def test_teeth_and_tongue_stay_behind_the_closed_lips(head: HeadMesh) -> None:
     inner = np.isin(head.parts, (Part.TEETH_UPPER, Part.TEETH_LOWER, Part.TONGUE))
-    foot, _ = front_surface(build_skin(read_figures()), head.vertices[inner][:, [0, 2]])
+    foot, _ = front_surface(folding_skin(read_figures()), head.vertices[inner][:, [0, 2]])
     assert (head.vertices[inner, 1] - foot[:, 1]).min() > 2e-3
 
 
@@ -156,7 +156,7 @@ def test_brows_rise_out_of_the_skin(head: HeadMesh) -> None:
     edges = set(directed_edges(quads))
     border = np.unique([a for a, b in edges if (b, a) not in edges])
     left = head.groups["brow_l"]
-    foot, _ = front_surface(build_skin(read_figures()), head.vertices[left][:, [0, 2]])
+    foot, _ = front_surface(folding_skin(read_figures()), head.vertices[left][:, [0, 2]])
     height = foot[:, 1] - head.vertices[left, 1]
     sunk = np.isin(left, border)
     assert height[sunk].max() < -0.1e-3
@@ -252,7 +252,7 @@ def test_uv_runs_from_the_first_node_to_the_second_and_to_the_fourth(uv: tuple[f
     figures = read_figures()
     corners = ("r02c05", "r03c05", "r03c06", "r02c06")
     placed = replace(figures, points={"4.3": PointFigures(corners, uv)}, point_pairs={})
-    found = skin_points(placed, build_skin(figures))["4.3"]
+    found = skin_points(placed, folding_skin(figures))["4.3"]
     assert np.allclose(found, figures.nodes[corners[node]], atol=1e-9)
 
 
