@@ -29,7 +29,7 @@ class Stripe:
 
 
 def coloured(skin: HeadSkin, stripes: Iterable[Stripe]) -> Bools:
-    """(V,) which vertices of a skin that is not denser yet lie between rows, both halves; crossing stripes cancel out."""
+    """(V,) which vertices of a skin that is not denser yet lie between rows, in both halves; crossings cancel out."""
     names = np.array([name.removesuffix(RIGHT_SUFFIX) for name in skin.cage.names])
     corners, ends = names[skin.cage.quads], names[skin.cage_edges.ends]
     colour = np.zeros(len(skin.vertices), dtype=bool)
