@@ -15,16 +15,14 @@ from .figures import DEFAULT_FIGURES, HeadFigures, read_figures
 from .folding import folding_skin
 from .groups import skin_groups
 from .head_mesh import HeadMesh, Material
-from .mouth_bag import bag_materials
 from .piece import Piece
 from .points import skin_points
+from .shades import shaded_materials
 from .skin import HeadSkin
 from .teeth import DentalArch, build_teeth
 from .tongue import TIP_VERTEX, build_tongue, tongue_vertex
 
 REGION_MATERIALS = {
-    Region.LIPS: "lips",
-    Region.LID_RIM: "lid_rim",
     Region.UNDER_LID: "lid_rim",
     Region.NOSTRIL_DEPTH: "nostril",
 }
@@ -132,7 +130,7 @@ def _all_mirror(skin: HeadSkin, pieces: list[Piece], first: Ints) -> Ints:
 def _material_index(figures: HeadFigures, skin: HeadSkin, pieces: list[Piece]) -> Ints:
     """Material of every quad, as an index into the figures' materials."""
     order = {material.name: i for i, material in enumerate(figures.materials)}
-    bag = bag_materials(skin)
-    names = [bag.get(quad, REGION_MATERIALS.get(region, "skin")) for quad, region in enumerate(skin.regions)]
+    shaded = shaded_materials(skin)
+    names = [shaded.get(quad, REGION_MATERIALS.get(region, "skin")) for quad, region in enumerate(skin.regions)]
     names += [name for piece in pieces for name in piece.materials]
     return np.array([order[name] for name in names], dtype=np.int64)

@@ -38,5 +38,5 @@ def _rings(figures: EyeballFigures) -> tuple[Floats, list[str]]:
     radii = np.array([0.5 * pupil, pupil, *np.linspace(pupil, limbus, 4)[1:], iris])
     front = np.arcsin(radii / figures.radius)
     behind = np.linspace(front[-1], np.pi, 15)[1:-1]
-    bands = ["pupil", *("iris",) * 3, "limbus", *("sclera",) * len(behind)]
+    bands = ["pupil", "iris_inner", *("iris",) * 2, "limbus", *("sclera",) * len(behind)]
     return np.concatenate([front, behind]), bands

@@ -22,11 +22,11 @@ COLUMNS = (
 )
 #: Rings round eye and mouth between which it is denser across, outermost first; the rim is the grid's.
 EYE_RINGS = (("rim", "E4"), ("E4", "E3"), ("E3", "E2"))
-MOUTH_RINGS = (("M3", "M2"), ("M2", "M1"), ("B1", "B2"))
+MOUTH_RINGS = (("B1", "B2"),)
 
 
 def folding_skin(figures: HeadFigures) -> HeadSkin:
-    """Skin through the figures, denser where faces fold: forehead, glabella, lids, beside nose and mouth, lips.
+    """Skin through the figures, denser where faces fold: forehead, glabella, lids, beside nose and mouth.
 
     Raises
     ------

@@ -16,6 +16,7 @@ from risorius.face.default_head.limit import cage_through, limit_matrix, subdivi
 from risorius.face.default_head.skin import build_skin
 from risorius.face.drive.natural.symmetry import mirrored as in_mirror
 from risorius.face.drive.request import Drive, Request
+from risorius.face.mesh.parts import Part
 from risorius.face.pose import Poser
 from scipy.spatial.transform import Rotation
 
@@ -184,7 +185,7 @@ class Divisions:
         divided = np.asarray(limit_matrix(twice.matrix.shape[0], twice.quads) @ (twice.matrix @ (once.matrix @ cage)))
         divided[:count] = skin.vertices[:count]
         self.common = np.arange(count)
-        own = len(skin.vertices)
+        own = int(np.sum(head.parts == Part.SKIN))
         self._rest, self._rest_parts = head.vertices[own:], head.parts[own:]
         self._rest_polygons = [np.array(p) - own for p in head.polygons if min(p) >= own]
         self._points = {n: head.vertices[p] if isinstance(p, int | np.integer) else p for n, p in head.points.items()}
