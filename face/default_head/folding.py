@@ -18,7 +18,7 @@ ROWS = (
 COLUMNS = (
     ((0, 3), (0, 2)),  # glabella
     ((3, 7), (7, 8)),  # crow's feet
-    ((7, 14), (4, 6)),  # beside nose and mouth
+    ((7, 13), (4, 6)),  # beside nose and mouth
 )
 #: Rings round eye and mouth between which it is denser across, outermost first; the rim is the grid's.
 EYE_RINGS = (("rim", "E4"), ("E4", "E3"), ("E3", "E2"))
