@@ -4,6 +4,7 @@ The spine, from the public `Face` down; each knows only what stands below it:
 
 face            the public `Face`
 simulate        a face in motion, plan by plan
+long_motion     a long motion between some of its frames that are posed
 pose            a face in balance: request -> plan -> targets -> amounts -> pose
 reduced_motion  how skin and mandible follow postures, in a few fields: the production way
 motion          the same, node by node: for reference

@@ -16,6 +16,7 @@ from .anatomy import Anatomy
 from .bodies.eyeball import EyeballPlace
 from .drive.over_time import cue_plans, stream_plans
 from .drive.request import Drive, EmotionShares
+from .long_motion import LongMotion, long_motion
 from .measure import features, measure
 from .mechanism import Mechanism, named
 from .mesh.building import face_mesh_steps
@@ -339,6 +340,20 @@ class Face:
         weights = checked_emotions(emotions, len(checked))
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
         return simulation.run(stream_plans(checked, checked_drive(drive), weights))
+
+    def long_motion(self, frames: ArrayLike, *, drive: str | Drive = Drive.NATURAL) -> Work[LongMotion]:
+        """A long stream of FAPs (T, 68) in balance, bit by bit: some hundred of its frames are posed, and the others
+        lie between those; see `LongMotion`. The skin has no inertia: a recording has that of its own.
+
+        Examples
+        --------
+        >>> face, frames = api.default_face(), np.full((500, 68), np.nan)
+        >>> frames[:, 3 - 1] = 200.0 * (1.0 - np.cos(0.1 * np.arange(500.0)))  # open_jaw
+        >>> work = face.long_motion(frames)
+        >>> next(work).text
+        '0 of 35 frames posed'
+        """
+        return long_motion(self._poser, checked_stream(frames), checked_drive(drive))
 
     def performance(
         self,

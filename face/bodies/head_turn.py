@@ -49,13 +49,13 @@ class HeadTurn:
         """Whether enough of the skull is there to tell how the head is turned."""
         return len(self.skull) >= 4
 
-    def apply(self, positions: Floats, faps: Floats) -> Floats:
-        """Positions (V, 3) turned as FAPs 48 (down), 49 (left) and 50 (right shoulder) of `faps` (68,) say."""
+    def apply(self, positions: Floats, faps: Floats, vertices: Ints | slice[None, None, None] = slice(None)) -> Floats:
+        """Positions (V, 3), of all or some vertices, turned as FAPs 48 (down), 49 (left), 50 (right shoulder) say."""
         pitch, yaw, roll = (value_of(faps, number) * ANGLE_UNIT for number in (48, 49, 50))
         if pitch == yaw == roll == 0.0:
             return positions
         vector = Rotation.from_euler("yxz", [yaw, pitch, roll]).as_rotvec()
-        turn = Rotation.from_rotvec(self.weights[:, None] * vector)
+        turn = Rotation.from_rotvec(self.weights[vertices, None] * vector)
         turned: Floats = turn.apply(positions - self.pivot) + self.pivot
         return turned
 

@@ -5,7 +5,7 @@ target, timing              where a bake goes, and when it happens
 writing                     shape keys and a clip written on all objects of a face, and taken away
 performance, strips         several expressions; a timeline
 motion                      what a motion bake simulates
-compress                    a motion as few shapes times weights
+compress, compress_long     a motion as few shapes times weights; one of which some frames were posed
 shape_keys, action, notes   Risorius' own keys; clips as actions; what a bake notes on them
 tracks                      how clips play: as the keys' action, or on NLA tracks beside one another
 remarks                     what an animator should know about a bake

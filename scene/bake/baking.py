@@ -18,7 +18,8 @@ from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of, face_steps
 from . import action as actions
 from . import shape_keys
-from .compress import TOLERANCE, compress_steps
+from .compress import TOLERANCE, Shapes, compress_steps
+from .compress_long import compress_long
 from .motion import Motion
 from .notes import Note
 from .remarks import remarks, unmet_remarks
@@ -27,7 +28,11 @@ from .timing import ClipTiming, scene_fps
 from .writing import Written, write_baked
 
 if TYPE_CHECKING:
-    from ...api import EmotionShares, Retargeted
+    from ...api import EmotionShares, Face, Retargeted
+    from ...face.long_motion import LongMotion
+
+#: Frames of a long motion that are measured for what does not show: those that differ most.
+MEASURED = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,16 +144,14 @@ def bake_motion(
     yield Progress(0.02, "Placing the muscles")
     face = yield from part_of(face_steps(source), 0.02, 0.03)
     yield from part_of(face.prepare(), 0.03, 0.1)
-    moving = np.empty((count, *face.vertices.shape))
-    frames = motion.positions(face, rate, drive)
-    yield from part_of(frames.prepare(), 0.1, 0.25)
-    for index, positions in enumerate(frames):
-        moving[index] = positions
-        yield Progress(0.25 + 0.55 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
-    missed = yield from part_of(face.unmet_steps(motion.asked, moving), 0.8, 0.87)
-    yield Progress(0.87, "Compressing the motion to shape keys")
-    moving -= face.vertices
-    packed = yield from part_of(compress_steps(moving, tolerance=tolerance * face.scale), 0.87, 0.97)
+    between = motion.between(face, drive)
+    within, said = tolerance * face.scale, tuple[str, ...]()
+    if between is None:
+        packed, missed = yield from part_of(_simulated(face, motion, rate, drive, within), 0.1, 0.97)
+    else:
+        long = yield from part_of(between, 0.1, 0.7)
+        packed, missed = yield from part_of(_between(face, long, within), 0.7, 0.97)
+        said = (long_remark(clip, long),)
     if len(packed.shapes) == 0:
         raise SceneError(source.head.name, "nothing moves in this motion: increase its activation or its duration")
     yield Progress(0.97, "Writing the shape keys")
@@ -157,7 +160,40 @@ def bake_motion(
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
     marks = crease_marks.prepare(source, creases)
     written = write_baked(target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks, note=note)
-    return _result(clip, written, target, source, missed, error=packed.error)
+    return _result(clip, written, target, source, missed, error=packed.error, said=said)
+
+
+def _simulated(
+    face: Face, motion: Motion, fps: float, drive: str, tolerance: float
+) -> Work[tuple[Shapes, Mapping[int, str]]]:
+    """A motion simulated frame by frame, as shapes within a tolerance in metres; FAP number -> why it does not show."""
+    count = motion.frame_count(fps)
+    moving = np.empty((count, *face.vertices.shape))
+    frames = motion.positions(face, fps, drive)
+    yield from part_of(frames.prepare(), 0.0, 0.2)
+    for index, positions in enumerate(frames):
+        moving[index] = positions
+        yield Progress(0.2 + 0.6 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
+    missed = yield from part_of(face.unmet_steps(motion.asked, moving), 0.8, 0.88)
+    yield Progress(0.88, "Compressing the motion to shape keys")
+    moving -= face.vertices
+    return (yield from part_of(compress_steps(moving, tolerance=tolerance), 0.88, 1.0)), missed
+
+
+def _between(face: Face, long: LongMotion, tolerance: float) -> Work[tuple[Shapes, Mapping[int, str]]]:
+    """The same of a long motion, of which the frames that differ most are looked at."""
+    some = long.posed[:MEASURED]
+    missed = yield from part_of(face.unmet_steps(long.frames[some], long.positions(some)), 0.0, 0.2)
+    return (yield from part_of(compress_long(long, face.vertices, tolerance=tolerance), 0.2, 1.0)), missed
+
+
+def long_remark(clip: str, long: LongMotion) -> str:
+    """What is to be said of a motion of which only some frames were posed."""
+    usual, most = (1000.0 * np.percentile(long.off, share) for share in (50, 100))
+    return (
+        f"{clip}: {len(long.posed)} of {len(long)} frames were posed and the others are between these, as a rule within"
+        f" {usual:.1f} mm, at most {most:.1f} mm; the skin adds no inertia of its own"
+    )
 
 
 def joined(results: Sequence[BakeResult]) -> BakeResult:
@@ -184,8 +220,9 @@ def _result(
     *,
     error: float = 0.0,
     achieved: Floats | None = None,
+    said: tuple[str, ...] = (),
 ) -> BakeResult:
-    """What to tell of a bake; `missed` : FAP number -> why, of what was asked and does not show."""
+    """What to tell of a bake; `missed` : FAP number -> why, of what was asked and does not show. `said` : besides."""
     frames = actions.frames_of(written.action)
-    said = remarks(source.head, face_of(source)) + written.remarks + unmet_remarks(missed, clip) + target.remarks()
+    said += remarks(source.head, face_of(source)) + written.remarks + unmet_remarks(missed, clip) + target.remarks()
     return BakeResult(clip, written.action.name, written.keys, error, frames, achieved, said)

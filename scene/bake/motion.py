@@ -11,11 +11,15 @@ import numpy as np
 from ...arrays import Floats
 from ...errors import ParameterError
 from ...mpeg4 import Cue, Liveliness, strengths
-from ...progress import Prepared
+from ...progress import Prepared, Work
 
 if TYPE_CHECKING:
     from ...face.face import Face
+    from ...face.long_motion import LongMotion
     from ...physics.tissue import Tissue
+
+#: Frames of the longest stream that is simulated frame by frame, which takes minutes for a thousand.
+SIMULATED = 600
 
 
 class Motion(Protocol):
@@ -27,6 +31,10 @@ class Motion(Protocol):
 
     def positions(self, face: Face, fps: float, drive: str) -> Prepared[Floats]:
         """Positions (V, 3) frame by frame."""
+        ...
+
+    def between(self, face: Face, drive: str) -> Work[LongMotion] | None:
+        """Its frames between some that are posed, where it is long; None where each is simulated."""
         ...
 
     @property
@@ -63,6 +71,10 @@ class CueMotion:
             liveliness=self.liveliness,
         )
 
+    def between(self, face: Face, drive: str) -> Work[LongMotion] | None:
+        """Each frame is simulated."""
+        return None
+
     @property
     def asked(self) -> Floats:
         """Each expression at its peak."""
@@ -87,6 +99,12 @@ class FapMotion:
     def positions(self, face: Face, fps: float, drive: str) -> Prepared[Floats]:
         """The stream, each frame planned by itself; see `Face.simulation`."""
         return face.simulation(self.stream, fps, drive=drive, emotions=self.emotions)
+
+    def between(self, face: Face, drive: str) -> Work[LongMotion] | None:
+        """A long stream is a recording, as a rule, and its skin has had its inertia; see `Face.long_motion`."""
+        if len(self.stream) <= SIMULATED or self.emotions is not None:
+            return None
+        return face.long_motion(self.stream, drive=drive)
 
     @property
     def asked(self) -> Floats:

@@ -6,7 +6,7 @@ added and none is changed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
@@ -15,7 +15,7 @@ import numpy as np
 from ...arrays import Floats
 from ...progress import Progress, Work, part_of
 from ..bake.action import Curve
-from ..bake.baking import BakeResult
+from ..bake.baking import BakeResult, long_remark
 from ..bake.motion import Motion
 from ..bake.notes import Note, write_note
 from ..bake.remarks import sewn_remarks, unmet_remarks
@@ -172,8 +172,13 @@ def bake_motion_onto(
     source, face, rig, controls = yield from _prepared(target, find_rig)
     retargeting = api.Retargeting(face, controls, symmetric=onto.symmetric)
     take = retargeting.take(frames_to_look_at(rig, count))
-    frames = motion.positions(face, rate, drive)
-    yield from part_of(frames.prepare(), 0.7, 0.75)
+    between, long = motion.between(face, drive), None
+    if between is not None:
+        frames: Iterable[Floats] = (long := (yield from part_of(between, 0.7, 0.75)))
+    else:
+        simulated = motion.positions(face, rate, drive)
+        yield from part_of(simulated.prepare(), 0.7, 0.75)
+        frames = simulated
     for index, positions in enumerate(frames):
         take.add(positions)
         yield Progress(0.75 + 0.15 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
@@ -181,7 +186,9 @@ def bake_motion_onto(
     found = yield from part_of(work, 0.9, 1.0)
     values = rig.channel_values(found.names, found.values)
     keyframes = Keyframes(start + np.arange(count, dtype=np.float64), values, linear=True)
-    return _write(source, rig, clip, keyframes, onto, found, _about(target, rig, face), note=note)
+    about = _about(target, rig, face)
+    said = about if long is None else (*about, long_remark(clip, long))
+    return _write(source, rig, clip, keyframes, onto, found, said, note=note)
 
 
 def _prepared(target: Target, find_rig: FindRig) -> Work[tuple[FaceSource, Face, Rig, Controls]]:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from risorius.errors import ParameterError
+from risorius.progress import run
 from risorius.scene.bake.compress import compress
+from risorius.scene.bake.compress_long import compress_long
 
 
 def motion(rank: int, frames: int = 40, vertices: int = 300) -> np.ndarray:
@@ -49,3 +51,42 @@ def test_wrong_input_is_named() -> None:
         compress(motion(1), tolerance=0.0)
     with pytest.raises(ParameterError, match="displacements"):
         compress(np.full((2, 3, 3), np.nan))
+
+
+class Waves:
+    """A long motion of known shapes; `posed` frames say least of it."""
+
+    posed = np.arange(0, 20)
+
+    def __init__(self, rank: int, count: int) -> None:
+        rng, times = np.random.default_rng(7), np.arange(count)[:, None]
+        self.shapes = 0.01 * rng.standard_normal((rank, 300, 3)) * 0.7 ** np.arange(rank)[:, None, None]
+        self.weights = np.sin(times * rng.uniform(0.01, 0.05, rank)) * (times < count - 50)
+        self.frames = np.where(np.abs(self.weights) > 0.0, self.weights, 0.0)
+
+    def __len__(self) -> int:
+        return len(self.weights)
+
+    def positions(self, steps: np.ndarray, vertices: np.ndarray | slice = slice(None)) -> np.ndarray:
+        return 1.0 + np.tensordot(self.weights[steps], self.shapes[:, vertices], axes=1)
+
+
+@pytest.mark.parametrize("rank", [1, 12])
+def test_a_long_motion_is_compressed_without_all_of_it(rank: int) -> None:
+    motion = Waves(rank, 3000)
+    packed = run(compress_long(motion, np.ones((300, 3)), tolerance=1e-5))
+    assert len(packed.shapes) == rank
+    apart = packed.displacement() - (motion.positions(np.arange(3000)) - 1.0)
+    assert np.linalg.norm(apart, axis=2).max() <= packed.error * 1.01 + 1e-9 < 2e-5
+    np.testing.assert_array_equal(packed.weights[-50:], 0.0)
+    np.testing.assert_array_equal(np.abs(packed.weights).max(axis=0), 1.0)
+    assert len(run(compress_long(motion, np.ones((300, 3)), tolerance=1e-2)).shapes) < max(rank, 2)
+
+
+def test_a_long_motion_in_which_nothing_moves_has_no_shapes() -> None:
+    motion = Waves(1, 100)
+    motion.weights[:] = motion.frames[:] = 0.0
+    packed = run(compress_long(motion, np.ones((300, 3))))
+    assert packed.shapes.shape == (0, 300, 3)
+    assert packed.weights.shape == (100, 0)
+    assert packed.error == 0.0

@@ -20,6 +20,7 @@ from risorius.progress import Progress
 from risorius.scene.bake.baking import BakeResult
 from risorius.scene.bake.motion import FapMotion, at_rate
 from risorius.scene.bake.shape_keys import read_own
+from risorius.scene.mesh import evaluated_vertices
 
 JAW, LID = 3 - 1, 19 - 1
 
@@ -215,3 +216,38 @@ def test_a_recording_with_a_hole_is_baked_without_a_pop(head: Any, tmp_path: Pat
         shown.append([head.data.shape_keys.key_blocks[name].value for name in clips["take"]])
     assert np.ptp(shown, axis=0).max() < 0.02
     assert np.abs(shown).max() > 0.5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("onto", ["NEW", "KEYS"])
+def test_a_long_recording_shows_the_poses_of_its_frames(
+    onto: str, head: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("risorius.scene.bake.motion.SIMULATED", 50)
+    rows = [f"{t / 25:.2f},{0.5 - 0.5 * np.cos(t / 9):.4f},{0.2 * np.sin(t / 14):.4f}" for t in range(120)]
+    (tmp_path / "take.csv").write_text("\n".join(["timestamp,jawOpen,HeadYaw", *rows]))
+    scene, path = bpy.context.scene, tmp_path / "take.csv"
+    scene.render.fps = 25
+    scene.frame_set(1)
+    if onto == "KEYS":
+        head.shape_key_add(name="Basis")
+        key = head.shape_key_add(name="drop", from_mix=False)
+        faps = np.full(68, np.nan)
+        faps[JAW] = 400.0
+        key.data.foreach_set("co", api.default_face().pose(faps).positions.ravel())
+        head.risorius.bake.onto = onto
+    said: list[str] = []
+    monkeypatch.setattr(RISORIUS_OT_import_fap, "report", lambda self, kind, text: said.append(text), raising=False)
+    imported(path)
+    frames, _ = api.read_recording(path).played()
+    shown = []
+    for step in (0, 28, 60):
+        scene.frame_set(1 + step)
+        shown.append(evaluated_vertices(head))
+        expected = api.default_face().pose(frames[step]).positions
+        if onto == "NEW":
+            assert np.abs(shown[-1] - expected).max() < 0.5e-3
+    assert np.abs(shown[1] - shown[0]).max() > 5e-3
+    if onto == "KEYS":
+        scene.frame_set(29)
+        assert head.data.shape_keys.key_blocks["drop"].value > 0.3
