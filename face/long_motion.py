@@ -102,7 +102,7 @@ def long_motion(poser: Poser, frames: Floats, drive: Drive) -> Work[LongMotion]:
         yield Progress.counted(number, len(posed), "frames posed")
         shapes[number] = _shape(poser, asked[step], drive)
     between = _weights(places[looked_at], places[chosen]) @ shapes[: len(chosen)].reshape(len(chosen), -1)
-    apart = shapes[len(chosen) :] - between.reshape(len(looked_at), -1, 3)
+    apart = shapes[len(chosen) :] - between.reshape(len(looked_at), *shapes.shape[1:])
     off = np.linalg.norm(apart, axis=2).max(axis=1, initial=0.0) * anatomy.mesh.head_frame.scale
     return LongMotion(anatomy, frames, posed, shapes, _weights(places, places[posed]), off)
 

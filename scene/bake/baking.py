@@ -189,7 +189,8 @@ def _between(face: Face, long: LongMotion, tolerance: float) -> Work[tuple[Shape
 
 def long_remark(clip: str, long: LongMotion) -> str:
     """What is to be said of a motion of which only some frames were posed."""
-    usual, most = (1000.0 * np.percentile(long.off, share) for share in (50, 100))
+    off = long.off if len(long.off) else np.zeros(1)  # every frame was posed
+    usual, most = (1000.0 * np.percentile(off, share) for share in (50, 100))
     return (
         f"{clip}: {len(long.posed)} of {len(long)} frames were posed and the others are between these, as a rule within"
         f" {usual:.1f} mm, at most {most:.1f} mm; the skin adds no inertia of its own"
