@@ -118,7 +118,7 @@ class Balance:
         found = anatomy.inverse.solve(targets) if rules.muscles else anatomy.actuators.none()
         amounts = set_by_hand(anatomy.actuators, found, plan.request.by_hand)
         guessed: Floats | float = 0.0
-        if rules.muscles and self._rounds(rules.correction):
+        if rules.muscles and rules.correction is Correction.FAPS and self._rounds(rules.correction):
             guessed = self.belief.guessed(found, amounts, targets)
         if plan.request.by_hand and rules.correction is Correction.CONTACT:
             targets = self._moved_by_hand(targets, found, amounts)
