@@ -36,6 +36,7 @@ class SkinFigures:
 class TogetherFigures:
     """How far muscles of one side contract together (presets/anatomy/targets.toml)."""
 
+    wing_and_lip: Share
     wing_and_procerus: Share
     wing_and_brow: Share
 
@@ -45,6 +46,7 @@ TOGETHER = read_figures("targets.together", TogetherFigures)
 
 #: Muscles that contract together, and the correlation of their amounts.
 PAIRS = (
+    ("llsan_wing", "llsan_lip", TOGETHER.wing_and_lip),
     ("llsan_wing", "procerus", TOGETHER.wing_and_procerus),
     ("llsan_wing", "depressor_supercilii", TOGETHER.wing_and_brow),
 )

@@ -21,7 +21,7 @@ from ...physics.mesh import Sparse
 from ..figures import Length, read_figures
 from ..mechanism import Mechanism
 from ..skin.outer import OuterSkin
-from . import lids, lips, nose
+from . import lids, lips, nasolabial, nose
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,8 @@ def bulging(skin: OuterSkin) -> Floats:
     """(n,) bulge height per unit of surface compression, metres; lips, nose tip and lids are free of it."""
     if not skin.has(Mechanism.BULGE):
         return np.zeros(skin.vertex_count)
-    return BULGE.height * lips.off_lips(skin) * nose.off_tip(skin) * (1.0 - lids.near_lids(skin))
+    everywhere = BULGE.height * lips.off_lips(skin) * nose.off_tip(skin)
+    return (everywhere + nasolabial.heaping(skin)) * (1.0 - lids.near_lids(skin))
 
 
 def surface_divergence(skin: OuterSkin) -> Sparse:

@@ -48,6 +48,13 @@ def shelf_over_the_eye(face: Face) -> float:
     return float(moved.at((lid + brow) / 2.0)[1] / moved.at("4.3")[1])
 
 
+def heap_beside_the_wing(face: Face) -> float:
+    """A nose wrinkled and a lip raised by their muscles: how far skin comes forward above the nasolabial fold, mm."""
+    moved = contracted(face, "llsan_wing", "llsan_lip", "levator_labii_superioris")
+    above, below = place(face, "9.1", 6.0, 5.0, -7.0), place(face, "9.1", 8.0, -10.0, -4.0)
+    return float(moved.at(above)[2] - moved.at(below)[2])
+
+
 def gain_lost_when_stretched(face: Face) -> float:
     """Corners drawn up and back: motion per contraction at a tenth of the amplitude over that at all of it."""
     names = [name for name in face.muscles if name.startswith(("zygomaticus", "risorius"))]
@@ -75,6 +82,7 @@ CLAIMS = (
     Claim(Mechanism.SLIDING, along_the_bone, 2.0),
     Claim(Mechanism.BULGE, heap_of_a_squeeze, 0.8),
     Claim(Mechanism.HOOD, shelf_over_the_eye, 0.9),
+    Claim(Mechanism.BULGE, heap_beside_the_wing, 3.0),
     Claim(Mechanism.BIPHASIC, gain_lost_when_stretched, 1.05),
     Claim(Mechanism.FOLDS, fold_beside_the_nose, 0.85, "ict"),
 )
