@@ -17,10 +17,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
+from scipy.spatial.distance import cdist
 
 from ...arrays import Floats, Ints
 from ...physics.mesh import Sparse
-from ..figures import Pair, read_figures
+from ..figures import Length, Pair, read_figures
 from ..mechanism import Mechanism
 from ..skin.outer import OuterSkin, nearer_side, smoothstep
 from .separation import SEPARATION
@@ -29,8 +30,8 @@ from .separation import SEPARATION
 BROWS = {"l": ("4.1", "4.3", "4.5"), "r": ("4.2", "4.4", "4.6")}
 CORNERS = {"l": ("3.11", "3.7"), "r": ("3.8", "3.12")}
 
-#: Places along a brow, and vertices that each is read off.
-STATIONS, NEAREST = 25, 8
+#: Places along a brow; skin that counts for less than a share of the nearest's part is not read.
+STATIONS, FAINT = 25, 1e-3
 
 #: What is no distance, metres.
 NO_DISTANCE = 1e-6
@@ -46,6 +47,7 @@ class HoodFigures:
     inner: Pair
     outer: Pair
     above: Pair
+    read: Length
 
 
 HOOD = read_figures("lids.hood", HoodFigures)
@@ -123,13 +125,9 @@ class _Brow:
         self.outwards = 1.0 if side == "l" else -1.0
         share = np.linspace(0.0, 2.0, STATIONS)[:, None]
         line = np.where(share < 1.0, head + share * (middle - head), middle + (share - 1.0) * (tail - middle))
-        distance, nearest = (np.reshape(part, (STATIONS, NEAREST)) for part in skin.tree.query(line, k=NEAREST))
-        # The farthest weighs nothing: which of two that are as far is found is a matter of rounding.
-        weight = (1.0 - (distance / np.maximum(distance[:, -1:], NO_DISTANCE)) ** 2) ** 2
-        weight /= weight.sum(axis=1, keepdims=True)
-        rows = np.repeat(np.arange(STATIONS), NEAREST)
-        n = skin.vertex_count
-        on_line = sparse.csr_array((weight.ravel(), (rows, nearest.ravel())), shape=(STATIONS, n))
+        near = np.exp(-((cdist(line, skin.positions) / HOOD.read) ** 2))
+        near *= (near > FAINT * near.max(axis=1, keepdims=True)) * skin.areas
+        on_line = sparse.csr_array(near / near.sum(axis=1, keepdims=True))
         self.reader: Sparse = (_between(line[:, 0], skin.positions[:, 0], self.outwards) @ on_line).tocsr()
 
     def of(self, values: Floats) -> Floats:

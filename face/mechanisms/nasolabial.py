@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Floats
-from ..figures import Length, Place, read_figures
+from ..figures import Length, Place, Share, read_figures
 from ..skin.outer import OuterSkin, smoothstep
 
 #: Wing of the nose and corner of the mouth of each side, and the sign of its x.
@@ -36,6 +36,7 @@ class NasolabialFigures:
     reach: Length
     before: Length
     past: Length
+    thin: Share
 
 
 NASOLABIAL = read_figures("regions.nasolabial", NasolabialFigures)
@@ -54,6 +55,7 @@ def heaping(skin: OuterSkin) -> Floats:
         beyond = np.maximum(outwards - NASOLABIAL.over, 0.0) / NASOLABIAL.reach
         fat = smoothstep(outwards / NASOLABIAL.over) * np.exp(-(beyond**2))
         within = smoothstep(1.0 + along / NASOLABIAL.before) * smoothstep(1.0 + (length - along) / NASOLABIAL.past)
+        within *= 1.0 - (1.0 - NASOLABIAL.thin) * smoothstep(along / length)
         height += NASOLABIAL.height * fat * within
     return height
 

@@ -41,6 +41,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "figures.py": (1e-3, 1e6, 180.0),  # units
     "long_motion.py": (12.0, 0.1, 3.0, 12.0, 1e-3),  # a kernel: how far it reaches; a millimetre
     "mechanisms/bulge.py": (6.0,),  # a triangle's share of a divergence
+    "mechanisms/hood.py": (1e-3,),  # what is too faint to be read
     "mechanisms/lids.py": (0.3,),  # shortest lever
     "mesh/checks.py": (0.01, 0.01),  # weight of a row of least squares
     "mesh/head_frame.py": (10.0, 1e-3),  # when axes and points are believed

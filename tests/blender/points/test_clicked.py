@@ -25,7 +25,7 @@ def test_an_operator_that_clicks_and_then_works_listens_once(head: Any, monkeypa
     )
     context = SimpleNamespace(window_manager=manager, window=None, workspace=None, object=head, scene=None)
     operator = SimpleNamespace(work=lambda _: iter(()), title="Working")
-    click.RISORIUS_OT_click_points.start(operator, context)
+    click.RISORIUS_OT_click_points.begin(operator, context)
     assert operator._timer == "timer"
     assert listeners == []
 

@@ -84,5 +84,5 @@ CLAIMS = (
     Claim(Mechanism.HOOD, shelf_over_the_eye, 0.9),
     Claim(Mechanism.BULGE, heap_beside_the_wing, 3.0),
     Claim(Mechanism.BIPHASIC, gain_lost_when_stretched, 1.05),
-    Claim(Mechanism.FOLDS, fold_beside_the_nose, 0.85, "ict"),
+    Claim(Mechanism.FOLDS, fold_beside_the_nose, 1.2, "ict"),
 )
