@@ -48,6 +48,7 @@ class HoodFigures:
     outer: Pair
     above: Pair
     read: Length
+    midline: Length
 
 
 HOOD = read_figures("lids.hood", HoodFigures)
@@ -104,7 +105,7 @@ def _of_one_eye(skin: OuterSkin, side: str) -> Sparse:
         * smoothstep((HOOD.outer[0] - along) / HOOD.outer[1])
         * smoothstep((above_corners - HOOD.above[0]) / HOOD.above[1])
         * nearer_side(lower - upper, SEPARATION.lids)
-        * (skin.positions[:, 0] * brow.outwards > 0.0)
+        * smoothstep(skin.positions[:, 0] * brow.outwards / HOOD.midline)
     )
     share = smoothstep((way - HOOD.carried[0]) / HOOD.carried[1])
     change: Sparse = (sparse.diags_array(holds * share) @ brow.reader - sparse.diags_array(holds)).tocsr()
@@ -126,7 +127,7 @@ class _Brow:
         share = np.linspace(0.0, 2.0, STATIONS)[:, None]
         line = np.where(share < 1.0, head + share * (middle - head), middle + (share - 1.0) * (tail - middle))
         near = np.exp(-((cdist(line, skin.positions) / HOOD.read) ** 2))
-        near *= (near > FAINT * near.max(axis=1, keepdims=True)) * skin.areas
+        near = np.maximum(near - FAINT * near.max(axis=1, keepdims=True), 0.0) * skin.areas  # nothing begins abruptly
         on_line = sparse.csr_array(near / near.sum(axis=1, keepdims=True))
         self.reader: Sparse = (_between(line[:, 0], skin.positions[:, 0], self.outwards) @ on_line).tocsr()
 
