@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from ...face.long_motion import LongMotion
     from ...physics.tissue import Tissue
 
-#: Frames of the longest stream that is simulated frame by frame, which takes minutes for a thousand.
-SIMULATED = 600
+#: Frames of the longest stream that is simulated frame by frame, which takes half a minute and all of them in memory.
+SIMULATED = 1000
 
 
 class Motion(Protocol):
