@@ -33,14 +33,14 @@ from .response.spring_skin import spring_skin
 #: Fields of the balance in which the skin may be left behind, and how many these and the skin's answers to them may be.
 FIELDS, WITH_ANSWERS = 12, 36
 
-#: The skin's stiffness is taken at so many steps, the farthest from each other.
+#: The skin's stiffness is taken at so many of the steps that want points, lids and jaw farthest apart.
 STIFFNESSES = 6
 
 #: How far the work of a clip is once its muscles are found, once its equilibria are solved; what is said thereafter.
 EFFORTS, SOLVED, LEFT_BEHIND = 0.2, 0.8, "Finding how the skin is left behind"
 
-#: So many places of lids and jaw, the farthest from each other, are among what these fields are made of.
-CARRIED_PLACES = 8
+#: So many steps that want points, lids and jaw farthest apart are among what the fields are made of.
+WANTED = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,9 +96,10 @@ class ReducedMotion:
             yield Progress(EFFORTS * len(efforts) / len(plans), "Finding the muscles behind the motion")
         amounts = [effort.amounts for effort in efforts]
         pull = yield from part_of(sampled_pull(self.anatomy.relaxation, amounts), EFFORTS, SOLVED)
-        places = np.array([_carried_place(self.anatomy, each) for each in amounts])
+        places = np.array([_wanted(self.anatomy, effort) for effort in efforts])
+        telling = [0, *farthest(places, [0], WANTED)]
         postures: dict[int, Posture] = {}
-        for step in [*pull.steps.tolist(), *farthest(places, [int(pull.steps[0])], CARRIED_PLACES)]:
+        for step in dict.fromkeys([*telling, *pull.steps.tolist()]):
             postures[step] = self.balance.reached(efforts[step], pull.at(step))
             yield Progress(SOLVED, LEFT_BEHIND)
         carried = [posture.carried for posture in postures.values()]
@@ -110,9 +111,9 @@ class ReducedMotion:
         reduced = ReducedSkin(
             self.skin, Factor(self.skin.matrix()), fields, self.duration / self.substeps, count=WITH_ANSWERS
         )
-        stiff = pull.steps[:STIFFNESSES].tolist()
+        stiff = telling[:STIFFNESSES]
         stiffness = [reduced.stiffness(self.skin.rest + postures[step].displacement) for step in stiff]
-        return Course(efforts, pull, reduced, np.array(stiffness), _parts(foretelling(pull.places, stiff)))
+        return Course(efforts, pull, reduced, np.array(stiffness), _parts(foretelling(places, stiff)))
 
     def along(self, course: Course) -> Iterator[tuple[Floats, JawMotion]]:
         """Displacement (n, 3) of the outer skin in head space, metres, and the mandible, step by step."""
@@ -154,7 +155,8 @@ def _parts(weights: Floats) -> Floats:
     return np.asarray(parts / parts.sum(axis=1, keepdims=True))
 
 
-def _carried_place(anatomy: Anatomy, amounts: Amounts) -> Floats:
-    """What lids and jaw are at, metres."""
-    jaw = amounts.jaw
-    return np.array([*amounts.lids.values(), jaw.angle * anatomy.actuators.chin_lever, jaw.left, jaw.forward])
+def _wanted(anatomy: Anatomy, effort: Effort) -> Floats:
+    """Where points are wanted, and what lids and jaw are at, metres: muscles are not all that moves skin."""
+    jaw, lids = effort.amounts.jaw, effort.amounts.lids
+    carried = [*lids.values(), jaw.angle * anatomy.actuators.chin_lever, jaw.left, jaw.forward]
+    return np.concatenate([np.nan_to_num(effort.targets.displacements), carried])

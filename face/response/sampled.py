@@ -43,7 +43,6 @@ class SampledPull:
     ----------
     low_strain : a step's number -> (n, 3) metres, what its muscles do to a linear skin.
     steps : (m,) which steps of the clip were solved. beyond : (m, n, 3) metres, what their equilibria add to that.
-    places : (T, d) where the steps' amounts lie among each other, metres.
     weights : (T, m) how what every step adds is a sum of these; rows sum to 1.
     disagreement : metres, how far the equilibria that were tried last lay from what the others had foretold.
     """
@@ -51,7 +50,6 @@ class SampledPull:
     low_strain: Callable[[int], Floats]
     steps: Ints
     beyond: Floats
-    places: Floats
     weights: Floats
     disagreement: float
 
@@ -98,7 +96,7 @@ def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[Sample
             break
         more = max(TRIED, int(TRIED_SHARE * len(chosen)))
         tried = farthest(places, chosen, more if len(chosen) > places.shape[1] else 1)
-    return SampledPull(low_strain, np.array(chosen), np.array(beyond), places, foretelling(places, chosen), off)
+    return SampledPull(low_strain, np.array(chosen), np.array(beyond), foretelling(places, chosen), off)
 
 
 def farthest(places: Floats, chosen: Sequence[int], count: int) -> list[int]:

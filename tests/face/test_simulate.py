@@ -175,6 +175,21 @@ def test_a_few_fields_move_the_face_as_every_node_does(face: Face) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("drive", ["exact", "points"])
+def test_skin_lags_behind_whatever_moves_it(small: Face, drive: str) -> None:
+    """Where the elastic skin answers, and no muscle, it has its inertia too."""
+    frames = clip_of([0.0, 0.5, 1.0, 1.0])
+    quick, reference = (
+        small.simulate(frames, fps=25.0, drive=drive, integrator=name, substeps=n).positions
+        for name, n in (("reduced", 2), ("implicit", 8))
+    )
+    still = np.array([small.pose(frame, drive=drive).positions for frame in frames])
+    lag = np.linalg.norm(reference - still, axis=2).max()
+    assert lag > 1e-3
+    assert np.linalg.norm(quick - reference, axis=2).max() < 0.2 * lag
+
+
+@pytest.mark.slow
 def test_equilibria_are_solved_for_few_frames_only(face: Face, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever the clock says: few solves with a factored matrix for each frame."""
     solved: list[int] = []
