@@ -4,7 +4,6 @@ recording               the way in and out: streams and recordings in files of e
 formats, opening        the formats, and which of them a file has
 trackers                the files of trackers, a row each, and how they become samples of FAPs
 mediapipe_landmarks     the landmarks of a face mesh as tracked points
-seeming                 what a file seems to be that is none of them
 neutral                 which rows show the neutral face, and scores counted from it
 flipping                turns that a recording has the other way round
 landmarks               tracked points as FAPs, in that person's own units

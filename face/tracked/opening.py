@@ -11,12 +11,12 @@ from ...errors import FormatError
 from ...files import read_bytes
 from ...mpeg4.streams.capture import Samples, frames_of, read_json_document, read_table_file
 from ...mpeg4.streams.capture.delimited import decoded
-from ...mpeg4.streams.capture.text_logs import is_text_log, read_text_log
+from ...mpeg4.streams.capture.seeming import names_in, what_begins_so, what_it_seems
+from ...mpeg4.streams.capture.text_logs import begins_as_json, is_text_log, read_text_log
 from ...mpeg4.streams.fap_file import looks_like_fap
 from ...mpeg4.streams.fap_json import FORMAT
 from ...mpeg4.streams.fba import begins_as_fba
 from .formats import READABLE, StreamFormat
-from .seeming import names_in, what_begins_so, what_it_seems
 from .trackers import RECORDINGS, TABLES, Content, Told, Tracker
 
 #: Bytes at a file's beginning that tell FAP files, JSON and tables apart.
@@ -56,7 +56,7 @@ def open_stream(path: str | Path, format: StreamFormat | None = None) -> Opened:
         return Opened(file, StreamFormat.FBA)
     if format is None and (looks_like_fap(head) or ending == ".fap"):
         return Opened(file, StreamFormat.FAP)
-    if format is StreamFormat.JSON or head.lstrip().startswith(("{", "[")) or ending in (".json", ".jsonl"):
+    if format is StreamFormat.JSON or begins_as_json(head) or ending in (".json", ".jsonl"):
         return _json(file, format)
     if "\0" in head:
         seems = what_begins_so(data)

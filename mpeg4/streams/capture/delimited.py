@@ -21,7 +21,7 @@ MARKS = (",", ";", "\t", "|")
 #: Lines that are looked at to tell the marks.
 TRIED = 20
 
-SEPARATOR_LINE = re.compile(r"sep=(.)\s*", re.IGNORECASE)
+SEPARATOR_LINE = re.compile(r"(\"?)sep=(.)\1[\s,;]*", re.IGNORECASE)
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
 DECIMAL_POINT = re.compile(r"[+-]?\d*\.\d+(?:[eE][+-]?\d+)?")
 
@@ -54,14 +54,25 @@ def read_text(file: Path) -> str:
 def lines_and_mark(text: str) -> tuple[list[Line], str]:
     """The lines that say something, with their numbers, and the mark between their cells."""
     lines = numbered_lines(text)
-    while len(lines) > 1 and lines[0][1].startswith("#") and lines[1][1].count(",") > lines[0][1].count(","):
-        lines = lines[1:]  # a remark above the heading
+    lines = lines[_remarks(lines) :]
     said = SEPARATOR_LINE.fullmatch(lines[0][1]) if lines else None
     if said is not None:
-        return lines[1:], said[1]
+        return lines[1:], said[2]
     tried = [line for _, line in lines[:TRIED]]
     lines = _unwrapped(lines) if tried and all(_is_wrapped(line) for line in tried) else lines
     return lines, max(MARKS, key=lambda mark: _parted([line for _, line in lines[:TRIED]], mark))
+
+
+def _remarks(lines: Sequence[Line]) -> int:
+    """How many lines above the heading are remarks: no cells, where the first line of cells has names in them."""
+    cells = [max(len(re.split(re.escape(mark), line)) for mark in MARKS) for _, line in lines[:TRIED]]
+    starts = next(
+        (place for place, (_, line) in enumerate(lines[:TRIED]) if cells[place] > 1 and not line.startswith("#")), 0
+    )
+    if any(SEPARATOR_LINE.fullmatch(line) for _, line in lines[:starts]):
+        return 0
+    names = [cell.strip(' "') for cell in re.split(r"[,;\t|]", lines[starts][1])] if lines else []
+    return starts if 2 * sum(bool(re.match(r"[A-Za-z]", name)) for name in names) >= len(names) else 0
 
 
 def _parted(lines: Sequence[str], mark: str) -> tuple[int, int]:

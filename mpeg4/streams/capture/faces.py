@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 
+from ....arrays import Ints
 from ....errors import FormatError, ParameterError
 from .row_names import FACE_NAMES, NUMBER_NAMES, first_named, time_named
 from .table_file import TableFile
@@ -21,17 +24,42 @@ def one_face(table: TableFile, face: int | None) -> TableFile:
     ParameterError : there is no such face.
     """
     name = first_named(table.columns, FACE_NAMES)
-    texts = table.texts(name) if name is not None else []
-    there = sorted({text for text in texts if text}, key=_order)
+    ids = table.texts(name) if name is not None else []
+    frame_name = name_of_frames(table.columns)
+    frames = table.texts(frame_name) if frame_name is not None else []
+    rows = rows_of_face(ids, frames, face, lambda problem: FormatError(table.path, problem))
+    return chosen_of_one(table, face) if rows is None else table.only(rows)
+
+
+def name_of_frames(names: Sequence[str]) -> str | None:
+    """What tells the frame of a row: its number, else its time; None where neither does."""
+    number, timed = first_named(names, NUMBER_NAMES), time_named(names)
+    return number or (timed[0] if timed is not None else None)
+
+
+def rows_of_face(
+    ids: Sequence[str], frames: Sequence[str], face: int | None, refuse: Callable[[str], FormatError]
+) -> Ints | None:
+    """The rows of one face of several; None where there is one face.
+
+    Parameters
+    ----------
+    ids : the face of each row, empty where it states none; no ids where the file has none.
+    frames : the frame of each row; none where the file does not say. refuse : the error for the file.
+
+    Raises
+    ------
+    FormatError : several faces and none chosen; says how many. ParameterError : there is no such face.
+    """
+    there = sorted({text for text in ids if text}, key=_order)
     if len(there) > 1:
         if face is None:
-            problem = f"contains {len(there)} faces ({name} {', '.join(there[:8])}): choose one (--face)"
-            raise FormatError(table.path, problem)
-        chosen = [row for row, text in enumerate(texts) if _order(text) == (0, float(face), "")]
+            raise refuse(f"contains {len(there)} faces (face_id {', '.join(there[:8])}): choose one (--face)")
+        chosen = [row for row, text in enumerate(ids) if _order(text) == (0, float(face), "")]
         if not chosen:
             raise ParameterError("face", f"must be one of {', '.join(there[:8])}", face)
-        return table.only(np.array(chosen, dtype=np.int64))
-    return _by_place(table, face) if len(there) < 2 else table
+        return np.array(chosen, dtype=np.int64)
+    return _by_place(frames, face, refuse)
 
 
 def _order(text: str) -> tuple[int, float, str]:
@@ -42,13 +70,8 @@ def _order(text: str) -> tuple[int, float, str]:
         return (1, 0.0, text)
 
 
-def _by_place(table: TableFile, face: int | None) -> TableFile:
-    """The rows of one face where each frame has a row for every face; the whole table where it has not."""
-    name = first_named(table.columns, NUMBER_NAMES)
-    if name is None:
-        named = time_named(table.columns)
-        name = named[0] if named is not None else None
-    frames = table.texts(name) if name is not None else []
+def _by_place(frames: Sequence[str], face: int | None, refuse: Callable[[str], FormatError]) -> Ints | None:
+    """The rows of one face where each frame has a row for every face; None where it has not."""
     places, count = [], 0
     for row, frame in enumerate(frames):
         count = count + 1 if row and frame == frames[row - 1] else 0
@@ -56,12 +79,12 @@ def _by_place(table: TableFile, face: int | None) -> TableFile:
     several = max(places, default=0) + 1
     repeated = sum(place > 0 for place in places)
     if several == 1 or len(set(frames)) == 1 or repeated < SHARED * len(frames):
-        return chosen_of_one(table, face)
+        return None
     if face is None:
-        raise FormatError(table.path, f"contains up to {several} faces in one frame: choose one (--face)")
+        raise refuse(f"contains up to {several} faces in one frame: choose one (--face)")
     if face not in range(several):
         raise ParameterError("face", f"must be in 0..{several - 1}", face)
-    return table.only(np.array([row for row, place in enumerate(places) if place == face], dtype=np.int64))
+    return np.array([row for row, place in enumerate(places) if place == face], dtype=np.int64)
 
 
 def chosen_of_one(table: TableFile, face: int | None) -> TableFile:

@@ -21,8 +21,9 @@ from ....errors import FormatError, ParameterError
 from ....files import read_bytes
 from ....tables import parsed_number
 from .delimited import decoded
+from .faces import name_of_frames, rows_of_face
 from .json_layout import bare_entries, entries_of, laid_out, rate_stated
-from .row_names import NUMBER_NAMES, first_named, time_named
+from .row_names import FACE_NAMES, NUMBER_NAMES, first_named, time_named
 from .timecode import date_seconds, is_timecode, timecode_stamps
 from .times import Stamps, Times, placed
 
@@ -32,7 +33,10 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         "blendshapes", "face_blendshapes", "faceBlendshapes", "blendShapes", "blend_shapes", "BlendShapes", "shapes",
         "weights", "scores", "coefficients", "categories", "expressions", "blendshape_scores",
     ),
-    "landmarks": ("landmarks", "face_landmarks", "faceLandmarks", "multi_face_landmarks", "multiFaceLandmarks"),
+    "landmarks": (
+        "landmarks", "face_landmarks", "faceLandmarks", "multi_face_landmarks", "multiFaceLandmarks", "landmark",
+        "keypoints", "scaledMesh", "mesh", "face_mesh", "faceMesh",
+    ),
     "matrix": (
         "facial_transformation_matrix", "facial_transformation_matrixes", "facialTransformationMatrixes", "matrix",
     ),
@@ -68,9 +72,10 @@ class JsonFrame:
         return FormatError(self.path, problem, key=f"frame {self.number}, {what}")
 
     def number_at(self, what: str, value: Any) -> float:
-        """A finite number, or NaN for null."""
+        """A finite number, also as a text; NaN for null."""
         if value is None:
             return math.nan
+        value = parsed_number(value) if isinstance(value, str) and parsed_number(value) is not None else value
         if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
             raise self.refuse(what, f"must be a number, but it is {value!r}")
         return float(value)
@@ -167,6 +172,27 @@ def _are_times(keys: Floats) -> bool:
     """Whether the keys of frames are times rather than numbers."""
     steps = np.diff(keys)
     return len(steps) > 0 and (float(np.median(steps)) >= FARTHEST or bool((keys != np.floor(keys)).any()))
+
+
+def of_one_face(frames: list[JsonFrame], face: int | None) -> tuple[list[JsonFrame], int | None]:
+    """The frames of one face where each states whose it is, or several state one time; and the face still to choose.
+
+    Raises
+    ------
+    FormatError : several faces and none chosen; says how many. ParameterError : there is no such face.
+    """
+    names = list(dict.fromkeys(name for frame in frames for name in frame.entries))
+    of_face, of_frame = first_named(names, FACE_NAMES), name_of_frames(names)
+    ids, times = (
+        [_text(frame.entries.get(name)) for frame in frames] if name is not None else [] for name in (of_face, of_frame)
+    )
+    rows = rows_of_face(ids, times, face, lambda problem: FormatError(frames[0].path, problem))
+    return (frames, face) if rows is None else ([frames[row] for row in rows], None)
+
+
+def _text(value: Any) -> str:
+    """A plain value as a text; of anything else nothing."""
+    return str(value) if isinstance(value, str | int | float) else ""
 
 
 def chosen_face(frames: list[JsonFrame], counts: list[int], face: int | None) -> int:

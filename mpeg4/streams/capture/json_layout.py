@@ -5,11 +5,11 @@ Whatever the layout, `laid_out` gives a frame's entries by name, as `json_file` 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ....tables import parsed_number
-from .row_names import RATE_NAMES, first_named, plain_name, tells_of_a_row, time_name
+from .row_names import RATE_NAMES, first_named, numbers_at_end, plain_name, tells_of_a_row, time_name
 from .shape_names import is_turn, shape_named
 
 #: Objects around a result that loggers keep, by their plain names.
@@ -45,6 +45,12 @@ HEADINGS = (
 )
 MATRICES = ("weightmat", "weights", "values", "frames", "data", "scores", "coefficients", "blendshapeweights")
 
+#: Names of what was seen of a face, in plain letters.
+SEEN = ("blendshapes", "faceblendshapes", "landmarks", "facelandmarks", "keypoints", "scaledmesh")
+
+#: Faces that an image shows at most.
+MOST_FACES = 16
+
 #: How deep objects are looked into.
 DEEPEST = 4
 
@@ -57,7 +63,7 @@ def laid_out(document: Any) -> list[tuple[float | None, Any]] | None:
         return _of_object(document, DEEPEST)
     if not isinstance(document, list) or not document:
         return None
-    if all(_is_category(entry) for entry in document):
+    if all(category(entry) is not None for entry in document):
         return [(None, {"blendshapes": document})]
     return [(None, entry) for entry in document]
 
@@ -68,6 +74,7 @@ def rate_stated(document: Any) -> float | None:
         return None
     name = first_named(document, RATE_NAMES)
     rate = document[name] if name is not None else None
+    rate = parsed_number(rate) if isinstance(rate, str) else rate
     if isinstance(rate, int | float) and not isinstance(rate, bool) and 0.0 < rate < float("inf"):
         return float(rate)
     inner = (
@@ -83,8 +90,9 @@ def _of_object(document: Entries, depth: int) -> list[tuple[float | None, Any]] 
     matrix = _matrix(document)
     if matrix is not None:
         return matrix
-    if all(parsed_number(name) is not None for name in document):
-        return [(float(name), document[name]) for name in sorted(document, key=float)]
+    numbered = _numbered(document)
+    if numbered is not None:
+        return numbered
     if all(isinstance(value, dict) and value and all(key.isdigit() for key in value) for value in document.values()):
         keys = sorted({key for value in document.values() for key in value}, key=int)
         return [(float(key), {name: value.get(key) for name, value in document.items()}) for key in keys]
@@ -94,13 +102,29 @@ def _of_object(document: Entries, depth: int) -> list[tuple[float | None, Any]] 
     name = first_named(document, LISTS)
     inside = document[name] if name is not None else None
     frames_there = isinstance(inside, list) and all(isinstance(entry, dict | list) or entry is None for entry in inside)
-    if isinstance(inside, list) and frames_there and (plain_name(str(name)) == "frames" or not _holds_faces(inside)):
+    if isinstance(inside, list) and frames_there and (_are_frames(str(name), inside) or not _holds_faces(inside)):
         return [(None, entry) for entry in inside] or None
     if isinstance(inside, dict) and depth > 0 and inside and all(key.isdigit() for key in inside):
         return _of_object(inside, depth - 1)
     wrapped = [name for name in document if plain_name(name) in WRAPPERS and isinstance(document[name], dict)]
     inner = _of_object(document[wrapped[0]], depth - 1) if depth > 0 and len(wrapped) == 1 else None
     return inner if inner is not None and inner[0][1] is not document[wrapped[0]] else [(None, document)]
+
+
+def _numbered(document: Entries) -> list[tuple[float | None, Any]] | None:
+    """Frames by their numbers, "0" or "frame_0000"; None where the names are none."""
+    numbers = [parsed_number(name) for name in document]
+    found: Sequence[float | None] = numbers
+    if None in numbers:
+        holds = all(isinstance(value, dict | list) or value is None for value in document.values())
+        found = (numbers_at_end(document) if holds and len(document) > 1 else None) or [None]
+    known = [(number, value) for number, value in zip(found, document.values(), strict=False) if number is not None]
+    return [(float(number), value) for number, value in sorted(known, key=lambda pair: pair[0])] or None
+
+
+def _are_frames(name: str, inside: list[Any]) -> bool:
+    """Whether a list of what was seen is one of frames by its name, or by its length: so many faces no image shows."""
+    return plain_name(name) not in WRAPPERS or len(inside) > MOST_FACES
 
 
 def _matrix(document: Entries) -> list[tuple[float | None, Any]] | None:
@@ -198,7 +222,7 @@ def _holds_faces(values: list[Any]) -> bool:
     """Whether a list holds what was seen of each of several faces, not frames."""
     return bool(values) and all(
         isinstance(value, dict) and not any(time_name(name) or plain_name(name) == "frame" for name in value)
-        and any(plain_name(name) in ("blendshapes", "faceblendshapes", "landmarks", "facelandmarks") for name in value)
+        and any(plain_name(name) in SEEN for name in value)
         for value in values
     )  # fmt: skip
 
@@ -226,6 +250,27 @@ def bare_entries(held: Any) -> Any:
     return {"landmarks" if is_point else "blendshapes": held}
 
 
-def _is_category(value: Any) -> bool:
-    """Whether a value is one name with its score."""
-    return isinstance(value, dict) and "score" in value
+#: What the name of a score and the score are called, where each is an entry of its own.
+SCORE_NAMES = (
+    "category_name",
+    "categoryName",
+    "displayName",
+    "name",
+    "shape",
+    "blendshape",
+    "blendShape",
+    "key",
+    "label",
+)
+SCORE_VALUES = ("score", "value", "weight", "coefficient")
+
+
+def category(entry: Any) -> tuple[str, Any] | None:
+    """The name and the score of an entry that is one of both: an object of them, or a pair; None where it is none."""
+    if isinstance(entry, list) and len(entry) == 2 and isinstance(entry[0], str):
+        return entry[0], entry[1]
+    if not isinstance(entry, dict):
+        return None
+    name = next((entry[key] for key in SCORE_NAMES if isinstance(entry.get(key), str) and entry[key]), None)
+    value = next((key for key in SCORE_VALUES if key in entry), None)
+    return None if name is None or value is None else (name, entry[value])

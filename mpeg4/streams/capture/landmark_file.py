@@ -16,10 +16,10 @@ import numpy as np
 
 from ....arrays import Floats, Ints
 from ....errors import FormatError, ParameterError
-from .faces import one_face
-from .json_file import JsonFrame, chosen_face, json_times
+from .faces import name_of_frames, one_face
+from .json_file import JsonFrame, chosen_face, json_times, of_one_face
 from .rates import usual_rate
-from .row_names import FACE_NAMES, NUMBER_NAMES, first_named, time_named
+from .row_names import FACE_NAMES, first_named
 from .stamps import table_times
 from .table_file import TableFile
 from .times import USUAL_RATE, Times
@@ -27,8 +27,11 @@ from .times import USUAL_RATE, Times
 #: Landmarks beyond this are in pixels; within it they are shares of the picture (a face may stick out a little).
 NORMALISED = 4.0
 
-COLUMN = re.compile(r"(?:.*[_\W])?(?:([xyz])_?(\d+)|(\d+)_?([xyz]))", re.IGNORECASE)
-INDEX_NAMES = ("landmark", "landmark_id", "landmark_index", "index", "id")
+COLUMN = re.compile(r"(?:.*[_\W]|lm|pt|point|landmark)?(?:([xyz])[_\W]?(\d+)\W?|(\d+)\W?[_.]?([xyz]))", re.IGNORECASE)
+INDEX_NAMES = (
+    "landmark", "landmark_id", "landmark_index", "landmark_idx", "point", "point_id", "keypoint", "vertex", "index",
+    "id",
+)  # fmt: skip
 FEWEST, MOST, MOST_FACES = 468, 1000, 16
 
 
@@ -70,6 +73,7 @@ def landmarks_from_json(
     ------
     FormatError : no landmarks; an entry that is none: names the frame and the landmark.
     """
+    frames, face = of_one_face(frames, face)
     faces = [_faces(frame) for frame in frames]
     chosen = chosen_face(frames, [len(found) for found in faces], face)
     listed = [
@@ -118,6 +122,8 @@ def _listed(frame: JsonFrame, found: Any) -> list[Any]:
         found = found.get("landmark", found.get("landmarks"))
     if not isinstance(found, list):
         raise frame.refuse("landmarks", "must be a list")
+    if len(found) >= 3 * FEWEST and len(found) % 3 == 0 and all(isinstance(value, int | float) for value in found):
+        return [found[place : place + 3] for place in range(0, len(found), 3)]
     return found
 
 
@@ -209,8 +215,7 @@ def _long(table: TableFile, face: int | None) -> tuple[TableFile, Floats, Ints]:
 
 def _frame_texts(table: TableFile) -> list[str]:
     """What tells the frame of each row: its number, else its time; one frame where neither does."""
-    number, named = first_named(table.columns, NUMBER_NAMES), time_named(table.columns)
-    name = number or (named[0] if named is not None else None)
+    name = name_of_frames(table.columns)
     return table.texts(name) if name is not None else ["0"] * len(table.rows)
 
 

@@ -67,7 +67,7 @@ def read_arkit(
     ]
     if not shapes:
         raise FormatError(table.path, "has no column of an ARKit blend shape, such as jawOpen", line=1)
-    frames, assumed, unread = faps_of_scores(table.several(shapes), table.refusal)
+    frames, assumed, unread = faps_of_scores(table.several(shapes), table.refusal, per_cent=table.per_cent)
     angles, in_degrees = in_radians(table.several(turns), table.refusal)
     turned_frames = faps_of_turns(angles, len(table.rows), turns)
     frames = np.where(np.isnan(frames), turned_frames, frames)

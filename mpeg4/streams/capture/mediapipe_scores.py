@@ -14,14 +14,14 @@ import numpy as np
 
 from ....arrays import Floats
 from ....errors import FormatError
-from .json_file import JsonFrame, chosen_face, json_times
+from .json_file import JsonFrame, chosen_face, json_times, of_one_face
+from .json_layout import category
 from .live_link import faps_of_turns
 from .rotation import head_faps, in_radians
 from .samples import Samples
 from .scores import faps_of_scores, unread_words
+from .seeming import what_it_seems
 from .shape_names import is_turn, means_nothing, shape_named
-
-SCORE_NAMES = ("category_name", "categoryName", "displayName", "name")
 
 
 def read_scores(
@@ -42,6 +42,7 @@ def read_scores(
     FormatError : no frame has blend shapes, or an entry that is none: names the frame. Several faces: says how many.
     ParameterError : there is no such face.
     """
+    frames, face = of_one_face(frames, face)
     faces = [_faces(frame) for frame in frames]
     chosen = chosen_face(frames, [len(found) for found in faces], face)
     scores = [
@@ -49,9 +50,8 @@ def read_scores(
     ]
     names = dict.fromkeys(name for score in scores for name in score)
     if not any(shape_named(name) for name in names):
-        raise FormatError(
-            frames[0].path, "has no blend shapes with ARKit's names: turn on output_face_blendshapes in MediaPipe"
-        )
+        problem = f"has no blend shapes with ARKit's names, such as jawOpen: {what_it_seems(list(names))}"
+        raise FormatError(frames[0].path, problem)
     known = {name: np.array([score.get(name, math.nan) for score in scores]) for name in names}
     columns = {name: values for name, values in known.items() if not means_nothing(name) and not is_turn(name)}
     values, assumed, unread = faps_of_scores(columns, _refuser(frames))
@@ -75,7 +75,7 @@ def _faces(frame: JsonFrame) -> list[Any]:
     found: Any = frame.entry("blendshapes")
     if found is None:
         return []
-    if isinstance(found, list) and not any(_is_score(entry) for entry in found):
+    if isinstance(found, list) and not any(category(entry) is not None for entry in found):
         several = [face for face in found if isinstance(face, list) or (isinstance(face, dict) and "score" not in face)]
         return several if len(several) == len(found) else [found]
     return [found]
@@ -85,22 +85,17 @@ def _scores(frame: JsonFrame, found: Any) -> dict[str, float]:
     """Score by name of one face."""
     if isinstance(found, dict) and isinstance(found.get("categories"), list):
         found = found["categories"]
-    if isinstance(found, dict) and not _is_score(found):
+    if isinstance(found, dict) and category(found) is None:
         return {str(name): frame.number_at(f"blendshapes.{name}", score) for name, score in found.items()}
     if not isinstance(found, list):
         raise frame.refuse("blendshapes", "must be an object of name and score, or a list of categories")
     scores = {}
     for entry in found:
-        if not isinstance(entry, dict) or not _is_score(entry):
+        named = category(entry)
+        if named is None:
             raise frame.refuse("blendshapes", f"must contain a name and a score, but it contains {str(entry)[:40]!r}")
-        name = next(str(entry[key]) for key in SCORE_NAMES if entry.get(key))
-        scores[name] = frame.number_at(f"blendshapes.{name}", entry["score"])
+        scores[named[0]] = frame.number_at(f"blendshapes.{named[0]}", named[1])
     return scores
-
-
-def _is_score(entry: Any) -> bool:
-    """Whether an entry is one category with its score."""
-    return isinstance(entry, dict) and "score" in entry and any(entry.get(key) for key in SCORE_NAMES)
 
 
 def _is_matrix(value: Any) -> bool:

@@ -17,17 +17,21 @@ UNIT_NAMES = {
 TIME_NAMES = (
     "timecode", "timestamp", "time", "t", "ts", "timestamps", "times", "frametimestamp", "frametime", "capturetime",
     "elapsedtime", "timeelapsed", "elapsed", "videotime", "mediatime", "currenttime", "devicetime", "datetime",
-    "presentationtime", "pts", "utc", "unixtime", "seconds", "sec", "secs", "milliseconds", "millis", "ms",
+    "presentationtime", "performancenow", "now", "pts", "utc", "unixtime", "seconds", "sec", "secs", "milliseconds",
+    "millis", "ms",
 )  # fmt: skip
 
 #: Names of a frame's number, likewise.
 NUMBER_NAMES = (
     "frame", "framenumber", "frameidx", "frameindex", "frameid", "frameno", "framenum", "framecount", "framenr",
-    "frames", "imageid", "imageindex", "imagenumber",
+    "frames", "imageid", "imageindex", "imagenumber", "sampleid", "samplenumber", "sampleindex",
 )  # fmt: skip
 
 #: Columns that number the rows of a table that was saved again.
-INDEX_NAMES = ("", "unnamed0", "index", "row", "rowid", "rownumber")
+INDEX_NAMES = ("", "unnamed0", "index", "row", "rowid", "rownumber", "sample")
+
+#: Columns that name the image of a row, whose name may end with a number.
+IMAGE_NAMES = ("image", "img", "imagename", "imagefile", "filename", "file", "framename", "picture")
 
 #: Names of a face's number.
 FACE_NAMES = ("faceid", "face", "faceindex", "faceidx", "facenumber", "personid", "person", "subjectid", "trackid")
@@ -37,6 +41,9 @@ RATE_NAMES = ("fps", "framerate", "framespersecond", "rate", "exportfps", "sampl
 
 #: Names of what is known of a row beside its values.
 ROW_NAMES = ("blendshapecount", "confidence", "success", "facescore", "score", "tracked", "istracked", "trackingstatus")
+
+#: What ends the name of a frame or its image: its number, and a file's ending.
+LAST_NUMBER = re.compile(r"(.*?)(\d+)(\.[A-Za-z]\w*)?")
 
 
 def plain_name(name: str) -> str:
@@ -51,10 +58,24 @@ def time_name(name: str) -> tuple[str, float | None] | None:
         return plain, UNIT_NAMES.get(plain)
     for unit, seconds in sorted(UNIT_NAMES.items(), key=lambda item: -len(item[0])):
         stem = plain.removesuffix(unit)
+        stem = stem if stem in TIME_NAMES else stem.removesuffix("in")
         apart = re.search(rf"(?:[\W_]|[a-z0-9](?=[A-Z])){re.escape(unit)}\W*$", name, re.IGNORECASE)
         if stem != plain and stem in TIME_NAMES and (apart or len(unit) > 1):
             return stem, seconds
     return None
+
+
+def numbers_at_end(names: Iterable[str]) -> list[float] | None:
+    """The numbers in names such as "frame_0001" or "take/0001.png"; None where that is not what they are.
+
+    What stands before must be the same in all of them.
+    """
+    found = [LAST_NUMBER.fullmatch(name.strip()) for name in names]
+    matches = [match for match in found if match is not None]
+    alike = {match[1] for match in matches}
+    if len(matches) < len(found) or len(alike) != 1 or not any(letter.isalpha() for letter in alike.pop()):
+        return None
+    return [float(match[2]) for match in matches]
 
 
 def first_named(names: Iterable[str], wanted: tuple[str, ...]) -> str | None:
@@ -72,5 +93,5 @@ def time_named(names: Iterable[str]) -> tuple[str, float | None] | None:
 def tells_of_a_row(name: str) -> bool:
     """Whether a column says when a row is, whose it is or how sure it is, rather than what was seen."""
     plain = plain_name(name)
-    others = (*NUMBER_NAMES, *INDEX_NAMES, *FACE_NAMES, *RATE_NAMES, *ROW_NAMES)
+    others = (*NUMBER_NAMES, *INDEX_NAMES, *IMAGE_NAMES, *FACE_NAMES, *RATE_NAMES, *ROW_NAMES)
     return plain in others or time_name(name) is not None

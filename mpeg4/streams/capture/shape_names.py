@@ -1,7 +1,8 @@
 """What trackers and engines call ARKit's blend shapes: one place for every format.
 
-"eyeBlinkLeft", "EyeBlinkLeft", "eyeBlink_L", "eye_blink_left", "blendShapes.EyeBlinkLeft", "Head|eyeBlink.L" are one
-shape. A shape without sides may be given for one of them ("browInnerUp_L"): then it stands for that side's motion.
+"eyeBlinkLeft", "EyeBlinkLeft", "eyeBlink_L", "L_eyeBlink", "eye_blink_left", "blendShapes.EyeBlinkLeft",
+"Head|eyeBlink.L", "CTRL_eyeBlinkLeft" are one shape. A shape without sides may be given for one of them
+("browInnerUp_L"): then it stands for that side's motion.
 """
 
 from __future__ import annotations
@@ -16,6 +17,18 @@ from ....arrays import Floats
 from ...standard import FAP_COUNT, FAPS
 from .row_names import plain_name
 from .shapes import load_shapes
+
+#: Marks of a side before a name: "L_eyeBlink".
+SIDE_BEFORE = re.compile(r"([LlRr])[_ -]+(\w+)")
+
+#: Something of a rig's own before a name that is written in one word: "CTRL_eyeBlinkLeft", not "corner_mouth_left".
+OWN_BEFORE = re.compile(r"([A-Za-z0-9]+)[_ -]+([A-Za-z]*[a-z][A-Z].*)")
+
+#: What says before a name that it is no value of a shape.
+NO_VALUE = (
+    "d", "dt", "delta", "diff", "vel", "velocity", "acc", "std", "sd", "var", "sem", "conf", "confidence", "se", "n",
+    "not", "no", "min", "max",
+)  # fmt: skip
 
 #: What stands before a shape's name, and behind it, beside the object that it is of.
 BEFORE = ("blendshapes", "blendshape", "blend", "bs", "arkit", "shape", "face", "morph", "weight", "value")
@@ -43,10 +56,27 @@ def _known() -> frozenset[str]:
 @lru_cache(maxsize=4096)
 def shape_named(name: str) -> Named | None:
     """The blend shape that a name means; None where it means none."""
-    parts = [part for part in re.split(r"[.:/|>]+", name.strip()) if part.strip()]
+    parts = [part for part in re.split(r"[.:/|>\[\]()'\"]+", name.strip()) if part.strip(" %")]
     if len(parts) > 1 and plain_name(parts[-1]) in SIDES:
         parts = [*parts[:-2], parts[-2] + "_" + parts[-1]]
-    plain = plain_name(parts[-1]) if parts else ""
+    return _in_one_word(parts[-1].strip()) if parts else None
+
+
+def _in_one_word(word: str) -> Named | None:
+    """See `shape_named`; without the object that a shape is of."""
+    found = _plainly(plain_name(word))
+    if found is not None:
+        return found
+    sided, own = SIDE_BEFORE.fullmatch(word), OWN_BEFORE.fullmatch(word)
+    if sided is not None:
+        return _plainly(plain_name(sided[2] + sided[1]))
+    if own is not None and own[1].lower() not in NO_VALUE:
+        return _in_one_word(own[2])
+    return None
+
+
+def _plainly(plain: str) -> Named | None:
+    """The blend shape of a plain name."""
     for stem in _stems(plain):
         if stem in _known():
             return Named(stem)

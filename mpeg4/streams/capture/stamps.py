@@ -9,7 +9,7 @@ import numpy as np
 
 from ....arrays import Floats
 from ....errors import FormatError
-from .row_names import INDEX_NAMES, NUMBER_NAMES, first_named, time_named
+from .row_names import IMAGE_NAMES, INDEX_NAMES, NUMBER_NAMES, RATE_NAMES, first_named, numbers_at_end, time_named
 from .table_file import TableFile
 from .timecode import date_seconds, is_timecode, timecode_stamps
 from .times import Stamps, Times, placed
@@ -32,7 +32,8 @@ def table_stamps(table: TableFile, rate: float | None = None) -> Stamps:
     numbers = _numbers(table)
     if named is None:
         column = first_named(table.columns, (*NUMBER_NAMES, *INDEX_NAMES)) or ""
-        return Stamps(len(table.rows), numbers=numbers, refuse=partial(_refuse, table, column))
+        refuse = partial(_refuse, table, column)
+        return Stamps(len(table.rows), numbers=numbers, counted=_rate_beside(table), refuse=refuse)
     column, unit = named
     refuse, texts = partial(_refuse, table, column), table.texts(column)
     if any(is_timecode(text) for text in texts):
@@ -44,17 +45,28 @@ def table_stamps(table: TableFile, rate: float | None = None) -> Stamps:
     return Stamps(len(texts), seconds=table.numbers(column), unit=unit, numbers=numbers, refuse=refuse)
 
 
+def _rate_beside(table: TableFile) -> float | None:
+    """The rate that a column states, the same in every row; None where none does."""
+    name = first_named(table.columns, RATE_NAMES)
+    stated = np.unique(table.numbers(name)) if name is not None else np.zeros(0)
+    return float(stated[0]) if len(stated) == 1 and stated[0] > 0.0 else None
+
+
 def _numbers(table: TableFile) -> Floats | None:
     """(T,) numbers of the rows' frames; None where there are none, or they are no numbers that rise."""
     name = first_named(table.columns, NUMBER_NAMES)
     if name is not None:
-        return table.numbers(name)
-    name = first_named(table.columns, INDEX_NAMES)
+        named = numbers_at_end(table.texts(name))
+        return table.numbers(name) if named is None else np.array(named)
+    name = first_named(table.columns, (*INDEX_NAMES, *IMAGE_NAMES))
+    if name is None:
+        return None
+    named = numbers_at_end(table.texts(name))
     try:
-        numbers = None if name is None else table.numbers(name)
+        numbers = table.numbers(name) if named is None else np.array(named)
     except FormatError:
         return None
-    return numbers if numbers is not None and (np.diff(numbers) > 0.0).all() else None
+    return numbers if (np.diff(numbers) > 0.0).all() else None
 
 
 def _refuse(table: TableFile, column: str, row: int, problem: str) -> FormatError:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -17,7 +18,10 @@ from .delimited import cells_of, has_decimal_commas, lines_and_mark, read_text
 from .row_names import tells_of_a_row
 
 #: What trackers write for "no value".
-UNKNOWN = ("", "nan", "na", "none", "null", "-nan", "-nan(ind)", "inf", "-inf")
+UNKNOWN = ("", "nan", "na", "n/a", "none", "null", "-nan", "-nan(ind)", "inf", "-inf")
+
+#: What they write for "it is so" and "it is not".
+WORDS = {"true": 1.0, "false": 0.0}
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,7 @@ class TableFile:
     path : the file. columns : names as in the heading, without blanks around them.
     rows : cells of each row, as many as there are columns. lines : 1-based line of each row.
     decimal_commas : whether numbers have commas before their decimals.
+    per_cent : whether scores are known to go from 0 to 100, however small they are.
     """
 
     path: Path
@@ -36,6 +41,7 @@ class TableFile:
     rows: tuple[tuple[str, ...], ...]
     lines: tuple[int, ...]
     decimal_commas: bool = False
+    per_cent: bool = False
 
     def __contains__(self, name: str) -> bool:
         return name.lower() in self._places
@@ -45,13 +51,7 @@ class TableFile:
         if len(rows) == len(self.rows):
             return self
         chosen = [(self.rows[row], self.lines[row]) for row in rows]
-        return TableFile(
-            self.path,
-            self.columns,
-            tuple(row for row, _ in chosen),
-            tuple(line for _, line in chosen),
-            self.decimal_commas,
-        )
+        return replace(self, rows=tuple(row for row, _ in chosen), lines=tuple(line for _, line in chosen))
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -83,11 +83,15 @@ class TableFile:
         """One cell."""
         if text.lower() in UNKNOWN:
             return math.nan
+        if text.lower() in WORDS:
+            return WORDS[text.lower()]
+        share = 0.01 if text.endswith("%") else 1.0
+        text = text.rstrip(" %")
         value = parsed_number(text.replace(".", "").replace(",", ".") if self.decimal_commas else text)
         if value is None or not math.isfinite(value):
             problem = f"must be a number, but it is {text[:40]!r}"
             raise FormatError(self.path, problem, line=self.lines[row], column=name)
-        return float(value)
+        return float(value) * share
 
     def refusal(self, row: int, name: str, problem: str) -> FormatError:
         """The error for one cell."""
@@ -113,7 +117,17 @@ def read_table_file(path: str | Path) -> TableFile:
         raise FormatError(file, "has a heading but no rows: nothing was recorded")
     (_, heading), *others = cells_of(file, lines, mark)
     rows = tuple(_row(file, tuple(heading), number, cells) for number, cells in others)
-    return TableFile(file, tuple(heading), rows, tuple(number for number, _ in others), has_decimal_commas(rows))
+    return TableFile(file, _told_apart(heading), rows, tuple(number for number, _ in others), has_decimal_commas(rows))
+
+
+def _told_apart(heading: list[str]) -> tuple[str, ...]:
+    """Names of columns; of one that is there twice, the second has a number, so that it is not lost in silence."""
+    seen: Counter[str] = Counter()
+    told = []
+    for name in heading:
+        seen[name.lower()] += 1
+        told.append(f"{name} ({seen[name.lower()]})" if name and seen[name.lower()] > 1 else name)
+    return tuple(told)
 
 
 def _row(file: Path, columns: tuple[str, ...], number: int, cells: list[str]) -> tuple[str, ...]:

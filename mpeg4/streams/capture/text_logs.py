@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ....errors import FormatError
@@ -30,8 +31,22 @@ FACE_CAP_TURNS = (
 IFACIALMOCAP = re.compile(r"^(?P<before>.*?)(?P<frame>[A-Za-z_]+[-&]-?[\d.]+\|.*)$")
 PART = re.compile(r"([A-Za-z_]+)[-&](-?[\d.]+(?:[eE][-+]?\d+)?)")
 FRAME_END = "___iFacialMocap"
+#: What loggers put beside the time before a line.
+BESIDE_TIME = " \t,;|[]()"
 VMC = re.compile(r"^(?P<before>.*?)(?P<address>/VMC/Ext/(?:Blend/Val|Blend/Apply|T|OK))\b(?P<rest>.*)$")
-WORD = re.compile(r'"([^"]*)"|(\S+)')
+
+#: What a message says: a name, its quotes and types apart, and a score at the end.
+SAID = re.compile(
+    r"[\s(\[]*(?:,?[sfiTFd]+[\s,]+)?[\s(\['\"]*(?P<name>.*?)['\"]?[\s,]*(?P<score>[-+]?[\d.]+(?:[eE][-+]?\d+)?)[\s)\]]*"
+)
+
+
+def begins_as_json(head: str) -> bool:
+    """Whether a file begins as JSON, and not as a line of a log with a time in brackets before it."""
+    first = next((line for line in head.splitlines() if line.strip()), "").strip()
+    if not first.startswith(("{", "[")):
+        return False
+    return not is_text_log(head) or first[0] == "{" or re.match(r"\[\s*[\[{\"]", first) is not None
 
 
 def is_text_log(head: str) -> bool:
@@ -104,9 +119,15 @@ def _ifacialmocap(file: Path, lines: Sequence[tuple[int, str]]) -> TableFile:
             scores, _, turns = match["frame"].partition("=")
             values = dict(part for segment in scores.split("|") for part in PART.findall(segment))
             values |= {f"{name}Euler": "nan" for name in re.findall(r"([A-Za-z]+)#", turns)}
-            found.append((match["before"].strip(" \t,;|"), values))
+            found.append((match["before"].strip(BESIDE_TIME), values))
             numbers.append(number)
-    return _of_dicts(file, found, numbers)
+    return replace(_of_dicts(file, found, numbers), per_cent=_per_cent(found))
+
+
+def _per_cent(found: Sequence[tuple[str, dict[str, str]]]) -> bool:
+    """Whether scores go from 0 to 100, as they are sent; a logger may have made them shares."""
+    scores = [score for _, values in found for score in values.values() if score != "nan"]
+    return not (any("." in score for score in scores) and all(float(score) <= 1.0 for score in scores))
 
 
 def _vmc(file: Path, lines: Sequence[tuple[int, str]]) -> TableFile:
@@ -117,15 +138,14 @@ def _vmc(file: Path, lines: Sequence[tuple[int, str]]) -> TableFile:
         match = VMC.match(line)
         if match is None:
             continue
-        words = [quoted or plain for quoted, plain in WORD.findall(match["rest"])]
-        words = words[1:] if words and re.fullmatch(r",?[sfiTFd]+", words[0]) and len(words) > 1 else words
-        if match["address"].endswith("/T") and words:
-            clock = words[-1]
+        said = SAID.fullmatch(match["rest"].strip())
+        if match["address"].endswith("/T") and said is not None:
+            clock = said["score"]
         elif match["address"].endswith("/Val"):
-            if len(words) < 2:
+            if said is None or not said["name"]:
                 raise FormatError(file, "must have a name and a score", line=number)
-            values[" ".join(words[:-1])] = words[-1]
-            before = match["before"].strip(" \t,;|") or before
+            values[said["name"]] = said["score"]
+            before = match["before"].strip(BESIDE_TIME) or before
         elif match["address"].endswith("/Apply") and values:
             found.append((clock or before, dict(values)))
             numbers.append(number)

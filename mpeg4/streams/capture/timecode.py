@@ -2,7 +2,7 @@
 
 ``HH:MM:SS:FF`` counts frames, ``HH:MM:SS:FF.fraction`` with parts of them, ``HH:MM:SS;FF`` leaves numbers out so that
 it follows the clock at 29.97 (SMPTE 12M, drop frame). ``HH:MM:SS.fraction`` is a time of day, and so is
-``HH:MM:SS:mmm``.
+``HH:MM:SS:mmm`` and ``MM:SS.fraction``. Drop frame is also told where a plain count leaves out what it would.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ....arrays import Floats
 from ....errors import FormatError, ParameterError
 from .times import Stamps
 
-TIMECODE = re.compile(r"(\d+)[:;](\d{1,2})[:;](\d{1,2})(?:([:;.,])(\d+(?:[.,]\d+)?))?")
+TIMECODE = re.compile(r"(?:(\d+)[:;])?(\d{1,2})[:;](\d{1,2})(?:([:;.,])(\d+(?:[.,]\d+)?))?")
 
 #: Counts of frames in a second that films and trackers have; 60 where a timecode shows none, which is Live Link Face's.
 COUNTS, USUAL_COUNT = (24, 25, 30, 48, 50, 60, 100, 120, 240), 60
@@ -34,7 +34,13 @@ DAY = 86400.0
 
 def is_timecode(text: str) -> bool:
     """Whether a text is a timecode or a time of day."""
-    return TIMECODE.fullmatch(text.strip()) is not None
+    return _parts(text) is not None
+
+
+def _parts(text: str) -> re.Match[str] | None:
+    """The parts of a timecode or a time of day: hours, if it has them, minutes, seconds, and what is last."""
+    match = TIMECODE.fullmatch(text.strip())
+    return None if match is None or (match[1] is None and match[4] not in (".", ",")) else match
 
 
 def date_seconds(text: str) -> float | None:
@@ -58,7 +64,7 @@ def timecode_stamps(texts: Sequence[str], rate: float | None, refuse: Callable[[
     for row, text in enumerate(texts):
         if not text.strip():
             continue
-        match = TIMECODE.fullmatch(text.strip())
+        match = _parts(text)
         if match is None:
             raise refuse(row, f"column Timecode must be HH:MM:SS:FF or HH:MM:SS:FF.fraction, but it is {text[:40]!r}")
         fields[row] = [float((match[place] or "0").replace(",", ".")) for place in (1, 2, 3, 5)]
@@ -100,6 +106,7 @@ def _counted(
     elif shown is None and told is None:
         assumed = (f"its timecode counts {count:g} frames per second",)
     numbers, counted = clock * count + frames, float(count)
+    drop = drop or _leaves_out(clock, frames, count)
     if drop:
         numbers, counted = numbers - _left_out(clock, count), count * 1000.0 / 1001.0
         assumed = (*assumed, f"its timecode leaves numbers out: {counted:.2f} frames per second")
@@ -112,6 +119,16 @@ def _counted(
         return float((at * count + frame - (_left_out(np.array(at), count) if drop else 0.0)) / counted)
 
     return Stamps(len(clock), numbers=numbers, counted=counted, clock=seconds_of, assumed=assumed, refuse=refuse)
+
+
+def _leaves_out(clock: Floats, frames: Floats, count: int) -> bool:
+    """Whether a count goes on with the first number that drop frame has in a minute, wherever it runs into one."""
+    known = np.isfinite(clock)
+    minutes, seconds = np.divmod(clock[known], 60.0)
+    number = np.floor(frames[known])
+    begins = np.flatnonzero((np.diff(minutes) == 1.0) & (seconds[1:] == 0.0) & (seconds[:-1] == 59.0)) + 1
+    begins = begins[(number[begins - 1] == count - 1) & (minutes[begins] % 10.0 != 0.0)]
+    return len(begins) > 0 and count % 30 == 0 and bool((number[begins] == round(count / 15.0)).all())
 
 
 def _left_out(clock: Floats, count: int) -> Floats:
@@ -129,7 +146,7 @@ def _decimals(texts: Sequence[str]) -> Floats:
 
 def _match(text: str) -> re.Match[str]:
     """The parts of a timecode that a caller names."""
-    match = TIMECODE.fullmatch(text.strip())
+    match = _parts(text)
     if match is None:
         raise ParameterError("start", "must be seconds, or a timecode HH:MM:SS:FF as the recording has", text)
     return match
@@ -137,7 +154,7 @@ def _match(text: str) -> re.Match[str]:
 
 def _whole_seconds(match: re.Match[str]) -> float:
     """Hours, minutes and seconds in seconds."""
-    return 3600.0 * float(match[1]) + 60.0 * float(match[2]) + float(match[3])
+    return 3600.0 * float(match[1] or 0.0) + 60.0 * float(match[2]) + float(match[3])
 
 
 def _clock(text: str, parts: float | None) -> float:

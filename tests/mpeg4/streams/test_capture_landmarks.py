@@ -38,6 +38,9 @@ JSON_FORMS: dict[str, Callable[[np.ndarray], dict[str, Any]]] = {
     "python": lambda points: {"face_landmarks": [as_objects(points)]},
     "javascript": lambda points: {"faceLandmarks": [as_objects(points)]},
     "solutions": lambda points: {"multi_face_landmarks": [{"landmark": as_objects(points)}]},
+    "one row of numbers": lambda points: {"landmarks": points.ravel().tolist()},
+    "keypoints": lambda points: {"faces": [{"keypoints": as_objects(points)}]},
+    "a mesh": lambda points: {"scaledMesh": points.tolist()},
 }
 
 
@@ -56,6 +59,9 @@ WIDE = {
     "x0": "{axis}{number}",
     "0_x": "{number}_{axis}",
     "landmark_0_x": "landmark_{number}_{axis}",
+    "lm0_x": "lm{number}_{axis}",
+    "lm_0.x": "lm_{number}.{axis}",
+    "x[0]": "{axis}[{number}]",
 }
 
 

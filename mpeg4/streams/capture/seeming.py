@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ...mpeg4.streams.capture.row_names import plain_name
+from .row_names import plain_name
 
 #: What binary files begin with, at a byte, and what they are.
 BEGINNINGS: tuple[tuple[int, bytes, str], ...] = (
