@@ -16,7 +16,7 @@ from ..errors import ModelError
 from ..files import write_whole
 from .faps import fap_lines, named_faps, range_lines, ranges_of
 from .options import Verbs, add_face, face_of, verb, vertices_of
-from .recordings import add_recording, read_as_told
+from .recordings import add_recording, is_recording, read_as_told
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def _measure(arguments: argparse.Namespace) -> Result:
     """Measure the FAPs and features of deformed meshes against a neutral mesh, or the FAPs of a recording."""
     from .. import api
 
-    if any(path.suffix.lower() in api.READABLE_STREAMS for path in arguments.deformed):
+    if any(is_recording(path) for path in arguments.deformed):
         return _measure_recording(arguments)
     face = face_of(arguments)
     measured, features = {}, {}

@@ -11,11 +11,8 @@ import numpy as np
 from ..errors import FormatError, ParameterError
 from .options import Verbs, add_face, face_of, verb, vertices_of
 from .progress import ShowProgress
-from .recordings import add_recording, read_as_told
+from .recordings import add_recording, is_recording, read_as_told
 from .result import Result, UsageError
-
-#: Files that are meshes; all others are streams and recordings, or say what they seem to be.
-MESHES = (".npz", ".obj")
 
 if TYPE_CHECKING:
     from ..api import BeliefTrack
@@ -57,11 +54,9 @@ def _recognise(arguments: argparse.Namespace) -> Result:
 
 def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int, tuple[str, ...]]:
     """(T, 68) FAPs, frames per second, number of the first frame, what was assumed to read them."""
-    from .. import api
 
     path, *others = arguments.files
-    suffix = path.suffix.lower()
-    if suffix in MESHES or not (suffix in api.READABLE_STREAMS or path.is_file()):
+    if not is_recording(path):
         face = face_of(arguments)
         return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0, ()
     if others:

@@ -14,6 +14,23 @@ if TYPE_CHECKING:
     from ..arrays import Floats
 
 FLIPS = ("yaw", "pitch", "roll", "eye_yaw", "eye_pitch")
+#: Endings of meshes; what is none of them is a stream or a recording, or says what it seems to be.
+MESHES = (
+    ".npz",
+    ".obj",
+    ".blend",
+    ".glb",
+    ".gltf",
+    ".fbx",
+    ".ply",
+    ".stl",
+    ".abc",
+    ".dae",
+    ".usd",
+    ".usda",
+    ".usdc",
+    ".usdz",
+)
 KINDS = ("openface", "py_feat", "arkit", "mediapipe", "landmarks", "faps")
 
 
@@ -39,6 +56,14 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
     neutral.add_argument("--neutral", type=float, nargs=2, metavar=("FROM", "TO"), help=about)
     about = "the same for one frame, by its number from 0"
     neutral.add_argument("--neutral-frame", type=int, metavar="N", help=about)
+
+
+def is_recording(path: Path) -> bool:
+    """Whether a file is read as a stream or a recording, not as a mesh."""
+    from .. import api
+
+    ending = path.suffix.lower()
+    return ending in api.READABLE_STREAMS or (ending not in MESHES and path.is_file())
 
 
 def read_as_told(

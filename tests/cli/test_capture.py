@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 import subprocess
 import sys
@@ -107,3 +108,10 @@ def test_shapes_that_need_blender_say_so_without_it(tmp_path: Path) -> None:
     assert done.returncode == 1
     assert "pip install bpy" in done.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("verb", ["import", "recognise", "measure"])
+def test_a_compressed_file_is_told_by_every_verb(verb: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "take.csv.gz").write_bytes(gzip.compress(b"frame,jawOpen\n0,0\n"))
+    assert main([verb, str(tmp_path / "take.csv.gz")]) == 1
+    assert "it seems to be a compressed file (unpack it)" in capsys.readouterr().err

@@ -1,11 +1,15 @@
 """Recordings as lines of text: Face Cap's files, logs of what iFacialMocap and VMC senders send. They become tables.
 
 Face Cap (.txt): lines ``info,...``, ``bs,NAME,...`` and for each frame ``k,MILLISECONDS``, the head's place (3) and
-turn (3), the left and the right eye's turn (2 each), then a score for each name. Source: public importers.
+turn (3), the left and the right eye's turn (2 each), then a score for each name. Source: public importers, one of them
+by the app's author (hizzlehoff/FaceCapImporters).
 
 iFacialMocap: a line for each frame, ``NAME-SCORE|...|=head#X,Y,Z,...|rightEye#...|leftEye#...``, scores from 0 to 100;
 version 2 writes ``NAME&SCORE``. Over TCP a frame ends with ``___iFacialMocap``. Loggers put a time before it. Source:
 the developer's page (ifacialmocap.com/for-developer).
+
+Both apps write degrees about ARKit's axes of a face; here they become columns in rad, ``headEulerX`` and so on, whose
+signs stand in presets/capture/live_link.toml.
 
 VMC: a line for each message, ``/VMC/Ext/Blend/Val NAME SCORE``, ``/VMC/Ext/T SECONDS``; ``/VMC/Ext/Blend/Apply`` ends a
 frame. Source: the protocol's specification (protocol.vmc.info). Loggers put a time before and types between.
@@ -13,12 +17,14 @@ frame. Source: the protocol's specification (protocol.vmc.info). Loggers put a t
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from ....errors import FormatError
+from ....tables import parsed_number
 from .delimited import read_text
 from .table_file import TableFile
 
@@ -26,6 +32,9 @@ FACE_CAP_TURNS = (
     "headPositionX", "headPositionY", "headPositionZ", "headEulerX", "headEulerY", "headEulerZ",
     "leftEyeEulerX", "leftEyeEulerY", "rightEyeEulerX", "rightEyeEulerY",
 )  # fmt: skip
+
+#: Names of turns and places among those of scores.
+TURN_OR_PLACE = re.compile(r"(Euler|Position)[XYZ]$")
 
 #: A frame of iFacialMocap: what a logger wrote before it, then the first name with its score.
 IFACIALMOCAP = re.compile(r"^(?P<before>.*?)(?P<frame>[A-Za-z_]+[-&]-?[\d.]+\|.*)$")
@@ -102,7 +111,9 @@ def _face_cap(file: Path, lines: Sequence[tuple[int, str]]) -> TableFile:
                     f"has {len(cells)} values, but {1 + len(FACE_CAP_TURNS) + len(names)} are due: is the file cut off?"
                 )
                 raise FormatError(file, problem, line=number)
-            rows.append(tuple(cells))
+            turns = cells[1 : 1 + len(FACE_CAP_TURNS)]
+            turned = [_in_radians(c) if "Euler" in n else c for n, c in zip(FACE_CAP_TURNS, turns, strict=True)]
+            rows.append((cells[0], *turned, *cells[1 + len(FACE_CAP_TURNS) :]))
             numbers.append(number)
     return _table(file, ["timestamp_ms", *FACE_CAP_TURNS, *names], rows, numbers)
 
@@ -118,15 +129,33 @@ def _ifacialmocap(file: Path, lines: Sequence[tuple[int, str]]) -> TableFile:
                 raise FormatError(file, f"must be a frame NAME-SCORE|..., but it is {text[:40]!r}", line=number)
             scores, _, turns = match["frame"].partition("=")
             values = dict(part for segment in scores.split("|") for part in PART.findall(segment))
-            values |= {f"{name}Euler": "nan" for name in re.findall(r"([A-Za-z]+)#", turns)}
+            values |= _turns_and_places(turns)
             found.append((match["before"].strip(BESIDE_TIME), values))
             numbers.append(number)
     return replace(_of_dicts(file, found, numbers), per_cent=_per_cent(found))
 
 
+def _turns_and_places(text: str) -> dict[str, str]:
+    """Turns in rad, and the head's place, of ``head#X,Y,Z,x,y,z|rightEye#X,Y,Z|...``."""
+    found = {}
+    for name, numbers in re.findall(r"([A-Za-z]+)#([^|#]*)", text):
+        cells = [cell.strip() for cell in numbers.split(",")]
+        found |= {f"{name}Euler{axis}": _in_radians(cell) for axis, cell in zip("XYZ", cells, strict=False)}
+        found |= {f"{name}Position{axis}": cell for axis, cell in zip("XYZ", cells[3:], strict=False)}
+    return found
+
+
+def _in_radians(cell: str) -> str:
+    """An angle in degrees as one in rad, of less than half a turn; what is none as it is."""
+    degrees = parsed_number(cell)
+    if degrees is None or not math.isfinite(degrees):
+        return cell
+    return f"{math.radians((degrees + 180.0) % 360.0 - 180.0):.9g}"
+
+
 def _per_cent(found: Sequence[tuple[str, dict[str, str]]]) -> bool:
     """Whether scores go from 0 to 100, as they are sent; a logger may have made them shares."""
-    scores = [score for _, values in found for score in values.values() if score != "nan"]
+    scores = [score for _, values in found for name, score in values.items() if not TURN_OR_PLACE.search(name)]
     return not (any("." in score for score in scores) and all(float(score) <= 1.0 for score in scores))
 
 

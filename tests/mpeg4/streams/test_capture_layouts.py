@@ -115,7 +115,9 @@ def test_face_cap(tmp_path: Path) -> None:
     recording = read(tmp_path / "a.txt", "\n".join(lines))
     np.testing.assert_allclose(recording.stream.frames[:, 2], [OPEN * n / 10 for n in NUMBERS])
     assert recording.stream.fps == 60.0
-    assert any(said.startswith("not read: headPositionX") for said in recording.assumed)
+    assert "not read: headPositionX, headPositionY, headPositionZ" in recording.assumed
+    turns = recording.stream.frames[0, [47, 48, 49]]
+    np.testing.assert_allclose(turns, np.radians([1.0, 2.0, 3.0]) * 1e5, rtol=1e-6)
     with pytest.raises(FormatError, match="line 3: has 4 values, but 14 are due"):
         read(tmp_path / "a.txt", "\n".join([*lines[:2], "k,1,2,3,4"]))
 
@@ -134,7 +136,31 @@ def test_ifacialmocap(mark: str, timed: bool, tmp_path: Path) -> None:
     np.testing.assert_allclose(recording.stream.frames[:, 2], [OPEN * n / 10 for n in NUMBERS], atol=30.0)
     assert recording.stream.fps == (50.0 if timed else 30.0)
     assert "its scores go up to 40: taken as per cent" in recording.assumed
-    assert "not read: headEuler, rightEyeEuler, leftEyeEuler" in recording.assumed
+    assert "not read: headPositionX, headPositionY, headPositionZ" in recording.assumed
+    turns = recording.stream.frames[0, [47, 48, 49, 24, 22]]  # of the head, and of the left eye down and to the left
+    np.testing.assert_allclose(turns, np.radians([1.5, -2.5, 3.0, 1.0, 2.0]) * 1e5, rtol=1e-6)
+
+
+#: Parts of two frames that the app sent: of the developer's page, and of a test of someone's parser.
+SENT = (
+    "eyeLookDown_L-17|eyeLookDown_R-17|eyeLookIn_L-4|eyeLookIn_R-6|eyeLookOut_L-0|eyeLookOut_R-0|eyeLookUp_L-0|eyeLookUp_R-0"
+    "|=head#-21.488958,-6.038993,-6.6019735,-0.030653415,-0.10287084,-0.6584072"
+    "|rightEye#6.0297494,2.4403017,0.25649446|leftEye#6.034903,-1.6660284,-0.17520553|",
+    "eyeLookDown_L-16|eyeLookDown_R-15|eyeLookIn_L-0|eyeLookIn_R-12|eyeLookOut_L-0|eyeLookOut_R-0|eyeLookUp_L-0|eyeLookUp_R-0"
+    "|=head#25.409164,-5.085786,3.8090365,0.052303925,0.2366666,-0.0259732"
+    "|rightEye#5.2707267,4.227702,0.41178665|leftEye#5.300755,0.32921365,0.03218361|",
+)
+
+
+@pytest.mark.parametrize("frame", SENT)
+def test_turns_of_the_eyes_agree_with_where_they_look_in_frames_that_were_sent(frame: str, tmp_path: Path) -> None:
+    """Left out, the look shapes are read from the turns: the same side, and downwards."""
+    looked = read(tmp_path / "a.txt", f"{frame}\n{frame}").stream.frames[0, 22:26]
+    blind = frame.replace("eyeLook", "unseenLook")
+    turned = read(tmp_path / "b.txt", f"jawOpen-1|{blind}\njawOpen-1|{blind}").stream.frames[0, 22:26]
+    sure = np.abs(looked) > 1000.0
+    assert sure.sum() >= 3
+    assert (np.sign(turned[sure]) == np.sign(looked[sure])).all()
 
 
 def test_frames_of_ifacialmocap_in_one_line(tmp_path: Path) -> None:
