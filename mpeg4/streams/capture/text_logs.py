@@ -137,7 +137,7 @@ def _ifacialmocap(file: Path, lines: Sequence[tuple[int, str]]) -> TableFile:
 
 def _turns_and_places(text: str) -> dict[str, str]:
     """Turns in rad, and the head's place, of ``head#X,Y,Z,x,y,z|rightEye#X,Y,Z|...``."""
-    found = {}
+    found: dict[str, str] = {}
     for name, numbers in re.findall(r"([A-Za-z]+)#([^|#]*)", text):
         cells = [cell.strip() for cell in numbers.split(",")]
         found |= {f"{name}Euler{axis}": _in_radians(cell) for axis, cell in zip("XYZ", cells, strict=False)}
