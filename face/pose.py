@@ -24,7 +24,7 @@ from .drive.request import Drive, EmotionShares, Request
 from .measure import measure
 from .posture import Balance, Posture
 from .requests import checked_request
-from .response.relaxation import Memory
+from .response.recollection import Recollection
 from .unmet import unmet
 
 
@@ -100,9 +100,9 @@ class Poser:
         told = np.isfinite(goal) & (goal != 0.0)
         return dict(zip(rows.numbers[told].tolist(), shares[told].tolist(), strict=True))
 
-    def sketch(self, request: Request, memory: Memory) -> Sketch:
+    def sketch(self, request: Request, known: Recollection) -> Sketch:
         """What `pose` shows, a little short of balance and not measured."""
-        posture = self.balance.posture(self.plan(request), memory=memory)
+        posture = self.balance.posture(self.plan(request), known=known)
         return Sketch(self._positions(posture, request), self.anatomy.actuators.contractions(posture.amounts))
 
     def _positions(self, posture: Posture, request: Request) -> Floats:
@@ -111,13 +111,13 @@ class Poser:
 
 
 class Sketcher:
-    """Poses one face again and again, as a slider is dragged: each begins where the last one ended.
+    """Poses one face again and again, as a slider is dragged: what was found for the others foretells the next one.
 
-    A sketch is within a tenth of a millimetre of the pose, and takes a third of its time.
+    A sketch is within a tenth of a millimetre of the pose, and takes a fifth to a third of its time.
     """
 
     def __init__(self, poser: Poser) -> None:
-        self._poser, self._memory = poser, Memory()
+        self._poser, self._known = poser, Recollection()
 
     def sketch(
         self,
@@ -129,4 +129,4 @@ class Sketcher:
     ) -> Sketch:
         """The face for one frame of FAPs; parameters and errors as `Face.pose`."""
         request = checked_request(frame, drive, emotion, contractions)
-        return self._poser.sketch(request, self._memory)
+        return self._poser.sketch(request, self._known)

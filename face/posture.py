@@ -25,7 +25,7 @@ from .drive.targets import Targets
 from .figures import Length, read_figures
 from .mechanism import Mechanism
 from .response.actuators import Amounts
-from .response.relaxation import Memory
+from .response.recollection import Recollection
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,8 @@ class Balance:
     def __init__(self, anatomy: Anatomy) -> None:
         self.anatomy = anatomy
 
-    def posture(self, plan: Plan, *, memory: Memory | None = None) -> Posture:
-        """The posture of a plan; with a memory it begins at the one found last and stops a little short of balance.
+    def posture(self, plan: Plan, *, known: Recollection | None = None) -> Posture:
+        """The posture of a plan; with a recollection it may be foretold, or stop a little short of balance.
 
         Raises
         ------
@@ -100,7 +100,7 @@ class Balance:
         SolverError : contractions beyond what the skin can bear.
         """
         effort = self.effort(plan)
-        return self.reached(effort, self.anatomy.relaxation.pulled(effort.amounts, memory=memory))
+        return self.reached(effort, self.anatomy.relaxation.pulled(effort.amounts, known=known))
 
     def effort(self, plan: Plan, *, before: Effort | None = None) -> Effort:
         """What a plan takes of muscles, lids and jaw, before the skin answers; errors as `posture`.

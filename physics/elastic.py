@@ -11,6 +11,7 @@ on each side and diagonal of a polygon of area A with n of them has the stiffnes
 
 from __future__ import annotations
 
+from copy import copy
 from enum import StrEnum
 
 import numpy as np
@@ -173,6 +174,7 @@ class Factor:
 
     def __init__(self, matrix: Sparse) -> None:
         self.shape: tuple[int, int] = (int(matrix.shape[0]), int(matrix.shape[1]))
+        self._scale = 1.0
         try:
             self._factor = splu(
                 sparse.csc_array(matrix),
@@ -190,9 +192,16 @@ class Factor:
                 residual=float(pivots.min()),
             )
 
+    def times(self, scale: float) -> Factor:
+        """The factor of the matrix times a number above 0, without factoring it again."""
+        scaled = copy(self)
+        scaled._scale = self._scale * scale
+        return scaled
+
     def solve(self, right: Floats) -> Floats:
         """The solution x of matrix @ x = right, for `right` (n,) or (n, k): all columns at once."""
-        return np.asarray(self._factor.solve(np.asarray(right, dtype=np.float64)))
+        solution = np.asarray(self._factor.solve(np.asarray(right, dtype=np.float64)))
+        return solution if self._scale == 1.0 else solution / self._scale
 
 
 def _cotangents(vertices: Floats, polygons: Polygons) -> tuple[Ints, Floats]:

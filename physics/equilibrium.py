@@ -18,6 +18,7 @@ class EquilibriumSolver:
     tolerance : m, the largest correction of a node that may be left.
     max_iterations : solves with the prefactored matrix.
     unseen : m, the same where the search ends before: slivers are so stiff that rounding hides what is left.
+    factor : of `skin.matrix()`, where it is known.
 
     Raises
     ------
@@ -25,11 +26,19 @@ class EquilibriumSolver:
     SolverError : a piece of skin without anchor.
     """
 
-    def __init__(self, skin: Skin, *, tolerance: float = 1e-6, max_iterations: int = 1000, unseen: float = 0.0) -> None:
+    def __init__(
+        self,
+        skin: Skin,
+        *,
+        tolerance: float = 1e-6,
+        max_iterations: int = 1000,
+        unseen: float = 0.0,
+        factor: Factor | None = None,
+    ) -> None:
         if not tolerance > 0:
             raise ParameterError("tolerance", "must be above 0 m", tolerance)
         self.skin, self.tolerance, self.max_iterations, self.unseen = skin, tolerance, max_iterations, unseen
-        self._factor = Factor(skin.matrix())
+        self._factor = Factor(skin.matrix()) if factor is None else factor
 
     def solve(
         self,

@@ -74,8 +74,8 @@ def front_steps(vertices: Floats, triangles: Ints) -> Work[Front]:
     for block in sample_blocks(vertices[triangles], 0.5 * RISE):
         blocks.append(block)
         yield Progress(0.0, "Preparing contact of lips and lids")
-    low = np.min([block.min(axis=0) for block in blocks], axis=0)
-    high = max(block[:, 1].max() for block in blocks)
+    corners = vertices[np.unique(triangles)]
+    low, high = corners.min(axis=0), corners[:, 1].max()
     middle = sum(float(block[:, 0].sum()) for block in blocks) / sum(map(len, blocks))
     axis, bottom = np.array([middle, low[2]]), float(low[1]) - RISE
     reach = np.full((int(2 * TEETH.widest / TURN) + 1, int((high - bottom) / RISE) + 3), -np.inf)
@@ -84,8 +84,11 @@ def front_steps(vertices: Floats, triangles: Ints) -> Work[Front]:
         aside, before = block[:, 0] - axis[0], block[:, 2] - axis[1]
         column = np.round((np.arctan2(aside, before) + TEETH.widest) / TURN).astype(np.int64)
         line = np.round((block[:, 1] - bottom) / RISE).astype(np.int64)
-        seen = (column >= 0) & (column < len(reach))
-        np.maximum.at(reach, (column[seen], line[seen]), np.hypot(aside[seen], before[seen]))
+        far = np.hypot(aside, before)
+        seen = np.flatnonzero((column >= 0) & (column < len(reach)))
+        farther = seen[far[seen] > reach[column[seen], line[seen]]]
+        farther = farther[np.argsort(far[farther])]  # of those in one cell the last stays, the farthest
+        reach[column[farther], line[farther]] = far[farther]
     return Front(axis, bottom, np.asarray(ndimage.grey_closing(reach, size=(GAP, GAP), mode="nearest")))
 
 

@@ -5,10 +5,11 @@ Its surface is kept as the distance from its centre over direction, in the eyeba
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ...arrays import Floats, Ints
 from ...physics.mesh import sample_blocks
@@ -22,6 +23,9 @@ ANGLES, TURNS = 91, 72
 
 #: Distance of the points at which a modelled eyeball's surface is taken, metres.
 SPACING = 0.25e-3
+
+#: So many points are looked at at once, which the processor holds near.
+AT_ONCE = 20_000
 
 #: What lies farther below the outermost surface in its direction is another shell, metres.
 SHELL = 0.5e-3
@@ -46,22 +50,13 @@ class Ball:
         away = positions - look.centre
         distance = np.maximum(np.linalg.norm(away, axis=1), 1e-9)
         outwards = away / distance[:, None]
-        angle, turn = _direction(outwards @ _axes(look.gaze))
+        angle, turn = _direction(outwards @ look.axes)
         first = np.minimum(angle.astype(np.int64), ANGLES - 2)
         second = np.minimum(turn.astype(np.int64), TURNS - 1)
         u, v = angle - first, turn - second
         near = (1.0 - v) * self.radii[first, second] + v * self.radii[first, second + 1]
         far = (1.0 - v) * self.radii[first + 1, second] + v * self.radii[first + 1, second + 1]
         return (1.0 - u) * near + u * far + EYEBALL.clearance - distance, outwards
-
-
-def _axes(gaze: Floats) -> Floats:
-    """(3, 3) columns: two axes across the gaze, the way head space's x and y are carried there, and the gaze."""
-    turn = np.cross([0.0, 0.0, 1.0], gaze)
-    sine = float(np.linalg.norm(turn))
-    if sine < 1e-12:
-        return np.eye(3)
-    return np.asarray(Rotation.from_rotvec(turn / sine * np.arctan2(sine, gaze[2])).as_matrix())
 
 
 def _direction(unit: Floats) -> tuple[Floats, Floats]:
@@ -81,40 +76,56 @@ def modelled_ball_steps(rest: Look, vertices: Floats, triangles: Ints) -> Work[B
 
     Of several shells the outermost counts. Directions in which nothing is modelled have the median distance.
     """
-    places, distances = list[tuple[Floats, Floats]](), list[Floats]()
+    samples = list[_Samples]()
     for block in sample_blocks(vertices[triangles], SPACING):
-        yield Progress(0.0, "Preparing contact of lips and lids")
-        away = block - rest.centre
-        distances.append(np.maximum(np.linalg.norm(away, axis=1), 1e-9))
-        places.append(_direction(away @ _axes(rest.gaze) / distances[-1][:, None]))
-    angle, turn = (np.concatenate(part) for part in zip(*places, strict=True))
-    distance = np.concatenate(distances)
-    radii = _means(angle, turn, distance)
-    radii[np.isnan(radii)] = np.median(distance)
+        for part in np.array_split(block, len(block) // AT_ONCE + 1):
+            yield Progress(0.0, "Preparing contact of lips and lids")
+            away = part - rest.centre
+            distance = np.maximum(np.linalg.norm(away, axis=1), 1e-9)
+            samples.append(_Samples(*_direction(away @ rest.axes / distance[:, None]), distance))
+    radii = yield from _means(samples)
+    radii[np.isnan(radii)] = np.median(np.concatenate([part.distance for part in samples]))
     return Ball(rest, np.column_stack([radii, radii[:, 0]]))
 
 
-def _means(angle: Floats, turn: Floats, distance: Floats) -> Floats:
-    """(ANGLES, TURNS) mean distance of the outermost samples (k,) about each direction, NaN where there are none.
+class _Samples(NamedTuple):
+    """Places (k,), (k,) on the grid of directions, and how far off the surface is there (k,), metres."""
+
+    angle: Floats
+    turn: Floats
+    distance: Floats
+
+    def cells(self) -> tuple[Ints, Floats]:
+        """The four directions round each (4, k), as numbers of a flat grid, and how near it is to each, 0..1."""
+        first, before = np.floor(self.angle).astype(np.int64), np.floor(self.turn).astype(np.int64)
+        u, v = self.angle - first, self.turn - before
+        row, above = first * TURNS, np.minimum(first + 1, ANGLES - 1) * TURNS
+        column, beside = before % TURNS, (before + 1) % TURNS
+        cells = np.stack([row + column, row + beside, above + column, above + beside])
+        return cells, np.stack([(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v])
+
+
+def _means(samples: Sequence[_Samples]) -> Work[Floats]:
+    """(ANGLES, TURNS) mean distance of the outermost samples about each direction, NaN where there are none.
 
     A sample counts for the four directions round it by how near it is to each, so that none makes a difference by the
     side of a border that it lies on.
     """
-    first, before = np.floor(angle).astype(np.int64), np.floor(turn).astype(np.int64)
-    u, v = angle - first, turn - before
-    corners = [
-        (np.minimum(first + i, ANGLES - 1), (before + j) % TURNS, (u if i else 1.0 - u) * (v if j else 1.0 - v))
-        for i in (0, 1)
-        for j in (0, 1)
-    ]
-    outermost = np.zeros((ANGLES, TURNS))
-    for row, column, _ in corners:
-        np.maximum.at(outermost, (row, column), distance)
-    total, weight = np.zeros((2, ANGLES, TURNS))
-    for row, column, share in corners:
-        counts = share * (1.0 - smoothstep((outermost[row, column] - distance) / SHELL))
-        np.add.at(total, (row, column), counts * distance)
-        np.add.at(weight, (row, column), counts)
+    outermost = np.zeros(ANGLES * TURNS)
+    for part in samples:
+        yield Progress(0.0, "Preparing contact of lips and lids")
+        for cell in part.cells()[0]:
+            higher = np.flatnonzero(part.distance > outermost[cell])
+            higher = higher[np.argsort(part.distance[higher])]  # of those in one cell the last stays, the farthest
+            outermost[cell[higher]] = part.distance[higher]
+    total, weight = np.zeros((2, ANGLES * TURNS))
+    for part in samples:
+        yield Progress(0.0, "Preparing contact of lips and lids")
+        cells, shares = part.cells()
+        counts = shares * (1.0 - smoothstep((outermost[cells] - part.distance) / SHELL))
+        total += np.bincount(cells.ravel(), (counts * part.distance).ravel(), len(total))
+        weight += np.bincount(cells.ravel(), counts.ravel(), len(total))
+    total, weight = total.reshape(ANGLES, TURNS), weight.reshape(ANGLES, TURNS)
     for pole in (0, -1):  # one direction, whatever the turn
         total[pole], weight[pole] = total[pole].sum(), weight[pole].sum()
     return np.where(weight > 0.0, total / np.where(weight > 0.0, weight, 1.0), np.nan)

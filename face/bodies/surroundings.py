@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol
+
+import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ...arrays import Floats, Ints
 from ..mechanisms.jaw import JawMotion
@@ -16,6 +20,15 @@ class Look:
 
     centre: Floats
     gaze: Floats
+
+    @cached_property
+    def axes(self) -> Floats:
+        """(3, 3) columns: two axes across the gaze, the way head space's x and y are carried there, and the gaze."""
+        turn = np.cross([0.0, 0.0, 1.0], self.gaze)
+        sine = float(np.linalg.norm(turn))
+        if sine < 1e-12:
+            return np.eye(3)
+        return np.asarray(Rotation.from_rotvec(turn / sine * np.arctan2(sine, self.gaze[2])).as_matrix())
 
 
 @dataclass(frozen=True)

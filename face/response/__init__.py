@@ -6,6 +6,7 @@ pulls                     what of the muscles' pull shows
 actuators                 muscles, lids and jaw as one list
 spring_skin, relaxation   biphasic springs with mass and damping; their equilibrium under muscles
 sampled                   these equilibria over a clip, from a few of them
+recollection              and of a drag, from those found before
 folds                     lines where squeezed skin gives way
 followers                 mouth bag and sockets
 rotations                 the rotations nearest to matrices

@@ -7,17 +7,19 @@ under the muscles' forces, whose springs stiffen where they are stretched beyond
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ...arrays import Floats
+from ...physics.elastic import Factor
 from ...physics.equilibrium import EquilibriumSolver
+from ...physics.mesh import Sparse
 from ...physics.tissue import tissue
 from ..mechanism import Mechanism
 from ..skin.outer import OuterSkin
 from .actuators import Actuators, Amounts
+from .recollection import Recollection
 from .sheet import ElasticSheet
 from .spring_skin import spring_skin
 
@@ -28,15 +30,11 @@ TOLERANCE = 1e-7
 #: The same where rounding ends the search: slivers of a mesh are far stiffer than the skin round them, metres.
 UNSEEN = 5e-6
 
-#: The same for a face that is only sketched, metres.
-SKETCHED = 5e-5
+#: The same for a face that is only sketched; and how far off what is foretold may be, metres.
+SKETCHED, FORETOLD = 2e-5, 7e-5
 
-
-@dataclass(eq=False)
-class Memory:
-    """The balance found last: what its springs' stiffening added to the low-strain response, (n, 3) metres."""
-
-    beyond: Floats | float = 0.0
+#: Matrices that differ by less than this share are one.
+ROUNDING = 1e-12
 
 
 class Relaxation:
@@ -47,16 +45,24 @@ class Relaxation:
 
     @cached_property
     def _solver(self) -> EquilibriumSolver:
-        return EquilibriumSolver(spring_skin(self.skin), tolerance=TOLERANCE, unseen=UNSEEN)
+        springs = spring_skin(self.skin)
+        return EquilibriumSolver(springs, tolerance=TOLERANCE, unseen=UNSEEN, factor=self._factor_of(springs.matrix()))
+
+    def _factor_of(self, matrix: Sparse) -> Factor:
+        """The factor of a skin's matrix: at low strain springs are as stiff as the sheet, whose factor is known."""
+        off = abs(matrix - self._membrane * self.sheet.stiffness)
+        if off.max() <= ROUNDING * matrix.max():
+            return self.sheet.factor.times(self._membrane)
+        return Factor(matrix)
 
     @cached_property
     def _membrane(self) -> float:
         return tissue().membrane
 
-    def balance(self, amounts: Amounts, *, memory: Memory | None = None) -> Floats:
+    def balance(self, amounts: Amounts, *, known: Recollection | None = None) -> Floats:
         """(n, 3) positions of the sheet in balance with the muscles' forces, before sliding and bulging.
 
-        With a memory, it begins at the balance found last and stops a little short of the new one.
+        With a recollection, it begins at the balance found last and stops a little short of the new one.
 
         Raises
         ------
@@ -65,14 +71,16 @@ class Relaxation:
         low_strain = np.tensordot(amounts.muscles, self.actuators.sheets, axes=1)
         force = self._membrane * np.asarray(self.sheet.stiffness @ low_strain)
         start = self.skin.positions + low_strain
-        if memory is None:
+        if known is None:
             return self._solver.solve(force, start=start).positions
-        balanced = self._solver.solve(force, start=start + memory.beyond, tolerance=SKETCHED).positions
-        memory.beyond = balanced - start
+        balanced = self._solver.solve(force, start=start + known.latest, tolerance=SKETCHED).positions
+        known.latest = balanced - start
         return balanced
 
-    def pulled(self, amounts: Amounts, *, memory: Memory | None = None) -> Floats:
+    def pulled(self, amounts: Amounts, *, known: Recollection | None = None) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, metres: what `Actuators.low_strain` is at low strain.
+
+        With a recollection, what others foretell is taken where that is near enough, and what is found is added to it.
 
         Raises
         ------
@@ -82,5 +90,17 @@ class Relaxation:
             return np.zeros_like(self.skin.positions)
         if not self.skin.has(Mechanism.BIPHASIC):
             return self.actuators.low_strain(amounts)
-        shown: Floats = self.sheet.show((self.balance(amounts, memory=memory) - self.skin.positions)[None])[0]
+        if known is None:
+            return self._shown(amounts)
+        linear = self.actuators.low_strain(amounts)
+        foretold, doubt = known.foretold(amounts.muscles)
+        if doubt <= FORETOLD:
+            return linear + foretold
+        found = self._shown(amounts, known)
+        known.learn(amounts.muscles, found - linear)
+        return found
+
+    def _shown(self, amounts: Amounts, known: Recollection | None = None) -> Floats:
+        """(n, 3) what the face shows of a balance."""
+        shown: Floats = self.sheet.show((self.balance(amounts, known=known) - self.skin.positions)[None])[0]
         return shown

@@ -62,14 +62,20 @@ class RootedParts:
         self._roots, self._rest = rooted[touching], rooted[~touching]
         self._at, self._off = positions[self._roots], positions[self._rest]
         around, length = _around(positions, polygons, carriers, self._at)
-        self._carriers = carriers[around]
-        self._away = positions[self._carriers] - self._at[:, None]
+        carried = carriers[around]
+        away = positions[carried] - self._at[:, None]
         reach = np.where(np.isfinite(length), length, 0.0).max(axis=1, keepdims=True)
-        self._near = np.maximum((1.0 - np.minimum(length / np.maximum(reach, mesh.SHORTEST), 1.0) ** 2) ** 2, FAINT)
-        self._near[~np.isfinite(length)] = 0.0
-        self._shares = _linear_shares(self._away, self._near, reach)
-        self._above = -np.einsum("rk,rkc->rc", self._shares, self._away)
-        self._away = self._away - _means(self._near, self._away)[:, None]
+        near = np.maximum((1.0 - np.minimum(length / np.maximum(reach, mesh.SHORTEST), 1.0) ** 2) ** 2, FAINT)
+        near[~np.isfinite(length)] = 0.0
+        shares = _linear_shares(away, near, reach)
+        self._above = -np.einsum("rk,rkc->rc", shares, away)
+        away = away - _means(near, away)[:, None]
+        lean = near[:, :, None] * away
+        moment = np.ascontiguousarray(away.transpose(0, 2, 1)) @ lean
+        tie = np.maximum(LINE_TIE * np.trace(moment, axis1=1, axis2=2), mesh.SHORTEST**2)
+        self._moment = moment + tie[:, None, None] * np.eye(3)
+        self._mean = _reader(carried, shares, len(positions))
+        self._slopes = [_reader(carried, lean[:, :, axis], len(positions)) for axis in range(3)]
         if len(self._rest):
             own = edges[~touching]
             self._factor = Factor(diagonal_matrix(np.asarray(own.sum(axis=1)).ravel()) - own[:, ~touching])
@@ -79,24 +85,22 @@ class RootedParts:
         """Fill in the rows of rooted vertices of a displacement field (V, 3), in place."""
         if not self._bound:
             return
-        carried = displacement[self._carriers]
-        change = self._turns(carried - _means(self._near, carried)[:, None]) - np.eye(3)
-        shift = np.einsum("rk,rkc->rc", self._shares, carried) + np.einsum("rij,rj->ri", change, self._above)
+        change = self._turns(displacement) - np.eye(3)
+        shift = np.asarray(self._mean @ displacement) + (change @ self._above[:, :, None])[:, :, 0]
         displacement[self._roots] = shift
         if len(self._rest) == 0:
             return
-        about = shift - np.einsum("rij,rj->ri", change, self._at)
+        about = shift - (change @ self._at[:, :, None])[:, :, 0]
         motion = self._factor.solve(self._to_roots @ np.concatenate([change.reshape(-1, 9), about], axis=1))
-        turned = np.einsum("vij,vj->vi", motion[:, :9].reshape(-1, 3, 3), self._off)
+        turned = (motion[:, :9].reshape(-1, 3, 3) @ self._off[:, :, None])[:, :, 0]
         displacement[self._rest] = turned + motion[:, 9:]
 
-    def _turns(self, against: Floats) -> Floats:
-        """(r, 3, 3) rotation of the carriers about each root, by their motion (r, k, 3) against their mean."""
-        moment = np.einsum("rk,rki,rkj->rij", self._near, self._away + against, self._away)
-        size = np.einsum("rk,rki,rki->r", self._near, self._away, self._away)
-        moment += np.maximum(LINE_TIE * size, mesh.SHORTEST**2)[:, None, None] * np.eye(3)
-        turns = nearest_rotations(moment)
-        turns[(against == 0.0).all(axis=(1, 2))] = np.eye(3)
+    def _turns(self, displacement: Floats) -> Floats:
+        """(r, 3, 3) rotation of the carriers about each root, by their motion against their mean."""
+        sheared = np.stack([np.asarray(slopes @ displacement) for slopes in self._slopes], axis=2)
+        moving = np.flatnonzero((sheared != 0.0).any(axis=(1, 2)))
+        turns = np.tile(np.eye(3), (len(sheared), 1, 1))
+        turns[moving] = nearest_rotations(self._moment[moving] + sheared[moving])
         return turns
 
 
@@ -172,6 +176,12 @@ def _lengths(positions: Floats, polygons: PolygonTable, carriers: Ints, reached:
 def _means(near: Floats, values: Floats) -> Floats:
     """(r, 3) weighted means of what neighbours (r, k, 3) have, by how much each counts (r, k)."""
     return np.asarray(np.einsum("rk,rkc->rc", near, values) / near.sum(axis=1, keepdims=True))
+
+
+def _reader(carriers: Ints, shares: Floats, count: int) -> Sparse:
+    """(r, count) sums of what carriers (r, k) have, by their shares (r, k)."""
+    row, column = np.nonzero(shares)
+    return sparse.csr_array((shares[row, column], (row, carriers[row, column])), shape=(len(shares), count))
 
 
 def _linear_shares(away: Floats, near: Floats, reach: Floats) -> Floats:

@@ -22,7 +22,8 @@ from risorius.api import Face, Mechanism
 from risorius.arrays import Floats
 from risorius.face.anatomy import Anatomy
 from risorius.face.response.actuators import Amounts
-from risorius.face.response.relaxation import Memory, Relaxation
+from risorius.face.response.recollection import Recollection
+from risorius.face.response.relaxation import Relaxation
 
 from .two_layer_skin import Insertion, LayeredTissue, Layers
 
@@ -32,7 +33,7 @@ W = (Mechanism.SLIDING, Mechanism.BULGE)
 class LowStrain(Relaxation):
     """Muscles as their linear fields, for a fair comparison: two layers have no biphasic equilibrium yet."""
 
-    def pulled(self, amounts: Amounts, *, memory: Memory | None = None) -> Floats:
+    def pulled(self, amounts: Amounts, *, known: Recollection | None = None) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, metres."""
         return self.actuators.low_strain(amounts)
 
