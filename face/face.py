@@ -323,6 +323,7 @@ class Face:
         *,
         drive: str | Drive = Drive.NATURAL,
         emotions: ArrayLike | None = None,
+        planned: bool = False,
         integrator: str = "reduced",
         substeps: int = 2,
         tissue: str | Tissue = "default",
@@ -339,7 +340,7 @@ class Face:
         checked = checked_stream(frames)
         weights = checked_emotions(emotions, len(checked))
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
-        return simulation.run(stream_plans(checked, checked_drive(drive), weights))
+        return simulation.run(stream_plans(checked, checked_drive(drive), weights, planned=planned))
 
     def long_motion(self, frames: ArrayLike, *, drive: str | Drive = Drive.NATURAL) -> Work[LongMotion]:
         """A long stream of FAPs (T, 68) in balance, bit by bit: some hundred of its frames are posed, and the others
@@ -391,6 +392,7 @@ class Face:
         *,
         drive: str | Drive = Drive.NATURAL,
         emotions: ArrayLike | None = None,
+        planned: bool = False,
         integrator: str = "reduced",
         substeps: int = 2,
         tissue: str | Tissue = "default",
@@ -402,7 +404,9 @@ class Face:
         frames : (T, 68) FAP units; NaN = silent.
         fps : frames per second.
         emotions : (T, 6) strength of each archetype over time (`emotion_weights`), where the words are known.
-        integrator : "reduced" (default); for reference "implicit", or "rk2", the paper's.
+        planned : the frames show all that their emotions show (`say`); the natural drive adds nothing of these.
+        integrator : "reduced" (default); "balance" for motion that has inertia of its own, as speech; for reference
+            "implicit", or "rk2", the paper's.
         substeps : steps per frame, after each of which contact is seen to; rk2 cuts them as it needs.
         tissue : "default", "young", "aged" or "stiff" (presets/tissue.toml), or figures of its own.
 
@@ -420,6 +424,13 @@ class Face:
         True
         """
         moving = self.simulation(
-            frames, fps, drive=drive, emotions=emotions, integrator=integrator, substeps=substeps, tissue=tissue
+            frames,
+            fps,
+            drive=drive,
+            emotions=emotions,
+            planned=planned,
+            integrator=integrator,
+            substeps=substeps,
+            tissue=tissue,
         )
         return Clip(np.stack(list(moving)), fps)

@@ -14,22 +14,29 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ParameterError, SolverError
 from ..physics.tissue import Tissue
-from ..progress import Prepared, Work
+from ..progress import Prepared, Progress, Work, part_of
 from .drive.plan import Plan
 from .mechanisms.jaw import JawMotion
 from .motion import FaceMotion, MovingFace, Setpoint, Stepping
 from .pose import Poser
+from .posture import Effort
 from .reduced_motion import ReducedMotion
+from .response.sampled import sampled_pull
+
+#: How far the work of a clip in balance is once its muscles are found.
+EFFORTS = 0.2
 
 
 class Integrator(StrEnum):
     """How the equation of motion is integrated.
 
     reduced : in a few displacement fields about the balance, the production way. implicit, rk2 : of every node, by two
-    backward-Euler stages or by the paper's second-order Runge-Kutta; for reference.
+    backward-Euler stages or by the paper's second-order Runge-Kutta; for reference. balance : every step in balance,
+    for motion that was made as it is to be seen and has an inertia of its own.
     """
 
     REDUCED = "reduced"
+    BALANCE = "balance"
     IMPLICIT = "implicit"
     RK2 = "rk2"
 
@@ -64,10 +71,10 @@ class Simulation:
         if integrator not in list(Integrator):
             raise ParameterError("integrator", f"must be one of {', '.join(Integrator)}", integrator)
         self.poser = poser
-        self.motion: ReducedMotion | FaceMotion
+        self.motion: ReducedMotion | FaceMotion | None = None
         if integrator == Integrator.REDUCED:
             self.motion = ReducedMotion(poser.balance, 1.0 / fps, substeps=substeps, tissue=tissue)
-        else:
+        elif integrator != Integrator.BALANCE:
             stepping = Stepping(integrator)
             self.motion = FaceMotion(poser.anatomy, 1.0 / fps, stepping=stepping, substeps=substeps, tissue=tissue)
 
@@ -78,6 +85,8 @@ class Simulation:
         ------
         SolverError : names the step whose motion was not solved, where one step was solved after the other.
         """
+        if self.motion is None:
+            return Prepared(self._balanced(list(plans)))
         if isinstance(self.motion, ReducedMotion):
             return Prepared(self._reduced(self.motion, list(plans)))
         return Prepared.at_once(self._followed(self.motion, plans))
@@ -86,6 +95,20 @@ class Simulation:
         """Frames of a clip that is known as a whole."""
         course = yield from motion.course(plans)
         return (self._assembled(*moved, plan) for moved, plan in zip(motion.along(course), plans, strict=True))
+
+    def _balanced(self, plans: list[Plan]) -> Work[Iterator[Floats]]:
+        """Frames of a clip that is known as a whole, each in balance."""
+        balance, efforts = self.poser.balance, list[Effort]()
+        for plan in plans:
+            efforts.append(balance.effort(plan, before=efforts[-1] if efforts else None))
+            yield Progress(EFFORTS * len(efforts) / len(plans), "Finding the muscles behind the motion")
+        amounts = [effort.amounts for effort in efforts]
+        pull = yield from part_of(sampled_pull(self.poser.anatomy.relaxation, amounts), EFFORTS, 1.0)
+        reached = (balance.reached(effort, pull.at(step)) for step, effort in enumerate(efforts))
+        return (
+            self._assembled(posture.displacement, posture.amounts.jaw, plan)
+            for posture, plan in zip(reached, plans, strict=True)
+        )
 
     def _followed(self, motion: FaceMotion, plans: Iterable[Plan]) -> Iterator[Floats]:
         """Frames one after the other."""

@@ -145,6 +145,12 @@ class Liveliness:
     head: Drawn = Drawn()
     eyes: Drawn = Drawn()
 
+    @classmethod
+    def usual(cls, seed: int | None = None) -> Liveliness:
+        """Blinks and small motions of head and eyes as usual at rest (presets/variation.toml), drawn by a seed."""
+        number = 0 if seed is None else seed
+        return cls(blinks=Drawn(load_habits().blink.rate, number), head=Drawn(1.0, number), eyes=Drawn(1.0, number))
+
     @property
     def any(self) -> bool:
         """Whether it does anything."""

@@ -11,6 +11,7 @@ from ...arrays import Floats
 from ...errors import ParameterError
 from ...mpeg4 import (
     ARCHETYPES,
+    AS_PRINTED,
     FAP_COUNT,
     Cue,
     Drawn,
@@ -27,13 +28,17 @@ from .plan import Plan, blended
 from .request import ByHand, Contractions, Drive, Request
 
 
-def stream_plans(stream: Floats, drive: Drive, weights: Floats | None) -> Iterator[Plan]:
-    """Plans of a stream of FAPs (T, 68), each planned by itself; weights (T, 6) name the emotions where known."""
+def stream_plans(stream: Floats, drive: Drive, weights: Floats | None, *, planned: bool = False) -> Iterator[Plan]:
+    """Plans of a stream of FAPs (T, 68), each planned by itself; weights (T, 6) name the emotions where known.
+
+    A stream that is planned already shows all that its emotions show; nothing of them is added, or seen in it.
+    """
     for step, faps in enumerate(stream):
-        emotion = None
+        emotion = Feeling({}) if planned else None
         if weights is not None and (total := float(weights[step].sum())) > 0.0:
             shares = {a: float(w) / total for a, w in zip(ARCHETYPES, weights[step], strict=True)}
-            emotion = Feeling(shares, strength=min(total, 1.0))
+            ways = dict.fromkeys(shares, AS_PRINTED) if planned else None
+            emotion = Feeling(shares, strength=min(total, 1.0), prototypes=ways)
         yield DRIVES[drive].plan(Request(faps, drive, emotion))
 
 

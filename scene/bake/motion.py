@@ -83,10 +83,14 @@ class CueMotion:
 
 @dataclass(frozen=True, eq=False)
 class FapMotion:
-    """A stream of FAPs (T, 68), NaN where silent, and the emotions (T, 6) behind it where they are known."""
+    """A stream of FAPs (T, 68), NaN where silent, and the emotions (T, 6) behind it where they are known.
+
+    `planned`: it shows all that its emotions show, as it is to be seen, inertia included: speech.
+    """
 
     stream: Floats
     emotions: Floats | None = None
+    planned: bool = False
 
     def __post_init__(self) -> None:
         if len(self.stream) == 0:
@@ -98,11 +102,14 @@ class FapMotion:
 
     def positions(self, face: Face, fps: float, drive: str) -> Prepared[Floats]:
         """The stream, each frame planned by itself; see `Face.simulation`."""
-        return face.simulation(self.stream, fps, drive=drive, emotions=self.emotions)
+        integrator = "balance" if self.planned else "reduced"
+        return face.simulation(
+            self.stream, fps, drive=drive, emotions=self.emotions, planned=self.planned, integrator=integrator
+        )
 
     def between(self, face: Face, drive: str) -> Work[LongMotion] | None:
         """A long stream is a recording, as a rule, and its skin has had its inertia; see `Face.long_motion`."""
-        if len(self.stream) <= SIMULATED or self.emotions is not None:
+        if len(self.stream) <= SIMULATED or self.emotions is not None or self.planned:
             return None
         return face.long_motion(self.stream, drive=drive)
 

@@ -57,18 +57,18 @@ class Natural:
         self._spread = np.where(np.isin(numbers, LID_FAPS), SPREAD.lid, brow)
 
     def plan(self, request: Request) -> Plan:
-        """The plan for a request; where no emotion is given, it is recognised."""
+        """The plan for a request; where no emotion is given, it is recognised. No shares: none is shown."""
         data, spread = self.data, self._spread
         emotion = request.emotion
         even, asymmetric = evened(request.faps)
-        faps = self._meaning.meant(even, emotion) if emotion else even
+        faps = even if emotion is None else self._meaning.meant(even, emotion)
         asked = ~np.isnan(faps[data.numbers - 1])
         wanted = np.nan_to_num(faps[data.numbers - 1] * data.per_fap)
         carried = carried_by_jaw(data, wanted)
         within = held(data, wanted, carried)
         doubt = doubts(data, spread, wanted, within, asked)
         limited = smiling_eyes_spared(data, within)
-        shown = Shown.by_word(emotion) if emotion else Shown.by_sight(faps)
+        shown = Shown.by_sight(faps) if emotion is None else Shown.by_word(emotion)
         weight = 1.0 / np.sqrt(spread**2 + doubt**2)
         one_sided = asymmetric or (emotion is not None and emotion.shows is not None and emotion.shows.one_sided)
         amounts = self._mixture.amounts(Weighed(limited, asked, weight, one_sided), shown)
