@@ -108,6 +108,10 @@ from .mpeg4 import (
 )
 from .mpeg4.streams.capture import CaptureShape, KeyShape, load_key_names, load_shapes, write_fap_csv
 from .progress import Progress
+from .speech.phonemes import Alphabet, Phoneme
+from .speech.saying import Saying, say
+from .speech.timings import read_timings
+from .speech.utterance import Sound, SpokenWord, Utterance
 
 __all__ = [
     "ADDITIONS",
@@ -121,6 +125,7 @@ __all__ = [
     "VISEMES",
     "WORDS",
     "WRITABLE_STREAMS",
+    "Alphabet",
     "AnimationTable",
     "AnimationTables",
     "Archetype",
@@ -154,6 +159,7 @@ __all__ = [
     "Mechanism",
     "MeshFile",
     "Part",
+    "Phoneme",
     "PointTable",
     "Pose",
     "Profile",
@@ -164,13 +170,17 @@ __all__ = [
     "Retargeted",
     "Retargeting",
     "Rule",
+    "Saying",
     "Shortfall",
+    "Sound",
+    "SpokenWord",
     "StreamFormat",
     "TableError",
     "Take",
     "Timing",
     "Told",
     "Topology",
+    "Utterance",
     "VisemeField",
     "archetype",
     "arkit_shapes",
@@ -206,6 +216,7 @@ __all__ = [
     "read_points",
     "read_recording",
     "read_stream",
+    "read_timings",
     "read_topology",
     "recognise",
     "recognise_features",
@@ -214,6 +225,7 @@ __all__ = [
     "recognise_words",
     "retarget",
     "save_topology",
+    "say",
     "sequence",
     "shown_strength",
     "unmet_lines",

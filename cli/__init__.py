@@ -8,6 +8,7 @@ faces          measure, points
 films          bake, render, demo: they need Blender
 recognition    recognise
 streams        fap
+speech         say
 recordings     options of reading a recording, and what was assumed to read it
 animation_tables    tables
 capture        import
@@ -35,6 +36,7 @@ from .faces import add_face_verbs
 from .films import add_film_verbs
 from .recognition import add_recognition_verb
 from .result import Result, UsageError, plain
+from .speech import add_speech_verb
 from .streams import add_stream_verb, with_action
 from .track import add_track_verb
 
@@ -77,6 +79,7 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     add_emotion_verbs(verbs)
     add_stream_verb(verbs)
+    add_speech_verb(verbs)
     add_table_verb(verbs)
     add_track_verb(verbs)
     add_film_verbs(verbs)

@@ -19,6 +19,7 @@ refusals              what Risorius refuses to touch, and the remedy
 modifiers             modifiers of ours among those of the user's
 node_graph            node groups built in a few words
 materials             materials and worlds with nodes
+sounds                sound on a timeline
 gltf                  a face with its clips as glTF
 laid_out             what such a file is made of: copies with each clip on a track of its name
 points                feature points on objects: found, kept, bound, shown

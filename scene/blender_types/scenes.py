@@ -25,6 +25,7 @@ class FFmpegSettings(Protocol):
     codec: str
     constant_rate_factor: str
     ffmpeg_preset: str
+    audio_codec: str
 
 
 class RenderSettings(Protocol):
@@ -112,10 +113,26 @@ class ImageStrip(Protocol):
     elements: StripElements
 
 
-class SequenceStrips(Items[object], Protocol):
+class SequencerStrip(Protocol):
+    """Any strip of the video sequencer."""
+
+    channel: int
+    name: str
+
+    @property
+    def type(self) -> str: ...
+    @property
+    def frame_final_start(self) -> int: ...
+    @property
+    def frame_final_duration(self) -> int: ...
+
+
+class SequenceStrips(Items[SequencerStrip], Protocol):
     """Strips of the video sequencer."""
 
     def new_image(self, name: str, path: str, channel: int, start: int) -> ImageStrip: ...
+    def new_sound(self, name: str, path: str, channel: int, start: int) -> SequencerStrip: ...
+    def remove(self, strip: SequencerStrip) -> None: ...
 
 
 class SequenceEditor(Protocol):
@@ -178,6 +195,8 @@ class Scene(Datablock, Protocol):
     def objects(self) -> Items[Object]: ...
     @property
     def view_layers(self) -> Items[ViewLayer]: ...
+    @property
+    def sequence_editor(self) -> SequenceEditor | None: ...
     @property
     def timeline_markers(self) -> SceneMarkers: ...
     @property

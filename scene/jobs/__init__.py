@@ -1,6 +1,7 @@
 """Whole jobs for the command line: from an empty file to a .blend, a film or pictures.
 
 words, playing, shapes    from words; from a FAP stream; the shape keys that engines know
+saying                    speech, with its sound
 subjects                  whose face it is: the default head, or the mesh of a file that looks most like a face
 destination               where its bakes go: new shape keys, or the controls that the character has
 inputs                    that file: opened or read, and the meshes in it

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import ParameterError
-from ...mpeg4 import Drawn, Liveliness
-from ...mpeg4.variation import load_habits
+from ...mpeg4 import Liveliness
 from ...progress import Progress, Report, Work, part_of, run
 from ..bake.motion import CueMotion
 from ..bake.performance import ARCHETYPES, PAUSE, cues_of
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
 #: Pixels of a picture on the contact sheet.
 SHEET_SIZE = 640
 #: What the demo's face does besides its expressions: blinks, small motions of head and eyes, as usual at rest.
-ALIVE = Liveliness(blinks=Drawn(load_habits().blink.rate, seed=4), head=Drawn(1.0, seed=4), eyes=Drawn(1.0, seed=4))
+ALIVE = Liveliness.usual(seed=4)
 #: Puts the face of a job into a file.
 Load = Callable[[], Work[Subject]]
 
@@ -88,7 +87,7 @@ def render_film(
     progress: Report | None = None,
 ) -> Made:
     """Simulate words on a face and write the film (.mp4). Parameters as in `bake_file` and `demo`."""
-    look = Look(engine=_engine(engine))
+    look = Look(engine=engine_of(engine))
     load = partial(subject, Input.of(mesh, points, object_name, fps), creases=bool(creases))
     cues = cues_of(words, activation=activation, timing=timing)
     return run(_render_film(Path(out), load, cues, destination, look, creases), progress)
@@ -124,10 +123,10 @@ def demo(
     RisoriusError : names the file, the word, the point or the object, and the remedy.
     """
     load = partial(subject, Input.of(mesh, points, object_name, fps), creases=bool(creases))
-    return run(_demo(Path(out_dir), load, cues_of(words), Look(engine=_engine(engine)), creases), progress)
+    return run(_demo(Path(out_dir), load, cues_of(words), Look(engine=engine_of(engine)), creases), progress)
 
 
-def _engine(name: str) -> Engine:
+def engine_of(name: str) -> Engine:
     """The engine of that name."""
     try:
         return Engine(name.upper())
@@ -193,9 +192,9 @@ def _render_film(
     return (yield from part_of(film_baked(out, face, baked, look), 0.4, 1.0))
 
 
-def film_baked(out: Path, face: Subject, baked: Baked, look: Look) -> Work[Made]:
+def film_baked(out: Path, face: Subject, baked: Baked, look: Look, *, sound: str | Path | None = None) -> Work[Made]:
     """Film what was baked as one motion, and tell what is on it."""
-    rendered = yield from _filming(face, baked, out, look)
+    rendered = yield from _filming(face, baked, out, look, sound)
     return Made(
         film=rendered.path,
         face=face.obj.name,
@@ -205,11 +204,13 @@ def film_baked(out: Path, face: Subject, baked: Baked, look: Look) -> Work[Made]
     )
 
 
-def _filming(face: Subject, baked: Baked, out: Path, look: Look) -> Work[film.FilmResult]:
+def _filming(
+    face: Subject, baked: Baked, out: Path, look: Look, sound: str | Path | None = None
+) -> Work[film.FilmResult]:
     """Render what was baked as one motion."""
     (moved,) = baked.results
     start, end = (int(frame) for frame in moved.frame_range)
-    return film.render_film(face.shown(), out, start=start, end=end, look=look)
+    return film.render_film(face.shown(), out, start=start, end=end, look=look, sound=sound)
 
 
 def _demo(out: Path, load: Load, cues: Sequence[Cue], look: Look, creases: bool | None = None) -> Work[Made]:

@@ -13,6 +13,7 @@ import bpy
 from ...errors import SceneError
 from ...progress import Progress, Work, part_of
 from ..blender_types import Object, Scene
+from ..sounds import add_sound
 from .following import FollowingCamera
 from .framing import framing_of
 from .look import Camera, Look, usable_engine
@@ -63,6 +64,7 @@ def render_film(
     end: int,
     look: Look | None = None,
     frames: str | Path | None = None,
+    sound: str | Path | None = None,
 ) -> Work[FilmResult]:
     """Render the face of ``objects[0]``, well framed and lit, as an MP4; the portrait camera goes where the face goes.
 
@@ -72,6 +74,7 @@ def render_film(
     path : the MP4 to write; an older one is replaced only once the new one is complete. None: pictures only.
     start, end : first and last frame of the timeline.
     frames : a folder to keep the PNG frames in; by default they are thrown away.
+    sound : a sound file that begins with the first frame.
 
     Raises
     ------
@@ -94,7 +97,7 @@ def render_film(
         pictures, said = yield from render_frames(objects, folder, start=start, end=end, look=look)
         if film is not None:
             yield Progress(0.95, "Encoding the video")
-            shutil.copyfile(encode(pictures, Path(temporary) / "film.mp4", look=look), film)
+            shutil.copyfile(encode(pictures, Path(temporary) / "film.mp4", look=look, sound=sound), film)
     return FilmResult(film, len(pictures), kept, ((remark,) if remark else ()) + said)
 
 
@@ -120,8 +123,15 @@ def render_frames(
     return pictures, said
 
 
-def encode(pictures: Sequence[Path], path: Path, *, look: Look, fps: tuple[int, float] | None = None) -> Path:
-    """Encode numbered pictures of one folder as an H.264 MP4 with Blender's sequencer.
+def encode(
+    pictures: Sequence[Path],
+    path: Path,
+    *,
+    look: Look,
+    fps: tuple[int, float] | None = None,
+    sound: str | Path | None = None,
+) -> Path:
+    """Encode numbered pictures of one folder, and a sound, as an H.264 MP4 with Blender's sequencer.
 
     Raises
     ------
@@ -133,6 +143,9 @@ def encode(pictures: Sequence[Path], path: Path, *, look: Look, fps: tuple[int, 
     try:
         _sequence(scene, pictures)
         render = scene.render
+        if sound is not None:
+            add_sound(scene, sound, frame=1)
+            render.ffmpeg.audio_codec = "AAC"
         render.fps, render.fps_base = rate
         render.resolution_x, render.resolution_y, render.resolution_percentage = look.width, look.height, 100
         scene.view_settings.view_transform = "Standard"

@@ -2,6 +2,6 @@
 
 sources           the files that belong to the project
 zips              the Blender extension: one zip per system and Blender range, checked by Blender itself
-wheels            which SciPy goes into which zip, and its download
+wheels            which wheels go into which zip, and their download
 python_package    the source distribution and the wheel for plain Python
 """

@@ -1,7 +1,8 @@
-"""The SciPy wheels that go into the extension: which one each Blender on each system needs, and their download."""
+"""The wheels that go into the extension: which ones each Blender on each system needs, and their download."""
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import tempfile
@@ -52,34 +53,45 @@ class DownloadError(Exception):
     """A wheel that could not be had; the message names it."""
 
 
+# Plain Python, the same on every system: praatio reads TextGrids, and needs the other.
+PLAIN = ("praatio>=6.2,<7", "typing_extensions>=4.10,<5")
+
+
 def fetch(platform: Platform, blender: BlenderRange, folder: Path) -> list[Path]:
-    """The SciPy wheels of one zip, downloaded into `folder` unless they lie there already.
+    """The wheels of one zip, downloaded into `folder` unless they lie there already.
 
     Raises
     ------
     DownloadError
         when pip finds no such wheel or no network.
     """
-    return [_fetch_one(platform, python, blender.scipy, folder) for python in blender.pythons]
+    compiled = [_compiled(platform, python, blender.scipy, folder) for python in blender.pythons]
+    return compiled + [_fetch(folder / "any", requirement, "any system", []) for requirement in PLAIN]
 
 
-def _fetch_one(platform: Platform, python: str, requirement: str, folder: Path) -> Path:
-    """One wheel, in a folder of its own so that it is found again without asking the network."""
+def _compiled(platform: Platform, python: str, requirement: str, folder: Path) -> Path:
+    """A wheel for one Python on one system."""
     place = folder / f"{platform.name}-cp{python.replace('.', '')}"
-    present = sorted(place.glob("scipy-*.whl"))
+    options = ["--python-version", python]
+    for tag in platform.tags:
+        options += ["--platform", tag]
+    return _fetch(place, requirement, f"Python {python} on {platform.name}", options)
+
+
+def _fetch(place: Path, requirement: str, where: str, options: list[str]) -> Path:
+    """One wheel, in a folder where it is found again without asking the network."""
+    name = re.split("[<>=~]", requirement)[0]
+    present = sorted(place.glob(f"{name}-*.whl"))
     if present:
         return present[-1]
     place.mkdir(parents=True, exist_ok=True)
-    print(f"Downloading {requirement} for Python {python} on {platform.name} ...", flush=True)
+    print(f"Downloading {requirement} for {where} ...", flush=True)
     command = [sys.executable, "-m", "pip", "download", "--disable-pip-version-check", "--no-deps"]
-    command += ["--only-binary=:all:", "--python-version", python]
+    command += ["--only-binary=:all:", *options]
     command += [] if sys.stdout.isatty() else ["--progress-bar=off"]
-    for tag in platform.tags:
-        command += ["--platform", tag]
     # Another run may fetch the same one: what is found here has been fetched to its end.
     with tempfile.TemporaryDirectory(dir=place) as scratch:
         if subprocess.run([*command, "--dest", scratch, requirement], check=False).returncode:
-            wanted = f"{requirement} for Python {python} on {platform.name}"
-            raise DownloadError(f"no wheel of {wanted} (pip's message is above)")
-        (wheel,) = Path(scratch).glob("scipy-*.whl")
+            raise DownloadError(f"no wheel of {requirement} for {where} (pip's message is above)")
+        (wheel,) = Path(scratch).glob(f"{name}-*.whl")
         return wheel.replace(place / wheel.name)

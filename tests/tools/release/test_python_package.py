@@ -80,7 +80,7 @@ def test_metadata_say_what_an_index_shows(python_package: tuple[Path, Path]) -> 
     assert metadata.get_all("License-File") == ["LICENSE", "presets/heads/NOTICE-ICT-FaceKit.txt"]
     assert {"Typing :: Typed", "Programming Language :: Python :: 3.13"} <= set(metadata.get_all("Classifier") or ())
     required = [line for line in metadata.get_all("Requires-Dist") or () if "extra ==" not in line]
-    assert [line.partition(">")[0] for line in required] == ["numpy", "scipy"]
+    assert [line.partition(">")[0] for line in required] == ["numpy", "scipy", "praatio"]
 
 
 def test_installed_wheel_poses_a_face_without_the_checkout(clean: Path, tmp_path: Path) -> None:

@@ -1,0 +1,110 @@
+"""The verb say: speech with feeling, as a stream, a video or a .blend."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .films import destination_of, lines_of, needing_blender, silent_blender
+from .options import (
+    Verbs,
+    add_creases,
+    add_engine,
+    add_onto,
+    add_scene,
+    add_strength,
+    expression_of,
+    onto_options,
+    scene_options,
+    verb,
+)
+from .progress import ShowProgress, when_slow
+from .result import Result, UsageError
+
+if TYPE_CHECKING:
+    from ..api import Saying, Utterance
+
+#: Endings of what Blender makes; others are streams.
+BLENDER = (".blend", ".mp4")
+
+
+def add_speech_verb(verbs: Verbs) -> None:
+    """Add say to the verbs."""
+    say = verb(verbs, "say", _say)
+    about = "what is said when: a Praat TextGrid, Rhubarb's JSON, TSV or XML, or a table or JSON of sounds and times"
+    say.add_argument("--timings", type=Path, required=True, metavar="FILE", help=about)
+    say.add_argument(
+        "--sound", type=Path, metavar="FILE", help="the sound, from the same beginning; for .blend and .mp4"
+    )
+    say.add_argument("--tier", metavar="NAME", help="tier of a TextGrid with the sounds (default: found)")
+    about = "how sounds are written: ipa, arpabet or xsampa (default: found)"
+    say.add_argument("--alphabet", choices=("ipa", "arpabet", "xsampa"), help=about)
+    say.add_argument("--emotion", dest="word", metavar="WORD", help="what is felt meanwhile (default: nothing)")
+    say.add_argument("--angle", type=float, help="the same as a point of the emotion wheel, in degrees")
+    add_strength(say)
+    say.add_argument("--seed", type=int, help="draws the way in which the emotion shows, blinks and small motions")
+    say.add_argument(
+        "--articulation", type=float, default=1.0, help="how distinctly the lips move, 0 to 2 (default: 1)"
+    )
+    say.add_argument("--jaw", type=float, default=1.0, help="how far the jaw opens, 0 to 2 (default: 1)")
+    about = "how far the mouth leans to the emotion while speaking, 0 to 2 (default: 1)"
+    say.add_argument("--lean", type=float, default=1.0, help=about)
+    say.add_argument("--still", action="store_true", help="no blinks and no small motions of head and eyes")
+    say.add_argument("--fps", type=float, help="frames per second (default: those of a .blend, else 25)")
+    add_scene(say)
+    add_onto(say)
+    add_engine(say)
+    add_creases(say)
+    about = "what to write: a stream (.fap, .fba, .json, .csv), a video (.mp4) or a .blend"
+    say.add_argument("--out", type=Path, required=True, help=about)
+
+
+def _say(arguments: argparse.Namespace) -> Result:
+    """Say something, with feeling, by the times of its sounds (.mp4 and .blend need Blender)."""
+    from .. import api
+
+    suffix = arguments.out.suffix.lower()
+    if suffix not in (*api.WRITABLE_STREAMS, *BLENDER):
+        raise UsageError(f"--out must end in one of {', '.join((*api.WRITABLE_STREAMS, *BLENDER))}")
+    utterance = api.read_timings(arguments.timings, tier=arguments.tier, alphabet=arguments.alphabet)
+    for line in utterance.assumed:
+        print(f"note: {arguments.timings.name}: {line}", file=sys.stderr)
+    say = partial(_said, utterance, arguments)
+    told: dict[str, Any] = {
+        "sounds": len(utterance.sounds),
+        "words": [word.text for word in utterance.words],
+        "seconds": utterance.duration,
+        "assumed": list(utterance.assumed),
+    }
+    if suffix in BLENDER:
+        return _in_blender(arguments, say, told)
+    if arguments.sound is not None:
+        raise UsageError("--sound needs --out to end in .blend or .mp4: a stream holds no sound")
+    stream = say(arguments.fps or 25.0).stream
+    api.write_stream(arguments.out, stream, progress=when_slow(), decimals=0)
+    line = f"wrote {arguments.out}: {len(stream.frames)} frames at {stream.fps:g} per second, {told['sounds']} sounds"
+    return Result({**told, "frames": len(stream.frames), "fps": stream.fps, "out": arguments.out}, [line])
+
+
+def _said(utterance: Utterance, arguments: argparse.Namespace, fps: float) -> Saying:
+    """What is said at a frame rate."""
+    from .. import api
+
+    felt = expression_of(arguments) if arguments.word is not None or arguments.angle is not None else None
+    liveliness = None if arguments.still else api.Liveliness.usual(arguments.seed)
+    numbers = {name: getattr(arguments, name) for name in ("articulation", "jaw", "lean", "seed")}
+    return api.say(utterance, emotion=felt, fps=fps, liveliness=liveliness, **numbers)
+
+
+def _in_blender(arguments: argparse.Namespace, say: Any, told: dict[str, Any]) -> Result:
+    """A video or a .blend."""
+    onto, shared = onto_options(arguments), scene_options(arguments)
+    with needing_blender():
+        from ..scene.jobs.saying import say_file
+    shared |= {name: getattr(arguments, name) for name in ("creases", "engine", "fps", "sound")}
+    with silent_blender():
+        made = dict(say_file(arguments.out, say, **shared, destination=destination_of(onto), progress=ShowProgress()))
+    return Result({**made, **told}, lines_of(made))

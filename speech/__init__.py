@@ -1,0 +1,9 @@
+"""What is said becomes motion of a mouth: sounds in time, visemes, and what feeling adds.
+
+phonemes      speech sounds, their visemes, and the alphabets that write them
+utterance     sounds and words in time
+timings       files of aligners and lip-sync tools
+articulation  sounds in time become FAPs of mouth, jaw and tongue
+feeling       speech and emotion share a face
+saying        the whole: what is said, with feeling, as a stream
+"""

@@ -1,0 +1,50 @@
+"""What must be reached at any tempo: lips that meet for p b m, the lower lip at the upper teeth for f v."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...arrays import Floats
+from ...mpeg4 import VISEME_SHAPES
+from .blending import Aim
+from .parts import FAPS_OF, JAW, Closure, Manner, MouthPart
+
+
+def closed(frames: Floats, aims: Sequence[Aim], times: Floats, manner: Manner) -> Floats:
+    """(T, 68) frames that reach the closure of every sound that has one.
+
+    Parameters
+    ----------
+    frames : (T, 68) FAPs with what the jaw carries. times : (T,) seconds, evenly apart.
+    """
+    moved = frames.copy()
+    step = float(times[1] - times[0]) if len(times) > 1 else 0.0
+    for viseme, closure in manner.closures.items():
+        share = np.zeros(len(times))
+        for aim in aims:
+            if aim.viseme == viseme:
+                share = np.maximum(share, closing(aim, closure, times, step))
+        moved = _drawn(moved, share, viseme, closure)
+    return moved
+
+
+def closing(aim: Aim, closure: Closure, times: Floats, step: float) -> Floats:
+    """(T,) how far a closure is reached, 0 to 1: held about the sound's middle, for a frame at least."""
+    middle = 0.5 * (aim.start + aim.end)
+    held = max(0.5 * closure.hold * (aim.end - aim.start), 0.5 * step)
+    away = np.clip((np.abs(times - middle) - held) / closure.ramp, 0.0, 1.0)
+    return np.asarray(0.5 + 0.5 * np.cos(np.pi * away))
+
+
+def _drawn(frames: Floats, share: Floats, viseme: int, closure: Closure) -> Floats:
+    """Frames drawn to a closure: FAPs of jaw and lips; tongue and corners stay with their neighbours."""
+    moved, shape = frames.copy(), VISEME_SHAPES[viseme]
+    jaw = frames[:, JAW - 1]
+    moved[:, JAW - 1] = jaw + share * (np.minimum(jaw, closure.jaw) - jaw)
+    for number in (*FAPS_OF[MouthPart.OPENING], *FAPS_OF[MouthPart.ROUNDING]):
+        goal = closure.faps.get(number, shape[number - 1])
+        if not np.isnan(goal):
+            moved[:, number - 1] += share * (goal - moved[:, number - 1])
+    return moved

@@ -1,0 +1,83 @@
+"""An utterance becomes frames of FAPs: mouth, jaw and tongue."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...arrays import Floats
+from ...errors import ParameterError
+from ...mpeg4 import FAP_COUNT
+from ..phonemes import Phoneme
+from ..utterance import Sound, Utterance
+from .blending import Aim, blended
+from .closures import closed
+from .parts import FAPS_OF, JAW, Manner, carried_by_jaw, manner, target
+
+#: FAPs that speech moves.
+SPOKEN = tuple(sorted(number for numbers in FAPS_OF.values() for number in numbers))
+#: The mouth at rest.
+REST = Phoneme("", 0)
+#: Sliders reach from nothing to twice.
+MOST = 2.0
+
+
+def articulate(utterance: Utterance, fps: float = 25.0, *, articulation: float = 1.0, jaw: float = 1.0) -> Floats:
+    """What the mouth does while something is said.
+
+    Parameters
+    ----------
+    fps : frames per second.
+    articulation : how distinctly lips and tongue move, 0 to 2; closures are reached in any case.
+    jaw : how far the jaw opens, 0 to 2.
+
+    Returns
+    -------
+    (T, 68) float64, FAP units, from 0 s to the end of the utterance; NaN for FAPs that speech leaves alone.
+
+    Raises
+    ------
+    ParameterError : a value outside its range.
+    """
+    if not (math.isfinite(fps) and fps > 0.0):
+        raise ParameterError("fps", "must be a positive number of frames per second", fps)
+    for name, value in (("articulation", articulation), ("jaw", jaw)):
+        if not 0.0 <= value <= MOST:
+            raise ParameterError(name, f"must be from 0 to {MOST:g}", value)
+    how = manner()
+    times = np.arange(math.floor(utterance.duration * fps + 1e-9) + 1) / fps
+    aims = _aims(utterance, how)
+    share = np.full(FAP_COUNT, articulation)
+    share[JAW - 1] = jaw
+    frames = closed(carried_by_jaw(share * blended(aims, times, how)), aims, times, how)
+    silent = [number - 1 for number in range(1, FAP_COUNT + 1) if number not in SPOKEN]
+    frames[:, silent] = np.nan
+    return frames
+
+
+def _aims(utterance: Utterance, how: Manner) -> list[Aim]:
+    """What each sound, and each pause between them, asks of the mouth."""
+    marked = any(sound.stress for sound in utterance.sounds)
+    aims, at = list[Aim](), 0.0
+    for sound in utterance.sounds:
+        if sound.start - at >= how.pause or (not aims and sound.start > 0.0):
+            aims.append(_rest(at, sound.start))
+        at = sound.end
+        if sound.phoneme.own:
+            opening = _stress(sound, how) if marked else 1.0
+            aims.append(Aim(sound.start, sound.end, sound.phoneme.viseme, target(sound.phoneme, jaw=opening)))
+    # The mouth comes to rest after the last sound, whether or not the file lasts so long.
+    return [*aims, _rest(at, max(utterance.duration, at + how.pause))]
+
+
+def _rest(start: float, end: float) -> Aim:
+    """The mouth at rest for a while."""
+    return Aim(start, end, REST.viseme, target(REST))
+
+
+def _stress(sound: Sound, how: Manner) -> float:
+    """Share of the jaw's opening where the source marks stress: vowels with it open more, without it less."""
+    if not sound.phoneme.vowel:
+        return 1.0
+    return how.stressed if sound.stress == 1.0 else how.unstressed

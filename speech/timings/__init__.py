@@ -1,0 +1,13 @@
+"""Files that say which sound is spoken when.
+
+labels       marks in time, and the sounds that they stand for
+textgrid     Praat's TextGrids, as aligners write them
+rhubarb      mouth shapes of Rhubarb Lip Sync: JSON, XML, TSV
+tabular      tables of sounds or visemes with their times
+documents    JSON of aligners, of speech services, and plain lists
+reading      which of them a file is
+"""
+
+from .reading import read_timings
+
+__all__ = ["read_timings"]

@@ -1,0 +1,73 @@
+"""Which kind of timings a file has: told by what it contains."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...errors import FormatError, ParameterError
+from ...files import read_bytes
+from ...mpeg4.streams.capture import read_json_document
+from ...mpeg4.streams.capture.delimited import decoded
+from ...tables import numbered_lines
+from ..phonemes import Alphabet
+from ..utterance import Utterance
+from .documents import json_timings
+from .labels import Timings, utterance_of
+from .rhubarb import is_rhubarb_tsv, rhubarb_from_tsv, rhubarb_from_xml
+from .tabular import has_no_heading, label_file, table_timings
+from .textgrid import textgrid_timings
+
+#: What a file may be, for messages.
+READABLE = "a TextGrid of Praat, Rhubarb's JSON, TSV or XML, or a table or JSON of sounds with start and end"
+
+
+def read_timings(path: str | Path, *, tier: str | None = None, alphabet: str | Alphabet | None = None) -> Utterance:
+    """What is said when, by the file of an aligner or of a lip-sync tool.
+
+    Parameters
+    ----------
+    path : a TextGrid, Rhubarb's JSON, TSV or XML, the JSON of the Montreal Forced Aligner, Gentle or Amazon Polly, a
+        label file, or a table or JSON of sounds or visemes with their times.
+    tier : which tier of a TextGrid holds the sounds; found if not given.
+    alphabet : how sounds are written: ipa, arpabet or xsampa; found if not given.
+
+    Raises
+    ------
+    FormatError : it cannot be read, says nothing, or its times overlap or run backwards; says where, and the remedy.
+    ParameterError : no such alphabet.
+
+    Examples
+    --------
+    >>> rows = ["start,end,phoneme", "0.1,0.2,m", "0.2,0.4,i"]
+    >>> np.savetxt("line.csv", rows, fmt="%s")
+    >>> [(sound.symbol, sound.start, sound.phoneme.viseme) for sound in api.read_timings("line.csv").sounds]
+    [('m', 0.1, 1), ('i', 0.2, 12)]
+    """
+    file = Path(path)
+    if alphabet is not None and alphabet not in list(Alphabet):
+        raise ParameterError("alphabet", f"must be one of {', '.join(Alphabet)}", str(alphabet))
+    timings = _opened(file, tier)
+    return utterance_of(timings, None if alphabet is None else Alphabet(alphabet))
+
+
+def _opened(path: Path, tier: str | None) -> Timings:
+    """The marks of a file of any kind."""
+    text = decoded(read_bytes(path))
+    if text is None:
+        raise FormatError(path, f"is no text: it must be {READABLE}")
+    begins, lines = text.lstrip()[:200], numbered_lines(text)
+    if not lines:
+        raise FormatError(path, f"is empty: it must be {READABLE}")
+    if "ooTextFile" in begins or "TextGrid" in begins:
+        return textgrid_timings(path, text, tier)
+    if begins.startswith(("{", "[")):
+        return json_timings(path, read_json_document(path), tier)
+    if begins.startswith("<"):
+        if "<rhubarbResult" not in text:
+            raise FormatError(path, f"is XML, but not Rhubarb's: it must be {READABLE}")
+        return rhubarb_from_xml(path, text)
+    if is_rhubarb_tsv(lines):
+        return rhubarb_from_tsv(path, lines)
+    if has_no_heading(lines):
+        return label_file(path, lines)
+    return table_timings(path)

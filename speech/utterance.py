@@ -1,0 +1,81 @@
+"""What is said and when: sounds and words in time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from ..errors import ParameterError
+from .phonemes import Phoneme
+
+
+@dataclass(frozen=True)
+class Sound:
+    """A speech sound in time.
+
+    Attributes
+    ----------
+    start, end : seconds from the beginning.
+    phoneme : what is said. symbol : how the source writes it.
+    stress : 1 for the main stress of a word, 0.5 for a secondary one, else 0.
+    """
+
+    start: float
+    end: float
+    phoneme: Phoneme
+    symbol: str = ""
+    stress: float = 0.0
+
+    @property
+    def middle(self) -> float:
+        """Seconds from the beginning."""
+        return (self.start + self.end) / 2.0
+
+    @property
+    def duration(self) -> float:
+        """Seconds."""
+        return self.end - self.start
+
+
+@dataclass(frozen=True)
+class SpokenWord:
+    """A word in time: seconds from the beginning, and its letters."""
+
+    start: float
+    end: float
+    text: str
+
+
+@dataclass(frozen=True)
+class Utterance:
+    """What is said and when; between sounds the mouth rests.
+
+    Attributes
+    ----------
+    sounds : in order, none before the one before it has ended.
+    duration : seconds, at least to the end of the last sound.
+    words : in order, where the source names them.
+    assumed : what the source did not say and was assumed to read it, or is shown otherwise than it was written, in
+        words for people.
+
+    Raises
+    ------
+    ParameterError
+        When sounds overlap or run backwards, or a time is no number.
+    """
+
+    sounds: tuple[Sound, ...]
+    duration: float
+    words: tuple[SpokenWord, ...] = ()
+    assumed: tuple[str, ...] = field(default=(), compare=False)
+
+    def __post_init__(self) -> None:
+        """Check the order of times."""
+        last = 0.0
+        for sound in self.sounds:
+            if not (math.isfinite(sound.start) and math.isfinite(sound.end) and last <= sound.start < sound.end):
+                rule = f"must end after they start, and start after the sound before them has ended ({last:g} s)"
+                raise ParameterError("sounds", rule, (sound.symbol, sound.start, sound.end))
+            last = sound.end
+        if not (math.isfinite(self.duration) and self.duration >= last):
+            raise ParameterError("duration", f"must be a number of seconds, at least {last:g}", self.duration)
