@@ -117,12 +117,7 @@ class SequencerStrip(Protocol):
     """Any strip of the video sequencer."""
 
     channel: int
-    name: str
 
-    @property
-    def type(self) -> str: ...
-    @property
-    def frame_final_start(self) -> int: ...
     @property
     def frame_final_duration(self) -> int: ...
 
