@@ -125,8 +125,8 @@ def _told_apart(heading: list[str]) -> tuple[str, ...]:
     seen: Counter[str] = Counter()
     told = []
     for name in heading:
-        seen[name.lower()] += 1
-        told.append(f"{name} ({seen[name.lower()]})" if name and seen[name.lower()] > 1 else name)
+        seen[name] += 1
+        told.append(f"{name} ({seen[name]})" if name and seen[name] > 1 else name)
     return tuple(told)
 
 

@@ -130,10 +130,17 @@ def test_scores_with_a_sign_of_per_cent(tmp_path: Path) -> None:
     assert shown(read(tmp_path / "a.csv", text)) == list(range(COUNT))
 
 
-def test_a_column_that_is_there_twice_is_said(tmp_path: Path) -> None:
-    recording = read(tmp_path / "a.csv", table("frame", range(COUNT), ("JawOpen", 0.9)))
+@pytest.mark.parametrize(("again", "said"), [("jawOpen", "jawOpen (2)"), ("JawOpen", "JawOpen")])
+def test_a_column_that_is_there_twice_is_said(again: str, said: str, tmp_path: Path) -> None:
+    recording = read(tmp_path / "a.csv", table("frame", range(COUNT), (again, 0.9)))
     assert shown(recording) == list(range(COUNT))
-    assert "not read: JawOpen (2)" in recording.assumed
+    assert f"not read: {said}" in recording.assumed
+
+
+def test_names_that_differ_in_case_alone_are_different_columns(shared: Path) -> None:
+    """OpenFace has places in the picture, x_0, and in space, X_0; it leaves nothing unread."""
+    recording = api.read_recording(shared / "samples" / "trackers" / "pyfeat" / "OpenFace_Test.csv")
+    assert not any(said.startswith("not read") for said in recording.assumed)
 
 
 # ---- names -------------------------------------------------------------------------------------------
