@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 
 import numpy as np
 
 from ..arrays import Floats
+from ..physics.mesh import applied
 from .anatomy import Anatomy
 from .drive.drives import DRIVES
 from .drive.request import Request
@@ -36,25 +38,31 @@ class Assembly:
         jaw : where the mandible is.
         request : whose FAPs move eyeballs, tongue and head, and whose drive says whether skin folds.
         """
-        anatomy, faps = self.anatomy, request.faps
-        rest = anatomy.mesh.positions
-        moved = np.zeros_like(rest)
-        moved[anatomy.given_skin.index] = self._folded(displacement, request)
-        anatomy.inner_skin.follow(moved)
-        moved[anatomy.jaw_parts] = anatomy.jaw.rigid(rest[anatomy.jaw_parts], jaw)
-        if anatomy.tongue is not None:
-            opening = jaw.angle * anatomy.actuators.chin_lever
-            moved[anatomy.tongue.index] += anatomy.tongue.displacement(faps) + anatomy.tongue.sunk(opening, faps)
-        anatomy.rooted_parts.follow(moved)
-        for ball in anatomy.eyeballs:
-            moved[ball.index] = ball.displacement(faps)
-        seams = anatomy.mesh.seams
-        moved[seams.copies] = moved[seams.leads[seams.copies]]
-        return anatomy.mesh.head_frame.to_face(anatomy.head_turn.apply(rest + moved, faps))
+        mandible = np.array([[jaw.angle, jaw.left, jaw.forward]])
+        return next(self.positions_each(displacement[None], mandible, [request]))
 
-    def _folded(self, displacement: Floats, request: Request) -> Floats:
-        """(g, 3) displacement of the outer skin's own vertices, with folds where the drive has them."""
-        own = np.asarray(self.anatomy.carry @ displacement)
-        if not (self.with_folds and DRIVES[request.drive].folds):
-            return own
-        return own + self.folds.displacement(own)
+    def positions_each(self, displacements: Floats, jaws: Floats, requests: Sequence[Request]) -> Iterator[Floats]:
+        """As `positions`, one after the other, of displacements (T, n, 3), mandibles (T, 3) and requests of a drive."""
+        anatomy = self.anatomy
+        rest, seams = anatomy.mesh.positions, anatomy.mesh.seams
+        moved = np.zeros((len(requests), *rest.shape))
+        moved[:, anatomy.given_skin.index] = self._folded(displacements, requests[0])
+        anatomy.inner_skin.follow(moved)
+        moved[:, anatomy.jaw_parts] = anatomy.jaw.rigid(rest[anatomy.jaw_parts], jaws)
+        if anatomy.tongue is not None:
+            for each, jaw, request in zip(moved, jaws, requests, strict=True):
+                opening, faps = jaw[0] * anatomy.actuators.chin_lever, request.faps
+                each[anatomy.tongue.index] += anatomy.tongue.displacement(faps) + anatomy.tongue.sunk(opening, faps)
+        anatomy.rooted_parts.follow(moved)
+        for each, request in zip(moved, requests, strict=True):
+            for ball in anatomy.eyeballs:
+                each[ball.index] = ball.displacement(request.faps)
+            each[seams.copies] = each[seams.leads[seams.copies]]
+            yield anatomy.mesh.head_frame.to_face(anatomy.head_turn.apply(rest + each, request.faps))
+
+    def _folded(self, displacements: Floats, request: Request) -> Floats:
+        """(T, g, 3) displacements of the outer skin's own vertices, with folds where the drive has them."""
+        own = applied(self.anatomy.carry, displacements)
+        if self.with_folds and DRIVES[request.drive].folds:
+            own += self.folds.displacement(own)
+        return own

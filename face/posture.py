@@ -6,6 +6,7 @@ to the targets, and pushed by what it meets.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,7 +16,7 @@ from scipy.spatial import cKDTree
 from ..arrays import Floats
 from .anatomy import Anatomy
 from .bodies.contact import lip_share
-from .bodies.surroundings import Surroundings
+from .bodies.surroundings import Look, Surroundings
 from .drive.belief import Belief
 from .drive.by_hand import set_by_hand
 from .drive.drives import DRIVES, Correction
@@ -67,6 +68,24 @@ class Posture:
     @property
     def displacement(self) -> Floats:
         """(n, 3) of the outer skin, all together."""
+        return self.carried + self.elastic + self.pushed
+
+
+@dataclass(frozen=True, eq=False)
+class Postures:
+    """What T postures are made of, as of `Posture`: lid moves (T, l), displacements (T, n, 3), rows (T, m), (T,)."""
+
+    lids: Floats
+    carried: Floats
+    elastic: Floats
+    pushed: Floats
+    surroundings: Surroundings
+    explained: Floats
+    lip_shares: Floats
+
+    @property
+    def displacements(self) -> Floats:
+        """(T, n, 3) of the outer skin, all together."""
         return self.carried + self.elastic + self.pushed
 
 
@@ -126,20 +145,36 @@ class Balance:
 
     def reached(self, effort: Effort, pulled: Floats) -> Posture:
         """The posture of an effort whose muscles pull the skin so (n, 3), metres."""
-        plan, amounts = effort.plan, effort.amounts
-        carried = self.anatomy.actuators.carried(amounts)
-        elastic = pulled - effort.guessed
-        looks = {ball.side: ball.look(plan.request.faps) for ball in self.anatomy.eyeballs}
-        posture = Posture(
-            amounts,
+        shown = self.reached_each([effort], pulled[None])
+        looks = {side: Look(look.centre[0], look.gaze[0]) for side, look in shown.surroundings.looks.items()}
+        return Posture(
+            effort.amounts,
+            shown.carried[0],
+            elastic=shown.elastic[0],
+            pushed=shown.pushed[0],
+            surroundings=Surroundings(effort.amounts.jaw, looks),
+            explained=shown.explained[0],
+            lip_share=float(shown.lip_shares[0]),
+        )
+
+    def reached_each(self, efforts: Sequence[Effort], pulled: Floats) -> Postures:
+        """As `reached`, of T efforts of one drive, whose muscles pull the skin so (T, n, 3), metres."""
+        plans = [effort.plan for effort in efforts]
+        jaws, lids = self.anatomy.actuators.carriers([effort.amounts for effort in efforts])
+        looks = [{ball.side: ball.look(plan.request.faps) for ball in self.anatomy.eyeballs} for plan in plans]
+        carried = self.anatomy.actuators.carried_each(jaws, lids)
+        elastic = np.array([each - effort.guessed for each, effort in zip(pulled, efforts, strict=True)])
+        postures = Postures(
+            lids,
             carried,
             elastic=elastic,
             pushed=np.zeros_like(carried),
-            surroundings=Surroundings(amounts.jaw, looks),
-            explained=np.asarray(self.anatomy.inverse.matrix @ (carried + elastic).ravel()),
-            lip_share=lip_share(plan.evened),
+            surroundings=Surroundings.over(jaws, looks),
+            explained=self._read(carried + elastic),
+            lip_shares=np.array([lip_share(plan.evened) for plan in plans]),
         )
-        return self._corrected(posture, effort.targets, DRIVES[plan.request.drive].correction)
+        rules = DRIVES[plans[0].request.drive]
+        return self._corrected(postures, [effort.targets for effort in efforts], rules.correction)
 
     def held(self, plan: Plan) -> dict[int, str]:
         """FAP number -> why it is not met, of what sewn lips and shut lids keep a plan from."""
@@ -154,24 +189,29 @@ class Balance:
         change = np.asarray(self.anatomy.inverse.matrix @ (after - before).ravel())
         return replace(targets, displacements=targets.displacements + change)
 
-    def _corrected(self, posture: Posture, targets: Targets, correction: Correction) -> Posture:
-        """A posture held off what its skin meets, and taken the rest of the way to targets."""
-        inverse, contact = self.anatomy.inverse, self.anatomy.contact
-        at, share = posture.surroundings, posture.lip_share
-        wanted = np.where(targets.corrected, targets.displacements, np.nan)
+    def _read(self, displacements: Floats) -> Floats:
+        """(T, m) how far displacements (T, n, 3) move the rows, metres."""
+        return np.asarray(self.anatomy.inverse.matrix @ displacements.reshape(len(displacements), -1).T).T
+
+    def _corrected(self, postures: Postures, targets: Sequence[Targets], correction: Correction) -> Postures:
+        """Postures held off what their skin meets, and taken the rest of the way to targets."""
+        contact, correct = self.anatomy.contact, self.anatomy.inverse.correction
+        at, shares = postures.surroundings, postures.lip_shares
+        wanted = np.array([np.where(each.corrected, each.displacements, np.nan) for each in targets])
+        doubts = np.array([each.doubts for each in targets])
         rounds = self._rounds(correction)
-        free = posture.carried + posture.elastic
-        shown = contact.settle(free, share, at)
-        elastic, pushed = posture.elastic, shown - free
+        free = postures.carried + postures.elastic
+        shown = contact.settle(free, shares, at)
+        elastic, pushed = postures.elastic, shown - free
         for number in range(1, rounds + 1):
-            change = inverse.correction(wanted - np.asarray(inverse.matrix @ shown.ravel()), targets.doubts)
+            change = correct(wanted - self._read(shown), doubts)
             elastic, free = elastic + change, shown + change
             if correction is Correction.FAPS and number == rounds:
                 shown = contact.clear(free, at, self._near_points)
             else:
-                shown = contact.settle(free, share, at)
+                shown = contact.settle(free, shares, at)
             pushed = pushed + (shown - free)
-        return replace(posture, elastic=elastic, pushed=pushed)
+        return replace(postures, elastic=elastic, pushed=pushed)
 
     def _rounds(self, correction: Correction) -> int:
         """How often the skin is corrected."""

@@ -14,18 +14,14 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError
-from ..physics.elastic import Factor
 from ..physics.reduced import ReducedSkin, principal_fields
-from ..physics.skin import State
 from ..physics.tissue import Tissue
 from ..progress import Progress, Work, part_of
 from .anatomy import Anatomy
 from .bodies.surroundings import Surroundings
 from .drive.plan import Plan
-from .jaw_follower import JawFollower, jaw_motion, resting
-from .mechanisms.jaw import JawMotion
-from .motion import Setpoint
-from .posture import Balance, Effort, Posture
+from .jaw_follower import JawFollower, resting
+from .posture import Balance, Effort
 from .response.actuators import Amounts
 from .response.sampled import SampledPull, farthest, foretelling, sampled_pull
 from .response.spring_skin import spring_skin
@@ -33,11 +29,14 @@ from .response.spring_skin import spring_skin
 #: Fields of the balance in which the skin may be left behind, and how many these and the skin's answers to them may be.
 FIELDS, WITH_ANSWERS = 12, 36
 
-#: The skin's stiffness is taken at so many of the steps that want points, lids and jaw farthest apart.
-STIFFNESSES = 6
+#: How the skin passes from step to step is taken at so many of the steps that want points, lids and jaw farthest apart.
+PASSAGES = 6
 
 #: How far the work of a clip is once its muscles are found, once its equilibria are solved; what is said thereafter.
 EFFORTS, SOLVED, LEFT_BEHIND = 0.2, 0.8, "Finding how the skin is left behind"
+
+#: So many steps are worked out together, or as many as have so many figures.
+TOGETHER, FIGURES = 16, 2_000_000
 
 #: So many steps that want points, lids and jaw farthest apart are among what the fields are made of.
 WANTED = 8
@@ -49,15 +48,18 @@ class Course:
 
     Attributes
     ----------
-    efforts : of its steps. pull : the muscles' part of their balances.
+    efforts : of its T steps. pull : the muscles' part of their balances.
+    jaws, lids : (T, substeps, 3) where the mandible is and (T, substeps, l) what lids do after each substep.
     reduced : how the skin is left behind; None where nothing moves.
-    stiffness : (p, k, k) of it at some steps. shares : (T, p) how that of every step is a sum of these.
+    passages : (p, 2k, 3k) of it at some steps. shares : (T, p) how that of every step is a sum of these.
     """
 
     efforts: Sequence[Effort]
     pull: SampledPull
+    jaws: Floats
+    lids: Floats
     reduced: ReducedSkin | None
-    stiffness: Floats
+    passages: Floats
     shares: Floats
 
 
@@ -98,59 +100,91 @@ class ReducedMotion:
         pull = yield from part_of(sampled_pull(self.anatomy.relaxation, amounts), EFFORTS, SOLVED)
         places = np.array([_wanted(self.anatomy, effort) for effort in efforts])
         telling = [0, *farthest(places, [0], WANTED)]
-        postures: dict[int, Posture] = {}
-        for step in dict.fromkeys([*telling, *pull.steps.tolist()]):
-            postures[step] = self.balance.reached(efforts[step], pull.at(step))
-            yield Progress(SOLVED, LEFT_BEHIND)
-        carried = [posture.carried for posture in postures.values()]
-        balances = np.array([posture.displacement for posture in postures.values()] + carried)
-        fields = principal_fields(balances, FIELDS)
+        some = np.array(list(dict.fromkeys([*telling, *pull.steps.tolist()])))
+        postures = self.balance.reached_each([efforts[step] for step in some], pull.at(some))
         yield Progress(SOLVED, LEFT_BEHIND)
+        fields = principal_fields(np.concatenate([postures.displacements, postures.carried]), FIELDS)
+        jaws, lids = self._carriers(amounts)
         if not len(fields):
-            return Course(efforts, pull, None, np.empty((0, 0, 0)), np.empty((len(plans), 0)))
-        reduced = ReducedSkin(
-            self.skin, Factor(self.skin.matrix()), fields, self.duration / self.substeps, count=WITH_ANSWERS
-        )
-        stiff = telling[:STIFFNESSES]
-        stiffness = [reduced.stiffness(self.skin.rest + postures[step].displacement) for step in stiff]
-        return Course(efforts, pull, reduced, np.array(stiffness), _parts(foretelling(places, stiff)))
+            return Course(efforts, pull, jaws, lids, None, np.empty((0, 0, 0)), np.empty((len(plans), 0)))
+        yield Progress(SOLVED, LEFT_BEHIND)
+        step = self.duration / self.substeps
+        reduced = ReducedSkin(self.skin, self.anatomy.relaxation.factor, fields, step, count=WITH_ANSWERS)
+        passages, telling = list[Floats](), telling[:PASSAGES]
+        for displacement in postures.displacements[: len(telling)]:
+            yield Progress(SOLVED, LEFT_BEHIND)
+            passages.append(reduced.passage(self.skin.rest + displacement))
+        shares = _parts(foretelling(places, telling))
+        return Course(efforts, pull, jaws, lids, reduced, np.array(passages), shares)
 
-    def along(self, course: Course) -> Iterator[tuple[Floats, JawMotion]]:
-        """Displacement (n, 3) of the outer skin in head space, metres, and the mandible, step by step."""
-        contact, reduced = self.anatomy.contact, course.reduced
-        before = after = self._setpoint(course, 0)
-        jaw = resting(after.jaw)
-        balanced = self._balanced(after, jaw)
-        state, felt = (np.empty(0), np.empty(0)) if reduced is None else (reduced.at_rest(), reduced.read(balanced))
-        for step in range(len(course.efforts)):
-            if step:
-                before, after = after, self._setpoint(course, step)
-                stiffness = np.tensordot(course.shares[step], course.stiffness, axes=1)
-            for number in range(self.substeps if step else 0):
-                start, end = (before.towards(after, (number + part) / self.substeps) for part in (0.0, 1.0))
-                jaw = self._jaw.swung(jaw, start.jaw, end.jaw)
-                balanced = self._balanced(end, jaw)
-                if reduced is not None:
-                    now = reduced.read(balanced)
-                    state, felt = reduced.follow(state, felt, now, stiffness), now
-            shown = balanced if reduced is None else balanced + reduced.displacement(state)
-            at = Surroundings(jaw_motion(jaw[0]), after.looks)
-            moved = State.at_rest(self.skin.rest + shown)
-            held = contact.hold(moved, after.lip_share, at, after.slack, self.duration)
-            yield held.positions - self.skin.rest, at.jaw
+    def along(self, course: Course) -> Iterator[tuple[Floats, Floats]]:
+        """Displacements (s, n, 3) of the outer skin in head space, metres, and mandibles (s, 3), some at a time."""
+        contact, rest = self.anatomy.contact, self.skin.rest
+        left_behind = LeftBehind(course)
+        together = max(1, min(TOGETHER, FIGURES // rest.size))
+        for start in range(0, len(course.efforts), together):
+            steps = slice(start, start + together)
+            asked = self.balance.reached_each(course.efforts[steps], course.pull.at(steps))
+            jaws, lids = (each[steps].reshape(-1, each.shape[2]) for each in (course.jaws, course.lids))
+            carried = self.anatomy.actuators.carried_each(jaws, lids)
+            carried = carried.reshape(-1, self.substeps, *rest.shape)
+            added = asked.elastic + asked.pushed
+            shown = rest + carried[:, -1] + added + left_behind.displacements(steps, carried, added)
+            at = Surroundings(course.jaws[steps, -1], asked.surroundings.looks)
+            slack = contact.slack(asked.displacements, asked.surroundings)
+            yield contact.held(shown, asked.lip_shares, at, slack) - rest, course.jaws[steps, -1]
 
-    def _setpoint(self, course: Course, step: int) -> Setpoint:
-        """What a step of a course asks for."""
-        return Setpoint.of(self.balance.reached(course.efforts[step], course.pull.at(step)), self.anatomy.contact)
+    def _carriers(self, amounts: Sequence[Amounts]) -> tuple[Floats, Floats]:
+        """The mandible (T, substeps, 3) as it follows, and lids (T, substeps, l), after each substep of each step."""
+        asked, lids = (evenly(each, self.substeps) for each in self.anatomy.actuators.carriers(amounts))
+        jaws, jaw, before = np.empty_like(asked), resting(asked[0, 0]), asked[0, 0]
+        for place in np.ndindex(asked.shape[:2]):
+            jaw, before = self._jaw.swung(jaw, before, asked[place]), asked[place]
+            jaws[place] = jaw[0]
+        return jaws, lids
 
-    def _balanced(self, setpoint: Setpoint, jaw: Floats) -> Floats:
-        """(n, 3) where the outer skin would be in balance, carried by the mandible (2, 3) as it is."""
-        carried = self.anatomy.actuators.carried(Amounts(np.zeros(0), setpoint.lids, jaw_motion(jaw[0])))
-        return carried + setpoint.elastic + setpoint.pushed
+
+class LeftBehind:
+    """How far the skin of one clip is left behind, some steps after the others."""
+
+    def __init__(self, course: Course) -> None:
+        self._course = course
+        self._state = np.empty(0) if course.reduced is None else course.reduced.at_rest()
+        self._added: Floats | None = None
+        self._felt: Floats | None = None
+
+    def displacements(self, steps: slice[int, int, None], carried: Floats, added: Floats) -> Floats:
+        """(s, n, 3) metres at the ends of the next steps.
+
+        Parameters
+        ----------
+        carried : (s, substeps, n, 3) what jaw and lids do to the skin. added : (s, n, 3) the rest of its balance.
+        """
+        reduced = self._course.reduced
+        if reduced is None:
+            return np.zeros_like(added)
+        ends = reduced.read(added)
+        even = evenly(np.concatenate([ends[:1] if self._added is None else self._added, ends]), carried.shape[1])
+        states, felts = [], reduced.read(carried) + even[1:]
+        before = felts[0, 0] if self._felt is None else self._felt
+        for shares, parts in zip(self._course.shares[steps], felts, strict=True):
+            passage = np.tensordot(shares, self._course.passages, axes=1)
+            for felt in parts:
+                self._state, before = reduced.follow(self._state, before, felt, passage), felt
+            states.append(self._state)
+        self._added, self._felt = ends[-1:], before
+        return reduced.displacement(np.array(states))
+
+
+def evenly(values: Floats, parts: int) -> Floats:
+    """(T, parts, d) values on the way to each of some values (T, d) from the one before, at the ends of equal parts."""
+    before = np.concatenate([values[:1], values[:-1]])
+    shares = np.arange(1, parts + 1)[:, None] / parts
+    return np.asarray((1.0 - shares) * before[:, None] + shares * values[:, None])
 
 
 def _parts(weights: Floats) -> Floats:
-    """(T, p) weights as parts of a whole: none negative, so that no stiffness is taken away."""
+    """(T, p) weights as parts of a whole: none negative, so that nothing gains by being taken away."""
     parts = np.maximum(weights, 0.0)
     return np.asarray(parts / parts.sum(axis=1, keepdims=True))
 

@@ -5,7 +5,7 @@ Folds belong to the shape that the skin has, not to the one that is asked for.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -16,7 +16,7 @@ from ..errors import ParameterError, SolverError
 from ..physics.tissue import Tissue
 from ..progress import Prepared, Progress, Work, part_of
 from .drive.plan import Plan
-from .mechanisms.jaw import JawMotion
+from .drive.request import Request
 from .motion import FaceMotion, MovingFace, Setpoint, Stepping
 from .pose import Poser
 from .posture import Effort
@@ -94,7 +94,15 @@ class Simulation:
     def _reduced(self, motion: ReducedMotion, plans: list[Plan]) -> Work[Iterator[Floats]]:
         """Frames of a clip that is known as a whole."""
         course = yield from motion.course(plans)
-        return (self._assembled(*moved, plan) for moved, plan in zip(motion.along(course), plans, strict=True))
+        return self._together(motion.along(course), [plan.request for plan in plans])
+
+    def _together(self, moved: Iterator[tuple[Floats, Floats]], requests: Sequence[Request]) -> Iterator[Floats]:
+        """Frames of displacements (s, n, 3) and mandibles (s, 3), some at a time."""
+        done = 0
+        for displacements, jaws in moved:
+            some = requests[done : done + len(jaws)]
+            yield from self.poser.assembly.positions_each(displacements, jaws, some)
+            done += len(some)
 
     def _balanced(self, plans: list[Plan]) -> Work[Iterator[Floats]]:
         """Frames of a clip that is known as a whole, each in balance."""
@@ -124,8 +132,4 @@ class Simulation:
                 except SolverError as error:
                     raise SolverError(f"the motion could not be solved: {error}", frame=step) from error
             before = setpoint
-            yield self._assembled(motion.displacement(moving), moving.jaw_motion, plan)
-
-    def _assembled(self, displacement: Floats, jaw: JawMotion, plan: Plan) -> Floats:
-        """(V, 3) the whole face about its outer skin (n, 3)."""
-        return self.poser.assembly.positions(displacement, jaw, plan.request)
+            yield self.poser.assembly.positions(motion.displacement(moving), moving.jaw_motion, plan.request)

@@ -38,7 +38,7 @@ class EquilibriumSolver:
         if not tolerance > 0:
             raise ParameterError("tolerance", "must be above 0 m", tolerance)
         self.skin, self.tolerance, self.max_iterations, self.unseen = skin, tolerance, max_iterations, unseen
-        self._factor = Factor(skin.matrix()) if factor is None else factor
+        self.factor = Factor(skin.matrix()) if factor is None else factor
 
     def solve(
         self,
@@ -78,7 +78,7 @@ class EquilibriumSolver:
         found = minimise(
             objective,
             held if start is None else start,
-            self._factor,
+            self.factor,
             tolerance=allowed,
             max_iterations=self.max_iterations,
         )

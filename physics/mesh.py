@@ -251,6 +251,13 @@ def _unique_pairs(pairs: Sequence[Ints]) -> Ints:
     return np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
 
 
+def applied(matrix: Sparse, fields: Floats) -> Floats:
+    """(k, m, 3) a matrix (m, n) applied to each of some fields (k, n, 3)."""
+    count, n, _ = fields.shape
+    columns = np.asarray(matrix @ fields.transpose(1, 0, 2).reshape(n, 3 * count))
+    return np.ascontiguousarray(columns.reshape(-1, count, 3).transpose(1, 0, 2))
+
+
 def surface_samples(corners: Floats, spacing: float) -> Floats:
     """(s, 3) points all over triangles given by their corners (t, 3, 3), no farther apart than a spacing, metres."""
     return np.concatenate([np.empty((0, 3)), *sample_blocks(corners, spacing)])

@@ -71,9 +71,9 @@ class ReducedSkin:
         columns = self.fields.transpose(2, 1, 0)
         self._apart = np.stack([skin.springs.incidence @ np.ascontiguousarray(column) for column in columns])
 
-    def read(self, balance: Floats) -> Floats:
-        """(2k,) what the skin feels of a balance (n, 3), a displacement in m: `F'M b` before `F'C b`."""
-        return np.asarray(self._felt @ balance.ravel())
+    def read(self, balances: Floats) -> Floats:
+        """(..., 2k) what the skin feels of balances (..., n, 3), displacements in m: `F'M b` before `F'C b`."""
+        return np.asarray(balances.reshape(*balances.shape[:-2], -1) @ self._felt.T)
 
     def at_rest(self) -> Floats:
         """(3k,) the state of a skin that rests in its balance, which has not moved."""
@@ -85,27 +85,31 @@ class ReducedSkin:
         values, ways = np.linalg.eigh(0.5 * (true + true.T))
         return np.asarray((ways * np.maximum(values, 0.0)) @ ways.T)
 
-    def follow(self, state: Floats, before: Floats, after: Floats, stiffness: Floats) -> Floats:
+    def passage(self, positions: Floats) -> Floats:
+        """(2k, 3k) from deviation, its rate and a steady load to deviation and rate a step later, at `stiffness`."""
+        count = len(self.fields)
+        rates = np.zeros((3 * count, 3 * count))
+        rates[:count, count : 2 * count] = rates[count : 2 * count, 2 * count :] = np.eye(count)
+        rates[count : 2 * count, :count] = -self.stiffness(positions)
+        rates[count : 2 * count, count : 2 * count] = -self._damping
+        return np.asarray(expm(self.step * rates)[: 2 * count])
+
+    def follow(self, state: Floats, before: Floats, after: Floats, passage: Floats) -> Floats:
         """The state (3k,) one step on: deviation, its rate, and the rate of what was felt of the balance by mass.
 
         Parameters
         ----------
         before, after : (2k,) of `read`, of the balance at both ends of the step.
-        stiffness : (k, k) between them.
+        passage : (2k, 3k) between them.
         """
         count = len(self.fields)
         felt = (after - before) / self.step
-        rates = np.zeros((2 * count + 1, 2 * count + 1))
-        rates[:count, count:-1] = np.eye(count)
-        rates[count:-1, :count] = -stiffness
-        rates[count:-1, count:-1] = -self._damping
-        rates[count:-1, -1] = -felt[count:]
-        jolted = np.concatenate([state[:count], state[count : 2 * count] - (felt[:count] - state[2 * count :]), [1.0]])
-        return np.concatenate([(expm(self.step * rates) @ jolted)[:-1], felt[:count]])
+        jolted = state[count : 2 * count] - (felt[:count] - state[2 * count :])
+        return np.concatenate([passage @ np.concatenate([state[:count], jolted, -felt[count:]]), felt[:count]])
 
-    def displacement(self, state: Floats) -> Floats:
-        """(n, 3) m, how far the skin is from its balance in a state (3k,)."""
-        return np.tensordot(state[: len(self.fields)], self.fields, axes=1)
+    def displacement(self, states: Floats) -> Floats:
+        """(..., n, 3) m, how far the skin is from its balance in states (..., 3k)."""
+        return np.tensordot(states[..., : len(self.fields)], self.fields, axes=1)
 
 
 def _with_answers(skin: Skin, factor: Factor, balances: Floats, count: int) -> Floats:

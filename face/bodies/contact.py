@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -67,7 +68,7 @@ def lip_share(asked: Floats) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Slack:
-    """How far a pose passes contact, which skin on its way there may too: margins and bodies, in `Contact`'s order."""
+    """How far T poses pass contact, which skin on its way there may too: margins and bodies, in `Contact`'s order."""
 
     margins: tuple[Depths, ...]
     bodies: tuple[Floats, ...]
@@ -99,55 +100,63 @@ class Contact:
         free = [side for side in sides if side not in skin.sewn]
         self.lids = {side: build_meeting(skin, skin.eyes[side], skin.lid_distances(side), lids=True) for side in free}
 
-    def settle(self, displacement: Floats, lip_share: float = CONTACT.upper_lip, at: Surroundings = AT_REST) -> Floats:
-        """The displacement (n, 3) of the outer skin in head space, metres, with every contact resolved.
+    def settle(
+        self, displacement: Floats, lip_share: Floats | float = CONTACT.upper_lip, at: Surroundings = AT_REST
+    ) -> Floats:
+        """The displacement (..., n, 3) of the outer skin in head space, metres, with every contact resolved.
 
-        `lip_share` is the upper lip's part of the way back (`lip_share`).
+        `lip_share` (...) is the upper lip's part of the way back (`lip_share`). T moments have T of each.
         """
         if not self.skin.has(Mechanism.CONTACT):
             return displacement
-        rest = self.skin.positions
-        positions = rest + displacement
+        positions = (self.skin.positions + displacement).reshape(-1, *self.skin.positions.shape)
+        shares = np.broadcast_to(lip_share, len(positions))
+        at, going = at.each(len(positions)), np.arange(len(positions))
         for _ in range(SWEEPS):
-            met = positions
-            for meeting, share in self._meetings(lip_share):
+            met = positions[going]
+            for meeting, share in self._meetings(shares[going]):
                 met = meeting.settle(met, share)
-            cleared = rest + self.clear(met - rest, at)
-            positions, moved = cleared, float(np.abs(cleared - met).max())
-            if moved < UNDISTURBED:
+            cleared = met.copy()
+            self._lift(cleared, at.some(going))
+            positions[going] = cleared
+            moved = np.abs(cleared[:, self._kept_out] - met[:, self._kept_out]).max(axis=(1, 2), initial=0.0)
+            going = going[moved >= UNDISTURBED]
+            if not len(going):
                 break
-        return positions - rest
+        return positions.reshape(displacement.shape) - self.skin.positions
 
     def clear(self, displacement: Floats, at: Surroundings = AT_REST, spared: Floats | None = None) -> Floats:
-        """The displacement (n, 3) with skin kept out of eyeballs and teeth; `spared` (n,) 0..1 of it stays."""
+        """The displacement (..., n, 3) with skin kept out of eyeballs and teeth; `spared` (n,) 0..1 of it stays."""
         if not self.skin.has(Mechanism.CONTACT):
             return displacement
-        positions = self.skin.positions + displacement
-        for body in self.bodies:
-            positions = _lifted(positions, body, at, 0.0, spared)
-        return positions - self.skin.positions
+        positions = (self.skin.positions + displacement).reshape(-1, *self.skin.positions.shape)
+        self._lift(positions, at.each(len(positions)), spared=spared)
+        return positions.reshape(displacement.shape) - self.skin.positions
 
     def slack(self, displacement: Floats, at: Surroundings) -> Slack:
-        """How far a pose's displacement (n, 3) passes contact."""
+        """How far displacements (T, n, 3) pass contact where poses have them."""
         positions = self.skin.positions + displacement
-        margins = [meeting.depths(positions) for meeting, _ in self._meetings(CONTACT.upper_lip)]
+        margins = [meeting.depths(positions) for meeting, _ in self._meetings(np.empty(0))]
         return Slack(
             tuple((np.maximum(above, 0.0), np.maximum(below, 0.0)) for above, below in margins),
             tuple(np.maximum(body.depths(positions, at)[0], 0.0) for body in self.bodies),
         )
+
+    def held(self, positions: Floats, lip_share: Floats, at: Surroundings, slack: Slack) -> Floats:
+        """Positions (T, n, 3) with skin put back that has gone deeper than the slack."""
+        positions = positions.copy()
+        if self.skin.has(Mechanism.CONTACT):
+            for (meeting, share), more in zip(self._meetings(lip_share), slack.margins, strict=True):
+                positions = meeting.settle(positions, share, more)
+            self._lift(positions, at, slack.bodies)
+        return positions
 
     def hold(self, state: State, lip_share: float, at: Surroundings, slack: Slack, step: float) -> State:
         """The state with skin put back that has gone deeper than the slack, and without the speed of going there.
 
         A vertex loses no more speed than would have taken it as far as it was put back within the step (s).
         """
-        if not self.skin.has(Mechanism.CONTACT):
-            return state
-        positions = state.positions
-        for (meeting, share), more in zip(self._meetings(lip_share), slack.margins, strict=True):
-            positions = meeting.settle(positions, share, more)
-        for body, deep in zip(self.bodies, slack.bodies, strict=True):
-            positions = _lifted(positions, body, at, deep)
+        positions = self.held(state.positions[None], np.array([lip_share]), at.each(1), slack)[0]
         back = positions - state.positions
         way = np.linalg.norm(back, axis=1)
         if not way.any():
@@ -156,25 +165,27 @@ class Contact:
         inwards = np.clip(-(state.velocities * out).sum(axis=1), 0.0, way / step)
         return State(positions, state.velocities + inwards[:, None] * out)
 
-    def _meetings(self, lip_share: float) -> list[tuple[Meeting, float]]:
-        """Every pair of margins with the upper one's share of the way."""
+    def _meetings(self, lip_share: Floats) -> list[tuple[Meeting, Floats]]:
+        """Every pair of margins with the upper one's shares of the way (T,)."""
         lips = [] if self.lips is None else [(self.lips, lip_share)]
-        return [*lips, *((lids, CONTACT.upper_lid) for lids in self.lids.values())]
+        return [*lips, *((lids, np.full(len(lip_share), CONTACT.upper_lid)) for lids in self.lids.values())]
 
+    @cached_property
+    def _kept_out(self) -> Ints:
+        """Vertices that are kept out of any body."""
+        return np.unique(np.concatenate([np.empty(0, dtype=np.int64), *(body.index for body in self.bodies)]))
 
-def _lifted(
-    positions: Floats, body: Body, at: Surroundings, deep: Floats | float, spared: Floats | None = None
-) -> Floats:
-    """Positions (n, 3) lifted out of a body as far as they lie deeper in it than `deep`."""
-    depth, out = body.depths(positions, at)
-    way = np.maximum(depth - deep, 0.0) * body.firmness
-    if spared is not None:
-        way = way * (1.0 - spared[body.index])
-    if not way.any():
-        return positions
-    lifted = positions.copy()
-    lifted[body.index] += way[:, None] * out
-    return lifted
+    def _lift(
+        self, positions: Floats, at: Surroundings, slack: Sequence[Floats] = (), spared: Floats | None = None
+    ) -> None:
+        """Lift positions (T, n, 3), in place, out of bodies as far as they lie deeper than a slack, of each (T, k)."""
+        for body, deep in zip(self.bodies, slack or [np.zeros(1)] * len(self.bodies), strict=True):
+            depth, out = body.depths(positions, at)
+            way = np.maximum(depth - deep, 0.0) * body.firmness
+            if spared is not None:
+                way = way * (1.0 - spared[body.index])
+            moment, place = np.nonzero(way)
+            positions[moment, body.index[place]] += way[moment, place, None] * out[moment, place]
 
 
 def contact_steps(

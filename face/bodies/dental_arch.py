@@ -15,7 +15,7 @@ from ...arrays import Floats, Ints
 from ...physics.mesh import sample_blocks
 from ...progress import Progress, Work
 from ..figures import Length, read_figures
-from ..mechanisms.jaw import Jaw, JawMotion
+from ..mechanisms.jaw import Jaw
 from .surroundings import Surroundings
 
 
@@ -52,20 +52,32 @@ class Front:
     reach: Floats
 
     def depths(self, positions: Floats) -> tuple[Floats, Floats]:
-        """Depths (k,) below the clearance, minus infinity off the row, and ways out (k, 3), for positions (k, 3)."""
-        aside, before = positions[:, 0] - self.axis[0], positions[:, 2] - self.axis[1]
-        distance = np.maximum(np.hypot(aside, before), 1e-9)
-        column = (np.arctan2(aside, before) + TEETH.widest) / TURN
-        line = (positions[:, 1] - self.bottom) / RISE
+        """Depths (..., k) below the clearance and ways out (..., k, 3), for positions (..., k, 3).
+
+        Off the row, and before all of it, depths are minus infinity and there is no way out.
+        """
+        x, y, z = np.moveaxis(positions, -1, 0)
+        aside, before, line = x - self.axis[0], z - self.axis[1], (y - self.bottom) / RISE
+        distance = np.maximum(np.sqrt(aside**2 + before**2), 1e-9)
+        farthest, top = self.reach.max(initial=-np.inf) + TEETH.clearance, self.reach.shape[1] - 1
+        near = np.nonzero((distance < farthest) & (line >= 0.0) & (line <= top))
+        deep, outwards = np.full(distance.shape, -np.inf), np.zeros_like(positions)
+        way = np.stack([aside[near], np.zeros(len(near[0])), before[near]], axis=1)
+        outwards[near] = way / distance[near][:, None]
+        column = (np.arctan2(aside[near], before[near]) + TEETH.widest) / TURN
+        deep[near] = self._reached(column, line[near]) + TEETH.clearance - distance[near]
+        deep[deep >= TEETH.thickest] = -np.inf
+        return deep, outwards
+
+    def _reached(self, column: Floats, line: Floats) -> Floats:
+        """(k,) distance of the front from the axis at places of the grid, minus infinity off the row."""
         first = np.clip(np.floor(column).astype(np.int64), 0, self.reach.shape[0] - 2)
         second = np.clip(np.floor(line).astype(np.int64), 0, self.reach.shape[1] - 2)
         u, v = column - first, line - second
         corners = np.stack([self.reach[first + i, second + j] for i in (0, 1) for j in (0, 1)])
         on_row = (np.abs(u - 0.5) <= 0.5) & (np.abs(v - 0.5) <= 0.5) & np.isfinite(corners).all(axis=0)
         shares = np.stack([(1 - u) * (1 - v), (1 - u) * v, u * (1 - v), u * v])
-        deep = (shares * np.where(on_row, corners, 0.0)).sum(axis=0) + TEETH.clearance - distance
-        outwards = np.stack([aside / distance, np.zeros(len(distance)), before / distance], axis=1)
-        return np.where(on_row & (deep < TEETH.thickest), deep, -np.inf), outwards
+        return np.where(on_row, (shares * np.where(on_row, corners, 0.0)).sum(axis=0), -np.inf)
 
 
 def front_steps(vertices: Floats, triangles: Ints) -> Work[Front]:
@@ -115,9 +127,9 @@ class DentalArch:
         object.__setattr__(self, "_excused", np.maximum(deep, 0.0))
 
     def depths(self, positions: Floats, at: Surroundings) -> tuple[Floats, Floats]:
-        """See `Body`; positions (n, 3) of the outer skin."""
-        near = positions[self.index]
-        if self.jaw is None or at.jaw == JawMotion():
+        """See `Body`; positions (..., n, 3) of the outer skin."""
+        near = positions[..., self.index, :]
+        if self.jaw is None:
             deep, outwards = self.front.depths(near)
         else:
             deep, outwards = self.front.depths(self.jaw.unmoved(near, at.jaw))

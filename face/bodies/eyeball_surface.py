@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -46,17 +47,34 @@ class Ball:
     radii: Floats
 
     def depths(self, positions: Floats, look: Look) -> tuple[Floats, Floats]:
-        """Depths (k,) below the clearance and ways out (k, 3) of positions (k, 3) in head space."""
-        away = positions - look.centre
-        distance = np.maximum(np.linalg.norm(away, axis=1), 1e-9)
-        outwards = away / distance[:, None]
-        angle, turn = _direction(outwards @ look.axes)
+        """Depths (..., k) below the clearance and ways out (..., k, 3) of positions (..., k, 3) in head space.
+
+        What is farther out than all of the ball has the depth that it would have were the ball as large everywhere.
+        """
+        away = positions - look.centre[..., None, :]
+        distance = np.maximum(np.sqrt((away**2).sum(axis=-1)), 1e-9)
+        depth = self.largest + EYEBALL.clearance - distance
+        near = np.nonzero(depth > 0.0)
+        outwards = np.zeros_like(away)
+        outwards[near] = unit = away[near] / distance[near][:, None]
+        axes = np.broadcast_to(look.axes, (*distance.shape[:-1], 3, 3))[near[:-1]]
+        depth[near] += self._radius((unit[:, None] @ axes)[:, 0]) - self.largest
+        return depth, outwards
+
+    @cached_property
+    def largest(self) -> float:
+        """Its largest radius, metres."""
+        return float(self.radii.max())
+
+    def _radius(self, unit: Floats) -> Floats:
+        """(k,) distance of the surface from the centre in directions (k, 3) in the eyeball's axes."""
+        angle, turn = _direction(unit)
         first = np.minimum(angle.astype(np.int64), ANGLES - 2)
         second = np.minimum(turn.astype(np.int64), TURNS - 1)
         u, v = angle - first, turn - second
         near = (1.0 - v) * self.radii[first, second] + v * self.radii[first, second + 1]
         far = (1.0 - v) * self.radii[first + 1, second] + v * self.radii[first + 1, second + 1]
-        return (1.0 - u) * near + u * far + EYEBALL.clearance - distance, outwards
+        return np.asarray((1.0 - u) * near + u * far)
 
 
 def _direction(unit: Floats) -> tuple[Floats, Floats]:
@@ -154,6 +172,6 @@ class EyeballSurface:
         object.__setattr__(self, "_excused", np.maximum(deep, 0.0))
 
     def depths(self, positions: Floats, at: Surroundings) -> tuple[Floats, Floats]:
-        """See `Body`; positions (n, 3) of the outer skin."""
-        deep, outwards = self.ball.depths(positions[self.index], at.looks.get(self.side, self.ball.rest))
+        """See `Body`; positions (..., n, 3) of the outer skin."""
+        deep, outwards = self.ball.depths(positions[..., self.index, :], at.looks.get(self.side, self.ball.rest))
         return deep - self._excused, outwards

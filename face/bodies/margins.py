@@ -7,6 +7,7 @@ but shut are shut along their whole length.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -33,8 +34,9 @@ class MarginFigures:
 
 MARGINS = read_figures("bodies.margins", MarginFigures)
 
-#: A push moves the partner's margin too, so the projection is repeated; each round leaves a fraction.
-ROUNDS = 8
+#: A push moves the partner's margin too, so the projection is repeated; each round leaves a fraction, until that is
+#: less than this, metres.
+ROUNDS, SETTLED = 8, 1e-6
 
 #: A push is spread from the nearest of a margin's vertices, and from those that are hardly farther off, metres.
 NEAREST = 0.05e-3
@@ -44,15 +46,24 @@ Depths: TypeAlias = "tuple[Floats, Floats]"
 
 
 def crossing(positions: Floats, arc: Ints, partner: Ints) -> Floats:
-    """(k,) height of each vertex of an arc above its partner arc at the same place across the face, metres.
+    """(..., k) height of each vertex of an arc above its partner arc at the same place across the face, metres.
 
-    Positions (n, 3) in head space; the partner is interpolated linearly between its vertices.
+    Positions (..., n, 3) in head space; the partner is interpolated linearly between its vertices.
     """
-    other = positions[partner]
-    order = np.argsort(other[:, 0], kind="stable")
-    below: Floats = np.interp(positions[arc, 0], other[order, 0], other[order, 1])
-    height: Floats = positions[arc, 1] - below
-    return height
+    own, other = positions[..., arc, :2], positions[..., partner, :2]
+    return np.asarray(own[..., 1] - _across(own[..., 0], other[..., 0], other[..., 1]))
+
+
+def _across(places: Floats, known: Floats, values: Floats) -> Floats:
+    """(..., k) values (..., l) of known places (..., l), interpolated linearly at others (..., k); beyond, the last."""
+    order = np.argsort(known, axis=-1, kind="stable")
+    known, values = (np.take_along_axis(each, order, axis=-1) for each in (known, values))
+    after = (known[..., None, :] <= places[..., :, None]).sum(axis=-1)
+    left, right = np.maximum(after - 1, 0), np.minimum(after, known.shape[-1] - 1)
+    x, u = (np.take_along_axis(known, at, axis=-1) for at in (left, right))
+    y, v = (np.take_along_axis(values, at, axis=-1) for at in (left, right))
+    within = left != right
+    return np.asarray(np.where(within, (v - y) / np.where(within, u - x, 1.0) * (places - x) + y, y))
 
 
 def _spread(positions: Floats, arc: Ints, weight: Floats) -> Sparse:
@@ -76,13 +87,14 @@ class Meeting:
     ----------
     upper, lower : (k,), (l,) vertices of the outer skin.
     rest : height of upper over lower, and of lower over upper (negative), at rest; metres.
-    spread : (n, k) and (n, l) pushes at the margins spread over the skin.
+    touched : (t,) vertices that pushes reach. spread : (t, k) and (t, l) pushes at the margins spread over these.
     shuts : whether margins that nearly meet are drawn together.
     """
 
     upper: Ints
     lower: Ints
     rest: tuple[Floats, Floats]
+    touched: Ints
     spread: tuple[Sparse, Sparse]
     shuts: bool
 
@@ -92,48 +104,56 @@ class Meeting:
         below = crossing(positions, self.lower, self.upper)
         return np.minimum(self.rest[0], 0.0) - above, below - np.maximum(self.rest[1], 0.0)
 
-    def settle(self, positions: Floats, upper_share: float, slack: Depths | None = None) -> Floats:
-        """Positions (n, 3) with the margins moved to contact where they had passed each other, or were nearly shut.
+    def settle(self, positions: Floats, upper_share: Floats, slack: Depths | None = None) -> Floats:
+        """Positions (T, n, 3) with the margins moved to contact where they had passed each other, or were nearly shut.
 
-        The upper one takes its share (0..1) of the way and the lower one the rest. With a slack, for skin on its way to
-        a pose: margins may pass each other by it, and are not drawn together.
+        The upper one takes its share (T,), 0..1, of the way and the lower one the rest. With a slack, for skin on its
+        way to a pose: margins may pass each other by it, and are not drawn together.
         """
         settled = positions
         for _ in range(ROUNDS):
-            above, below = self.depths(settled)
-            drawn = 0.0
-            if slack is None:
-                drawn = self._shut(above)
-            else:
-                above, below = above - slack[0], below - slack[1]
-            upper, lower = np.maximum(above, drawn * above), np.maximum(below, drawn * below)
-            if max(float(np.abs(upper).max()), float(np.abs(lower).max())) < 1e-6:
+            upper, lower, drawn = self._passed(settled, slack)
+            pushed = np.flatnonzero(np.maximum(np.abs(upper).max(axis=1), np.abs(lower).max(axis=1)) >= SETTLED)
+            if not len(pushed):
                 break
-            if drawn == 0.0:
-                upper, lower = self._felt(settled, upper, lower)
-            settled = settled.copy()
-            up, down = np.asarray(self.spread[0] @ upper), np.asarray(self.spread[1] @ lower)
-            settled[:, 1] += upper_share * up - (1.0 - upper_share) * down
+            if settled is positions:
+                settled = positions.copy()
+            places = [settled[pushed[:, None], arc, 0] for arc in (self.upper, self.lower)]
+            passed = upper[pushed], lower[pushed]
+            pushes = [np.where(drawn[pushed] > 0.0, passed[i], _felt(places, passed, i)) for i in (0, 1)]
+            up, down = (np.asarray(spread @ push.T).T for spread, push in zip(self.spread, pushes, strict=True))
+            share = upper_share[pushed, None]
+            settled[pushed[:, None], self.touched, 1] += share * up - (1.0 - share) * down
         return settled
 
-    def _felt(self, positions: Floats, upper: Floats, lower: Floats) -> Depths:
-        """Pushes of both margins where either feels the other: a vertex may meet the middle of the other's edge."""
-        places = [positions[arc, 0] for arc in (self.upper, self.lower)]
-        pushes, felt = (upper, lower), []
-        for own, other in ((0, 1), (1, 0)):
-            order = np.argsort(places[other], kind="stable")
-            across = np.interp(places[own], places[other][order], np.maximum(pushes[other][order], 0.0))
-            felt.append(np.where(across > 0.0, np.maximum(pushes[own], across), pushes[own]))
-        return felt[0], felt[1]
+    def _passed(self, positions: Floats, slack: Depths | None) -> tuple[Floats, Floats, Floats]:
+        """How far the upper margin (T, k) has passed the lower one, and it (T, l) that, as far as they are to go back.
 
-    def _shut(self, depth: Floats) -> float:
-        """How firmly the margins are drawn together, 0..1, by how much of the opening is closed."""
-        if not self.shuts:
-            return 0.0
-        open_now, open_before = np.maximum(-depth, 0.0).sum(), np.maximum(self.rest[0], 0.0).sum()
-        closed = 1.0 - float(open_now) / max(float(open_before), 1e-9)
+        And how firmly they are drawn together (T, 1).
+        """
+        above, below = self.depths(positions)
+        drawn = np.zeros((len(positions), 1))
+        if slack is not None:
+            above, below = above - slack[0], below - slack[1]
+        elif self.shuts:
+            drawn = self._shut(above)
+        return np.maximum(above, drawn * above), np.maximum(below, drawn * below), drawn
+
+    def _shut(self, depth: Floats) -> Floats:
+        """(T, 1) how firmly the margins are drawn together, 0..1, by how much of the opening is closed."""
+        open_now, open_before = np.maximum(-depth, 0.0).sum(axis=1, keepdims=True), np.maximum(self.rest[0], 0.0).sum()
+        closed = 1.0 - open_now / max(float(open_before), 1e-9)
         begin, full = MARGINS.shut
-        return float(smoothstep(np.array((closed - begin) / (full - begin))))
+        return smoothstep((closed - begin) / (full - begin))
+
+
+def _felt(places: Sequence[Floats], passed: Depths, own: int) -> Floats:
+    """Pushes of one of two margins where either feels the other: a vertex may meet the middle of the other's edge.
+
+    `places` (T, k) and (T, l) across the face, how far each margin has `passed` the other, and which is its `own`.
+    """
+    across = _across(places[own], places[1 - own], np.maximum(passed[1 - own], 0.0))
+    return np.where(across > 0.0, np.maximum(passed[own], across), passed[own])
 
 
 def build_meeting(skin: OuterSkin, opening: Opening, distances: tuple[Floats, Floats], *, lids: bool) -> Meeting:
@@ -147,10 +167,12 @@ def build_meeting(skin: OuterSkin, opening: Opening, distances: tuple[Floats, Fl
             (opening.upper, opening.lower), (on_upper, 1.0 - on_upper), distances, strict=True
         )
     )
+    touched = np.flatnonzero(sum(np.diff(each.indptr) for each in spread))
     return Meeting(
         upper=opening.upper,
         lower=opening.lower,
         rest=(crossing(rest, opening.upper, opening.lower), crossing(rest, opening.lower, opening.upper)),
-        spread=(spread[0], spread[1]),
+        touched=touched,
+        spread=(spread[0][touched], spread[1][touched]),
         shuts=lids,
     )

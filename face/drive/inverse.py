@@ -164,15 +164,15 @@ class Inverse:
         return np.asarray(self.matrix @ self.actuators.carried(self.actuators.amounts(amounts)).ravel()) / opening
 
     def correction(self, residual: Floats, doubts: Floats) -> Floats:
-        """(n, 3) elastic displacement that takes the rows the rest of the way (m,), in metres; NaN rows are free.
+        """(T, n, 3) elastic displacements that take the rows the rest of the way (T, m), in metres; NaN rows are free.
 
-        Rows with doubt 0 are met exactly; the others as far as their doubt (metres) is worth the skin's stretching.
+        Rows with doubt (T, m) 0 are met exactly; others as far as their doubt (metres) is worth the skin's stretching.
         """
-        known = ~np.isnan(residual)
-        if not known.any():
-            return np.zeros((self.actuators.skin.vertex_count, 3))
-        compliance = self.compliance[np.ix_(known, known)] * self._scale
-        loose = (doubts[known] / SKIN.share) ** 2 + 1e-9
-        weights: Floats = np.zeros(len(residual))
-        weights[known] = linalg.solve(compliance + np.diag(loose), residual[known], assume_a="pos") * self._scale
+        weights: Floats = np.zeros(residual.shape)
+        for weight, left, doubt in zip(weights, residual, doubts, strict=True):
+            known = ~np.isnan(left)
+            if known.any():
+                compliance = self.compliance[np.ix_(known, known)] * self._scale
+                loose = (doubt[known] / SKIN.share) ** 2 + 1e-9
+                weight[known] = linalg.solve(compliance + np.diag(loose), left[known], assume_a="pos") * self._scale
         return np.tensordot(weights, self.skin_responses, axes=1)

@@ -20,7 +20,7 @@ from scipy import sparse
 from scipy.spatial.distance import cdist
 
 from ...arrays import Floats, Ints
-from ...physics.mesh import Sparse
+from ...physics.mesh import Sparse, applied
 from ..figures import Length, Pair, read_figures
 from ..mechanism import Mechanism
 from ..skin.outer import OuterSkin, nearer_side, smoothstep
@@ -62,18 +62,11 @@ class Hood:
 
     def carry(self, fields: Floats) -> Floats:
         """(k, n, 3) displacements (k, n, 3) with hoods that go with the brows."""
-        return fields if self._map is None else _applied(self._map, fields)
+        return fields if self._map is None else applied(self._map, fields)
 
     def carry_transposed(self, loads: Floats) -> Floats:
         """(k, n, 3) the loads on displacements that stand for loads (k, n, 3) on what `carry` makes of them."""
-        return loads if self._map is None else _applied(self._map.T.tocsr(), loads)
-
-
-def _applied(matrix: Sparse, fields: Floats) -> Floats:
-    """(k, n, 3) fields with a matrix (n, n) applied to each."""
-    count, n, _ = fields.shape
-    columns = np.asarray(matrix @ fields.transpose(1, 0, 2).reshape(n, 3 * count))
-    return np.ascontiguousarray(columns.reshape(n, count, 3).transpose(1, 0, 2))
+        return loads if self._map is None else applied(self._map.T.tocsr(), loads)
 
 
 def _carried(skin: OuterSkin) -> Sparse | None:

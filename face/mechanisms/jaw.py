@@ -104,31 +104,37 @@ class Jaw:
     weights: Floats
     bulge: Floats
 
-    def rigid(self, positions: Floats, motion: JawMotion) -> Floats:
-        """Displacement (k, 3) of points (k, 3) fixed to the mandible itself: teeth, tongue, bone."""
-        cosine, sine = np.cos(motion.angle), np.sin(motion.angle)
+    def rigid(self, positions: Floats, motion: JawMotion | Floats) -> Floats:
+        """Displacement (..., k, 3) of points (k, 3) fixed to the mandible itself, by one motion or several (..., 3)."""
+        angle, left, forward = _figures(motion)
+        cosine, sine = np.cos(angle), np.sin(angle)
         y, z = positions[:, 1] - self.hinge[1], positions[:, 2] - self.hinge[2]
-        moved = np.empty_like(positions)
-        moved[:, 0] = motion.left
-        moved[:, 1] = (cosine - 1.0) * y - sine * z
-        moved[:, 2] = sine * y + (cosine - 1.0) * z + motion.forward
+        moved = np.empty((*angle.shape[:-1], *positions.shape))
+        moved[..., 0] = left
+        moved[..., 1] = (cosine - 1.0) * y - sine * z
+        moved[..., 2] = sine * y + (cosine - 1.0) * z + forward
         return moved
 
-    def turned(self, directions: Floats, motion: JawMotion) -> Floats:
-        """Directions (k, 3) fixed to the mandible, in head space."""
-        cosine, sine = np.cos(motion.angle), np.sin(motion.angle)
-        x, y, z = directions.T
-        return np.stack([x, cosine * y - sine * z, sine * y + cosine * z], axis=1)
+    def turned(self, directions: Floats, motion: JawMotion | Floats) -> Floats:
+        """Directions (..., k, 3) fixed to the mandible, in head space, by one motion or several (..., 3)."""
+        angle = _figures(motion)[0]
+        cosine, sine = np.cos(angle), np.sin(angle)
+        x, y, z = np.moveaxis(directions, -1, 0)
+        return np.stack([x, cosine * y - sine * z, sine * y + cosine * z], axis=-1)
 
-    def unmoved(self, positions: Floats, motion: JawMotion) -> Floats:
-        """Where places (k, 3) of head space lie for one who sits on the mandible: `rigid` undone."""
-        slid = positions - np.array([motion.left, 0.0, motion.forward])
-        return self.hinge + self.turned(slid - self.hinge, JawMotion(-motion.angle))
+    def unmoved(self, positions: Floats, motion: JawMotion | Floats) -> Floats:
+        """Where places (..., k, 3) of head space lie for one who sits on the mandible: `rigid` undone."""
+        angle, left, forward = _figures(motion)
+        slid = positions - np.stack([left, np.zeros_like(left), forward], axis=-1)
+        back = np.concatenate([-angle, np.zeros((*angle.shape[:-1], 2))], axis=-1)
+        return self.hinge + self.turned(slid - self.hinge, back)
 
-    def skin(self, positions: Floats, motion: JawMotion) -> Floats:
-        """Displacement (n, 3) of the outer skin."""
-        bulged = max(float(np.sin(motion.angle)), 0.0) ** 2 * self.bulge
-        return np.asarray(self.weights[:, None] * self.rigid(positions, motion) + bulged)
+    def skin(self, positions: Floats, motion: JawMotion | Floats) -> Floats:
+        """Displacement (..., n, 3) of the outer skin, by one motion or several (..., 3)."""
+        moved = self.rigid(positions, motion)
+        moved *= self.weights[:, None]
+        moved += np.maximum(np.sin(_figures(motion)[0]), 0.0)[..., None] ** 2 * self.bulge
+        return moved
 
     def derivatives(self, positions: Floats, motion: JawMotion) -> Floats:
         """(3, n, 3) change of `skin` per radian of opening and per metre of slide left and forward, at a motion."""
@@ -142,6 +148,12 @@ class Jaw:
         change *= self.weights[None, :, None]
         change[0] += 2.0 * max(sine, 0.0) * cosine * self.bulge
         return change
+
+
+def _figures(motion: JawMotion | Floats) -> tuple[Floats, Floats, Floats]:
+    """Angle, slide to the left and slide forward, (..., 1) each, of one motion or of several (..., 3)."""
+    figures = np.array([motion.angle, motion.left, motion.forward]) if isinstance(motion, JawMotion) else motion
+    return figures[..., 0:1], figures[..., 1:2], figures[..., 2:3]
 
 
 def _above_line(positions: Floats, start: Floats, end: Floats, blend: float) -> Floats:

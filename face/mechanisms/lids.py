@@ -107,7 +107,7 @@ class Eye:
     angle_per_metre: dict[LidMove, float]
 
     @cached_property
-    def _near(self) -> Ints:
+    def near(self) -> Ints:
         """(k,) skin vertices that any move takes along."""
         moved = [share != 0.0 for share in (*self.weights.values(), *self.slides.values())]
         return np.flatnonzero(np.any(moved, axis=0))
@@ -116,24 +116,28 @@ class Eye:
     def _near_shares(self) -> Mapping[LidMove, tuple[Floats, Floats]]:
         """Move -> (k,) radians that vertices turn by, and metres that they slide, where a lid's middle goes a metre."""
         return {
-            move: (_MOVES[move][1] * rate * self.weights[move][self._near], rate * self.slides[move][self._near])
+            move: (_MOVES[move][1] * rate * self.weights[move][self.near], rate * self.slides[move][self.near])
             for move, rate in self.angle_per_metre.items()
         }
 
-    def skin(self, positions: Floats, moves: dict[LidMove, float]) -> Floats:
-        """Displacement (n, 3) of the outer skin by lid movements, as exact rotations about the eyeball's axis.
+    def carried(self, positions: Floats, moves: Mapping[LidMove, Floats]) -> Floats:
+        """Displacements (T, k, 3) of the `near` skin by lid movements, as exact rotations about the eyeball's axis.
 
-        moves : metres at the middle of the lid.
+        positions : (n, 3) of the skin. moves : (T,) metres at the middle of the lid; one or more.
         """
-        angle, slide = np.zeros((2, len(self._near)))
+        angle, slide = np.zeros((2, len(next(iter(moves.values()))), len(self.near)))
         for move, amount in moves.items():
             turned, slid = self._near_shares[move]
-            angle, slide = angle + amount * turned, slide + amount * slid
-        y, z = positions[self._near, 1] - self.centre[1], positions[self._near, 2] - self.centre[2]
+            angle, slide = angle + amount[:, None] * turned, slide + amount[:, None] * slid
+        y, z = positions[self.near, 1] - self.centre[1], positions[self.near, 2] - self.centre[2]
         sine, fall = np.sin(angle), np.cos(angle) - 1.0
-        moved = np.zeros_like(positions)
         nasal = slide * (-1.0 if self.side == "l" else 1.0)
-        moved[self._near] = np.stack([nasal, fall * y - sine * z, sine * y + fall * z], axis=1)
+        return np.stack([nasal, fall * y - sine * z, sine * y + fall * z], axis=2)
+
+    def skin(self, positions: Floats, moves: Mapping[LidMove, float]) -> Floats:
+        """Displacement (n, 3) of the outer skin by lid movements, metres at the middle of the lid."""
+        moved = np.zeros_like(positions)
+        moved[self.near] = self.carried(positions, {move: np.array([amount]) for move, amount in moves.items()})[0]
         return moved
 
 

@@ -6,7 +6,7 @@ the chin. Amounts are what the inverse finds; contractions in [0, 1] are amounts
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -112,14 +112,28 @@ class Actuators:
 
     def carried(self, amounts: Amounts) -> Floats:
         """(n, 3) displacement of the outer skin by jaw and lids, as exact rotations."""
-        moved = self.jaw.skin(self.skin.positions, amounts.jaw)
-        for side in "lr":
-            moved = moved + self.lid_field({m: v for (s, m), v in amounts.lids.items() if s == side}, side)
+        return np.asarray(self.carried_each(*self.carriers([amounts]))[0])
+
+    def carriers(self, several: Sequence[Amounts]) -> tuple[Floats, Floats]:
+        """The mandible (T, 3), its angle and slides, and lid moves (T, l) of several amounts."""
+        jaws = [(each.jaw.angle, each.jaw.left, each.jaw.forward) for each in several]
+        return np.array(jaws), np.array([[each.lids[move] for move in self.lid_moves] for each in several])
+
+    def carried_each(self, jaws: Floats, lids: Floats) -> Floats:
+        """(T, n, 3) as `carried`, by mandibles (T, 3) and lid moves (T, l)."""
+        moved: Floats = self.jaw.skin(self.skin.positions, jaws)
+        for side in "lr" if self.lid_moves else "":
+            moves = {move: lids[:, i] for i, (s, move) in enumerate(self.lid_moves) if s == side}
+            moved[:, self.eyes[side].near] += self.eyes[side].carried(self.skin.positions, moves)
         return moved
 
     def low_strain(self, amounts: Amounts) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, as if the skin were linear."""
-        return np.asarray(np.tensordot(amounts.muscles, self.fields, axes=1), dtype=np.float64)
+        return np.asarray(self.low_strain_each(amounts.muscles[None])[0])
+
+    def low_strain_each(self, muscles: Floats) -> Floats:
+        """(T, n, 3) as `low_strain`, of muscles (T, k)."""
+        return np.asarray(np.tensordot(muscles, self.fields, axes=1), dtype=np.float64)
 
     def contractions(self, amounts: Amounts) -> dict[str, float]:
         """Actuator name -> contraction in [0, 1]; the jaw as "jaw_open"."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from ...arrays import Floats, Ints
-from ...physics.mesh import Sparse
+from ...physics.mesh import Sparse, applied
 from ...progress import Progress, Work, stepwise
 from ...tables import TomlTable, read_toml
 from ..figures import ANATOMY, Length, Share, read_figures
@@ -125,11 +126,13 @@ class PlacedFold:
 
     def heights(self, positions: Floats) -> Floats:
         """(n,) heights along the normals, metres, for posed skin (n, 3)."""
-        row = self.row
-        squeezed = self.compression(positions)
-        together = (1.0 - FOLDS.shared) * squeezed + FOLDS.shared * float(np.sort(squeezed)[-GAUGES // 2 :].mean())
-        amount = smoothstep((together - row.onset) / (row.full - row.onset))
-        return np.asarray(self.field @ amount)
+        return np.asarray(self.field @ self.amounts(self.compression(positions)))
+
+    def amounts(self, squeezed: Floats) -> Floats:
+        """(..., GAUGES) how far the fold shows at each gauge, 0..1, by the `compression` (..., GAUGES)."""
+        row, most = self.row, np.sort(squeezed, axis=-1)[..., -GAUGES // 2 :].mean(axis=-1, keepdims=True)
+        together = (1.0 - FOLDS.shared) * squeezed + FOLDS.shared * most
+        return smoothstep((together - row.onset) / (row.full - row.onset))
 
 
 def _reader(tree: cKDTree, places: Floats, count: int) -> Sparse:
@@ -206,10 +209,22 @@ class Folds:
             placed.append(place_fold(skin, self._warp, row, spared))
         return [fold for fold in placed if fold is not None]
 
+    @cached_property
+    def _gauges(self) -> tuple[Ints, Sparse, Floats, Sparse]:
+        """Of all folds: (r,) vertices that are read, their reader (f GAUGES, r), lengths at rest and field."""
+        reader = sparse.vstack([fold.plus - fold.minus for fold in self.placed]).tocsc()
+        read = np.flatnonzero(np.diff(reader.indptr))
+        lengths = np.concatenate([fold.lengths for fold in self.placed])
+        return read, reader[:, read].tocsr(), lengths, sparse.hstack([fold.field for fold in self.placed]).tocsr()
+
     def displacement(self, displacement: Floats) -> Floats:
-        """What folds add (n, 3) to a displacement (n, 3) of the outer skin; head space, metres."""
-        positions = self.skin.positions + displacement
-        heights = np.zeros(self.skin.vertex_count)
-        for fold in self.placed:
-            heights += fold.heights(positions)
-        return heights[:, None] * self.skin.normals
+        """What folds add (..., n, 3) to displacements (..., n, 3) of the outer skin; head space, metres."""
+        if not self.placed:
+            return np.zeros_like(displacement)
+        read, reader, lengths, field = self._gauges
+        positions = (self.skin.positions[read] + displacement[..., read, :]).reshape(-1, len(read), 3)
+        squeezed = 1.0 - np.linalg.norm(applied(reader, positions), axis=2) / lengths
+        parts = np.split(squeezed, len(self.placed), axis=1)
+        amounts = np.concatenate([fold.amounts(part) for fold, part in zip(self.placed, parts, strict=True)], axis=1)
+        heights = np.asarray(field @ amounts.T).T.reshape(displacement.shape[:-1])
+        return np.asarray(heights[..., None] * self.skin.normals)

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Bools, Floats, Ints
 from ...physics.elastic import Factor, diagonal_matrix, laplacian
-from ...physics.mesh import Sparse, vertex_areas
+from ...physics.mesh import Sparse, applied, vertex_areas
 from ...polygons import PolygonTable
 from ..figures import Length, read_figures
 from ..skin.outer import OuterSkin
@@ -54,12 +54,17 @@ class InnerSkin:
         self._factor = Factor(own + diagonal_matrix(rest + np.asarray(flesh.sum(axis=1)).ravel()))
         keep = np.ones(len(positions))
         keep[self.index] = 0.0
-        self._coupling: Sparse = flesh - rows @ diagonal_matrix(keep)
+        coupling: Sparse = (flesh - rows @ diagonal_matrix(keep)).tocsr()
+        self._leads: Ints = np.unique(coupling.indices)
+        self._coupling: Sparse = coupling[:, self._leads]
 
-    def follow(self, displacement: Floats) -> None:
-        """Fill in the inner rows of a displacement field (V, 3), in place."""
+    def follow(self, displacements: Floats) -> None:
+        """Fill in the inner rows of displacement fields (..., V, 3), in place."""
         if len(self.index):
-            displacement[self.index] = self._factor.solve(np.asarray(self._coupling @ displacement))
+            leads = displacements[..., self._leads, :].reshape(-1, len(self._leads), 3)
+            pulled = applied(self._coupling, leads)
+            followed = [self._factor.solve(each) for each in pulled]
+            displacements[..., self.index, :] = np.reshape(followed, (*displacements.shape[:-2], -1, 3))
 
 
 def _flesh(inner: Floats, areas: Floats, outer: OuterSkin, count: int) -> Sparse:

@@ -55,6 +55,11 @@ class Relaxation:
             return self.sheet.factor.times(self._membrane)
         return Factor(matrix)
 
+    @property
+    def factor(self) -> Factor:
+        """The skin's stiffness at low strain, prefactored."""
+        return self._solver.factor
+
     @cached_property
     def _membrane(self) -> float:
         return tissue().membrane

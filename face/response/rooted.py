@@ -81,10 +81,14 @@ class RootedParts:
             self._factor = Factor(diagonal_matrix(np.asarray(own.sum(axis=1)).ravel()) - own[:, ~touching])
             self._to_roots: Sparse = own[:, touching]
 
-    def follow(self, displacement: Floats) -> None:
+    def follow(self, displacements: Floats) -> None:
+        """Fill in the rows of rooted vertices of displacement fields (..., V, 3), in place."""
+        if self._bound:
+            for displacement in displacements.reshape(-1, *displacements.shape[-2:]):
+                self._follow(displacement)
+
+    def _follow(self, displacement: Floats) -> None:
         """Fill in the rows of rooted vertices of a displacement field (V, 3), in place."""
-        if not self._bound:
-            return
         change = self._turns(displacement) - np.eye(3)
         shift = np.asarray(self._mean @ displacement) + (change @ self._above[:, :, None])[:, :, 0]
         displacement[self._roots] = shift

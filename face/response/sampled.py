@@ -41,23 +41,23 @@ class SampledPull:
 
     Attributes
     ----------
-    low_strain : a step's number -> (n, 3) metres, what its muscles do to a linear skin.
+    low_strain : amounts (s, k) of muscles -> (s, n, 3) metres, what they do to a linear skin.
+    muscles : (T, k) amounts of every step, metres.
     steps : (m,) which steps of the clip were solved. beyond : (m, n, 3) metres, what their equilibria add to that.
     weights : (T, m) how what every step adds is a sum of these; rows sum to 1.
     disagreement : metres, how far the equilibria that were tried last lay from what the others had foretold.
     """
 
-    low_strain: Callable[[int], Floats]
+    low_strain: Callable[[Floats], Floats]
+    muscles: Floats
     steps: Ints
     beyond: Floats
     weights: Floats
     disagreement: float
 
-    def at(self, step: int) -> Floats:
-        """(n, 3) displacement at a step, metres."""
-        flat = self.beyond.reshape(len(self.steps), -1)
-        beyond: Floats = self.weights[step] @ flat
-        return self.low_strain(step) + beyond.reshape(self.beyond.shape[1:])
+    def at(self, steps: Ints | slice[int, int, None]) -> Floats:
+        """(s, n, 3) displacements at some steps, metres."""
+        return self.low_strain(self.muscles[steps]) + np.tensordot(self.weights[steps], self.beyond, axes=1)
 
 
 def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[SampledPull]:
@@ -68,10 +68,8 @@ def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[Sample
     SolverError : contractions beyond what the skin can bear; names the step.
     """
 
-    def low_strain(step: int) -> Floats:
-        return relaxation.actuators.low_strain(clip[step])
-
-    places = _places(np.array([amounts.muscles for amounts in clip]))
+    muscles = np.array([amounts.muscles for amounts in clip])
+    places = _places(muscles)
     chosen: list[int] = []
     beyond: list[Floats] = []
     largest = off = 0.0
@@ -81,7 +79,7 @@ def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[Sample
         off = 0.0
         for step in tried:
             yield Progress(1.0 - 1.0 / (1.0 + len(beyond) / (1 + places.shape[1])), TEXT)
-            linear = low_strain(step)
+            linear = relaxation.actuators.low_strain(clip[step])
             try:
                 added = relaxation.pulled(clip[step]) - linear
             except SolverError as error:
@@ -96,7 +94,10 @@ def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[Sample
             break
         more = max(TRIED, int(TRIED_SHARE * len(chosen)))
         tried = farthest(places, chosen, more if len(chosen) > places.shape[1] else 1)
-    return SampledPull(low_strain, np.array(chosen), np.array(beyond), foretelling(places, chosen), off)
+    every = foretelling(places, chosen)
+    return SampledPull(
+        relaxation.actuators.low_strain_each, muscles, np.array(chosen), np.array(beyond), every, off
+    )
 
 
 def farthest(places: Floats, chosen: Sequence[int], count: int) -> list[int]:

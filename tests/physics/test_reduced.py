@@ -51,13 +51,13 @@ def node_by_node(skin: Skin, parts: int) -> Floats:
 def in_fields(skin: Skin, count: int, *, parts: int = 1) -> Floats:
     """(T, n, 3) what the reduced skin makes of it."""
     reduced = ReducedSkin(skin, Factor(skin.matrix()), principal_fields(pull(skin)[None], 1), STEP / parts, count=count)
-    stiffness, strength = reduced.stiffness(skin.rest), course()
+    passage, strength = reduced.passage(skin.rest), course()
     state, felt = reduced.at_rest(), reduced.read(np.zeros_like(skin.rest))
     shown = [np.zeros_like(skin.rest)]
     for before, after in pairwise(strength):
         for part in range(parts):
             now = reduced.read((before + (part + 1.0) / parts * (after - before)) * pull(skin))
-            state, felt = reduced.follow(state, felt, now, stiffness), now
+            state, felt = reduced.follow(state, felt, now, passage), now
         shown.append(after * pull(skin) + reduced.displacement(state))
     return np.array(shown)
 
