@@ -29,7 +29,7 @@ class Look:
         return np.stack([np.stack(column, axis=-1) for column in columns], axis=-1)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Surroundings:
     """The bones and eyeballs of one moment, or of T of them; eyeballs that are not named are as at rest.
 
