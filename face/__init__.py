@@ -7,6 +7,7 @@ simulate        a face in motion, plan by plan
 long_motion     a long motion between some of its frames that are posed
 pose            a face in balance: request -> plan -> targets -> amounts -> pose
 reduced_motion  how skin and mandible follow postures, in a few fields: the production way
+clip_balance    the balance of a whole clip
 motion          the same, node by node: for reference
 jaw_follower    how the mandible follows
 posture         from a plan to amounts, and where they bring the outer skin

@@ -2,7 +2,8 @@
 
 What `motion` integrates step by step is here the balance of each step and, in a few fields (`physics.reduced`), how far
 inertia and damping leave the skin behind it. The muscles' part of the balance is foretold from a few equilibria of the
-clip (`response.sampled`). All else, jaw, lids, correction and contact, is as exact as there.
+clip (`clip_balance`). All else, jaw, lids, correction and contact, is as exact as there. Many steps are worked out
+together, as products of matrices.
 """
 
 from __future__ import annotations
@@ -19,11 +20,12 @@ from ..physics.tissue import Tissue
 from ..progress import Progress, Work, part_of
 from .anatomy import Anatomy
 from .bodies.surroundings import Surroundings
+from .clip_balance import ClipBalance, clip_balance
 from .drive.plan import Plan
 from .jaw_follower import JawFollower, resting
 from .posture import Balance, Effort
 from .response.actuators import Amounts
-from .response.sampled import SampledPull, farthest, foretelling, sampled_pull
+from .response.sampled import farthest, foretelling
 from .response.spring_skin import spring_skin
 
 #: Fields of the balance in which the skin may be left behind, and how many these and the skin's answers to them may be.
@@ -32,11 +34,8 @@ FIELDS, WITH_ANSWERS = 12, 36
 #: How the skin passes from step to step is taken at so many of the steps that want points, lids and jaw farthest apart.
 PASSAGES = 6
 
-#: How far the work of a clip is once its muscles are found, once its equilibria are solved; what is said thereafter.
-EFFORTS, SOLVED, LEFT_BEHIND = 0.2, 0.8, "Finding how the skin is left behind"
-
-#: So many steps are worked out together, or as many as have so many figures.
-TOGETHER, FIGURES = 16, 2_000_000
+#: How far the work of a clip is once its balance is known, and what is said thereafter.
+SOLVED, LEFT_BEHIND = 0.8, "Finding how the skin is left behind"
 
 #: So many steps that want points, lids and jaw farthest apart are among what the fields are made of.
 WANTED = 8
@@ -48,14 +47,13 @@ class Course:
 
     Attributes
     ----------
-    efforts : of its T steps. pull : the muscles' part of their balances.
+    clip : the balance of its T steps.
     jaws, lids : (T, substeps, 3) where the mandible is and (T, substeps, l) what lids do after each substep.
     reduced : how the skin is left behind; None where nothing moves.
     passages : (p, 2k, 3k) of it at some steps. shares : (T, p) how that of every step is a sum of these.
     """
 
-    efforts: Sequence[Effort]
-    pull: SampledPull
+    clip: ClipBalance
     jaws: Floats
     lids: Floats
     reduced: ReducedSkin | None
@@ -92,21 +90,17 @@ class ReducedMotion:
         ------
         ParameterError, SolverError : as `Balance.posture`.
         """
-        efforts: list[Effort] = []
-        for plan in plans:
-            efforts.append(self.balance.effort(plan, before=efforts[-1] if efforts else None))
-            yield Progress(EFFORTS * len(efforts) / len(plans), "Finding the muscles behind the motion")
-        amounts = [effort.amounts for effort in efforts]
-        pull = yield from part_of(sampled_pull(self.anatomy.relaxation, amounts), EFFORTS, SOLVED)
+        clip = yield from part_of(clip_balance(self.balance, plans), 0.0, SOLVED)
+        efforts, pull = clip.efforts, clip.pull
         places = np.array([_wanted(self.anatomy, effort) for effort in efforts])
         telling = [0, *farthest(places, [0], WANTED)]
         some = np.array(list(dict.fromkeys([*telling, *pull.steps.tolist()])))
         postures = self.balance.reached_each([efforts[step] for step in some], pull.at(some))
         yield Progress(SOLVED, LEFT_BEHIND)
         fields = principal_fields(np.concatenate([postures.displacements, postures.carried]), FIELDS)
-        jaws, lids = self._carriers(amounts)
+        jaws, lids = self._carriers([effort.amounts for effort in efforts])
         if not len(fields):
-            return Course(efforts, pull, jaws, lids, None, np.empty((0, 0, 0)), np.empty((len(plans), 0)))
+            return Course(clip, jaws, lids, None, np.empty((0, 0, 0)), np.empty((len(plans), 0)))
         yield Progress(SOLVED, LEFT_BEHIND)
         step = self.duration / self.substeps
         reduced = ReducedSkin(self.skin, self.anatomy.relaxation.factor, fields, step, count=WITH_ANSWERS)
@@ -115,16 +109,13 @@ class ReducedMotion:
             yield Progress(SOLVED, LEFT_BEHIND)
             passages.append(reduced.passage(self.skin.rest + displacement))
         shares = _parts(foretelling(places, telling))
-        return Course(efforts, pull, jaws, lids, reduced, np.array(passages), shares)
+        return Course(clip, jaws, lids, reduced, np.array(passages), shares)
 
     def along(self, course: Course) -> Iterator[tuple[Floats, Floats]]:
         """Displacements (s, n, 3) of the outer skin in head space, metres, and mandibles (s, 3), some at a time."""
         contact, rest = self.anatomy.contact, self.skin.rest
         left_behind = LeftBehind(course)
-        together = max(1, min(TOGETHER, FIGURES // rest.size))
-        for start in range(0, len(course.efforts), together):
-            steps = slice(start, start + together)
-            asked = self.balance.reached_each(course.efforts[steps], course.pull.at(steps))
+        for steps, asked in course.clip.along():
             jaws, lids = (each[steps].reshape(-1, each.shape[2]) for each in (course.jaws, course.lids))
             carried = self.anatomy.actuators.carried_each(jaws, lids)
             carried = carried.reshape(-1, self.substeps, *rest.shape)

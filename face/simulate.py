@@ -14,17 +14,13 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ParameterError, SolverError
 from ..physics.tissue import Tissue
-from ..progress import Prepared, Progress, Work, part_of
+from ..progress import Prepared, Work
+from .clip_balance import clip_balance
 from .drive.plan import Plan
 from .drive.request import Request
 from .motion import FaceMotion, MovingFace, Setpoint, Stepping
 from .pose import Poser
-from .posture import Effort
 from .reduced_motion import ReducedMotion
-from .response.sampled import sampled_pull
-
-#: How far the work of a clip in balance is once its muscles are found.
-EFFORTS = 0.2
 
 
 class Integrator(StrEnum):
@@ -96,6 +92,12 @@ class Simulation:
         course = yield from motion.course(plans)
         return self._together(motion.along(course), [plan.request for plan in plans])
 
+    def _balanced(self, plans: list[Plan]) -> Work[Iterator[Floats]]:
+        """Frames of a clip that is known as a whole, each in balance."""
+        clip = yield from clip_balance(self.poser.balance, plans)
+        shown = ((postures.displacements, np.asarray(postures.surroundings.jaw)) for _, postures in clip.along())
+        return self._together(shown, [plan.request for plan in plans])
+
     def _together(self, moved: Iterator[tuple[Floats, Floats]], requests: Sequence[Request]) -> Iterator[Floats]:
         """Frames of displacements (s, n, 3) and mandibles (s, 3), some at a time."""
         done = 0
@@ -103,20 +105,6 @@ class Simulation:
             some = requests[done : done + len(jaws)]
             yield from self.poser.assembly.positions_each(displacements, jaws, some)
             done += len(some)
-
-    def _balanced(self, plans: list[Plan]) -> Work[Iterator[Floats]]:
-        """Frames of a clip that is known as a whole, each in balance."""
-        balance, efforts = self.poser.balance, list[Effort]()
-        for plan in plans:
-            efforts.append(balance.effort(plan, before=efforts[-1] if efforts else None))
-            yield Progress(EFFORTS * len(efforts) / len(plans), "Finding the muscles behind the motion")
-        amounts = [effort.amounts for effort in efforts]
-        pull = yield from part_of(sampled_pull(self.poser.anatomy.relaxation, amounts), EFFORTS, 1.0)
-        reached = (balance.reached(effort, pull.at(step)) for step, effort in enumerate(efforts))
-        return (
-            self._assembled(posture.displacement, posture.amounts.jaw, plan)
-            for posture, plan in zip(reached, plans, strict=True)
-        )
 
     def _followed(self, motion: FaceMotion, plans: Iterable[Plan]) -> Iterator[Floats]:
         """Frames one after the other."""

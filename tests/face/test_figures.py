@@ -63,8 +63,8 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
         3.0,
         1.5,
     ),  # how coarse a mesh may be; averages over vertices
-    "simulate.py": (0.2,),  # how far the work has come
-    "reduced_motion.py": (0.2, 0.8),  # how far the work has come
+    "clip_balance.py": (0.2,),  # how far the work has come
+    "reduced_motion.py": (0.8,),  # how far the work has come
     "response/followers.py": (1e-4, 4.0),  # a tie that keeps a matrix regular; a kernel's norm
     "response/recollection.py": (0.02, 0.8, 2e-3, 5.0, 3.0),  # a kernel; how it learns to be trusted
     "response/relaxation.py": (2e-5, 7e-5),  # how near a sketch comes
