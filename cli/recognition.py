@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import FormatError, ParameterError
+from ..errors import FormatError, ParameterError, RisoriusError
 from .options import Verbs, add_face, face_of, verb, vertices_of
 from .progress import ShowProgress
 from .recordings import add_recording, is_recording, read_as_told
 from .result import Result, UsageError
+from .track import OUTSIDE_BLENDER
 
 if TYPE_CHECKING:
     from ..api import BeliefTrack
@@ -33,6 +35,8 @@ def add_recognition_verb(verbs: Verbs) -> None:
     recognise.add_argument("--words", nargs="*", metavar="WORD", help=about)
     recognise.add_argument("--over-time", action="store_true", help="recognise every frame instead of one")
     recognise.add_argument("--out", type=Path, help="with --over-time: write a .csv table, one row per frame")
+    about = "with --rule robust: the table that `risorius track --confidence` wrote beside the stream"
+    recognise.add_argument("--confidence", type=Path, metavar="FILE.csv", help=about)
     add_recording(recognise)
     add_face(recognise)
 
@@ -43,13 +47,40 @@ def _recognise(arguments: argparse.Namespace) -> Result:
         raise UsageError("--over-time cannot be used with --words or --frame")
     if arguments.out is not None and not arguments.over_time:
         raise UsageError("--out needs --over-time")
+    if arguments.confidence is not None and arguments.rule != "robust":
+        raise UsageError("--confidence needs --rule robust: the paper's rule weighs nothing")
     frames, fps, first, assumed = _frames(arguments)
+    weights = _weights(arguments, frames)
     if arguments.over_time:
-        return _over_time(arguments, frames, fps, first, assumed)
+        return _over_time(arguments, frames, weights, fps, first, assumed)
     index = int(np.nansum(np.abs(frames), axis=1).argmax()) if arguments.frame is None else arguments.frame
     if not 0 <= index < len(frames):
         raise ParameterError("frame", f"must be in 0..{len(frames) - 1}", index)
-    return _one(arguments, frames[index], index, assumed)
+    return _one(arguments, frames[index], weights.frame(index), index, assumed)
+
+
+class _Weights(dict[str, "Floats | None"]):
+    """Confidence and doubt, as recognition takes them."""
+
+    def frame(self, index: int) -> _Weights:
+        """Those of one frame."""
+        sure = self["confidence"]
+        return _Weights(confidence=None if sure is None else sure[index], doubt=self["doubt"])
+
+
+def _weights(arguments: argparse.Namespace, frames: Floats) -> _Weights:
+    """How sure the values of frames (T, 68) are."""
+    if arguments.confidence is None:
+        return _Weights(confidence=None, doubt=None)
+    try:
+        from ..track import read_confidence
+    except ImportError as absent:
+        raise RisoriusError(OUTSIDE_BLENDER) from absent
+    confidence, doubt = read_confidence(arguments.confidence)
+    if len(confidence) != len(frames):
+        rule = f"has {len(confidence)} frames, the stream {len(frames)}: give the table that was written with it"
+        raise FormatError(arguments.confidence, rule)
+    return _Weights(confidence=confidence, doubt=doubt)
 
 
 def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int, tuple[str, ...]]:
@@ -68,12 +99,17 @@ def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int, tuple[st
     return stream.expanded(), stream.fps, stream.first_frame, recording.assumed
 
 
-def _one(arguments: argparse.Namespace, frame: Floats, index: int, assumed: tuple[str, ...]) -> Result:
+def _one(
+    arguments: argparse.Namespace, frame: Floats, weights: _Weights, index: int, assumed: tuple[str, ...]
+) -> Result:
     """Beliefs of one frame; more of it where words are asked for. Beliefs alone where nothing was assumed."""
     from .. import api
 
-    found = api.recognise(frame, rule=arguments.rule)
-    beliefs = {str(name): belief for name, belief in sorted(found.items(), key=lambda item: -item[1])}
+    found = api.recognise(frame, rule=arguments.rule, **weights)
+    believed = {str(name): belief for name, belief in found.items()}
+    if found.neutral is not None:
+        believed = {api.NEUTRAL: found.neutral, **believed}
+    beliefs = dict(sorted(believed.items(), key=lambda item: -item[1]))
     lines = [f"{name:<12} {belief:.3f}" for name, belief in beliefs.items()]
     if arguments.words is None:
         return Result({**beliefs, "assumed": list(assumed)} if assumed else beliefs, lines)
@@ -95,43 +131,52 @@ def _one(arguments: argparse.Namespace, frame: Floats, index: int, assumed: tupl
     }
     lines += [f"strength     {strength:.3f}", "words"]
     lines += [f"  {word:<14} {belief:.3f}" for word, belief in words.items()]
-    lines += [f"decisive for {found.best}"]
+    if decisive:
+        lines += [f"decisive for {max(found, key=found.__getitem__)}"]
     lines += [f"  F{number:<3} {api.fap(number).name:<24} {speaks:+.2f}" for number, speaks in decisive.items()]
     return Result(data, lines)
 
 
 def _over_time(
-    arguments: argparse.Namespace, frames: Floats, fps: float, first: int, assumed: tuple[str, ...]
+    arguments: argparse.Namespace,
+    frames: Floats,
+    weights: _Weights,
+    fps: float,
+    first: int,
+    assumed: tuple[str, ...],
 ) -> Result:
     """Beliefs of every frame."""
     from .. import api
 
     progress = ShowProgress(percent=10) if len(frames) > MANY else None
-    track = api.recognise_over_time(frames, rule=arguments.rule, fps=fps, first_frame=first, progress=progress)
+    track = api.recognise_over_time(
+        frames, rule=arguments.rule, **weights, fps=fps, first_frame=first, progress=progress
+    )
     if arguments.out is not None:
         api.write_belief_csv(arguments.out, track)
-    names = [str(name) for name in api.ARCHETYPES]
+    beliefs = {str(name): track.beliefs[:, column] for column, name in enumerate(api.ARCHETYPES)}
+    if track.neutral is not None:
+        beliefs = {api.NEUTRAL: track.neutral, **beliefs}
     data = {
         "rule": arguments.rule,
         "fps": fps,
         "frames": [int(number) for number in track.numbers],
-        "beliefs": {name: track.beliefs[:, column] for column, name in enumerate(names)},
+        "beliefs": beliefs,
         "best": list(track.best),
         "strength": track.strengths,
         "assumed": list(assumed),
         "out": arguments.out,
     }
-    wrote = [f"wrote {arguments.out}"] if arguments.out is not None else _table(track, names)
+    wrote = [f"wrote {arguments.out}"] if arguments.out is not None else _table(track, beliefs)
     return Result(data, wrote)
 
 
-def _table(track: BeliefTrack, names: list[str]) -> list[str]:
+def _table(track: BeliefTrack, beliefs: Mapping[str, Floats]) -> list[str]:
     """A line per frame for people."""
-    head = f"{'frame':>6} " + " ".join(f"{name:>8}" for name in names) + "  strength  best"
+    head = f"{'frame':>6} " + " ".join(f"{name:>8}" for name in beliefs) + "  strength  best"
+    columns = np.column_stack(list(beliefs.values()))
     rows = [
-        f"{number:6.0f} " + " ".join(f"{belief:8.3f}" for belief in beliefs) + f"  {strength:8.2f}  {best or '-'}"
-        for number, beliefs, strength, best in zip(
-            track.numbers, track.beliefs, track.strengths, track.best, strict=True
-        )
+        f"{number:6.0f} " + " ".join(f"{belief:8.3f}" for belief in row) + f"  {strength:8.2f}  {best or '-'}"
+        for number, row, strength, best in zip(track.numbers, columns, track.strengths, track.best, strict=True)
     ]
     return [head, *rows]

@@ -26,7 +26,16 @@ from .emotions.features import FEATURES, Feature, faps_from_features
 from .emotions.intermediate import between
 from .emotions.profile import ARCHETYPES, AS_PRINTED, Archetype, Feeling, Profile, Signs
 from .emotions.prototypes import Prototype, check_prototype, load_prototypes
-from .emotions.recognition import Beliefs, Rule, recognise, recognise_features, recognise_words, shown_strength
+from .emotions.recognition import (
+    NEUTRAL,
+    Beliefs,
+    Rule,
+    Verdict,
+    recognise,
+    recognise_features,
+    recognise_words,
+    shown_strength,
+)
 from .emotions.wheel import ACTIVATION_MAX, ACTIVATION_MIN
 from .emotions.words import TABLE_WORDS, Word
 from .high_level import (
@@ -84,6 +93,7 @@ __all__ = [
     "FEATURE_SIGNED",
     "GROUPS",
     "LIP_TWINS",
+    "NEUTRAL",
     "PAIRS",
     "PRINTED_PROFILES",
     "STATISTICS",
@@ -122,6 +132,7 @@ __all__ = [
     "Signs",
     "Timing",
     "Unit",
+    "Verdict",
     "Viseme",
     "VisemeField",
     "Word",

@@ -6,8 +6,10 @@ generic_face    a neutral face of nobody, for pictures that show none
 trust           how far a camera can be trusted for each FAP, and from where it stands
 smoothing       trembling taken out, and the delay that this costs
 tracking        landmarks to a stream with a confidence for every value
+confidence_file  the confidence beside the stream, as a table
 """
 
+from .confidence_file import read_confidence, write_confidence
 from .face_mesh import find_landmarks
 from .generic_face import generic_landmarks
 from .pictures import Pictures, open_pictures
@@ -26,6 +28,8 @@ __all__ = [
     "find_landmarks",
     "generic_landmarks",
     "open_pictures",
+    "read_confidence",
     "smooth",
     "track_landmarks",
+    "write_confidence",
 ]

@@ -7,6 +7,7 @@ prototypes                    what an emotion shows: action units by activation
 bearing                       where a word turns eyes and head
 emotion_presets               words of users, in files
 features, recognition         Table 3; from FAPs back to emotions (section 5)
+fuzzy, robust                 profiles as fuzzy classes; the robust rule
 belief_track                  beliefs over time
 action_units                  Table 1
 """

@@ -1,20 +1,16 @@
 """From FAPs back to emotions: Raouzaiou et al. 2002, section 5, equations (8) to (11).
 
-A profile is a fuzzy class per FAP; the belief in it is the product of the observed FAPs' memberships (8); the belief in
-an emotion is that in its best profile (9). The shape of the membership function (figure 6) is lost: `membership` is the
-one that served the emotion best that fared worst on posed faces (docs/evidence.md).
-
-A product has two weaknesses: one FAP that a face does not show kills a profile, and profiles of few FAPs are believed
-more readily than those of many. The robust rule is its cure, and stands beside it.
+A profile is a fuzzy class per FAP (`fuzzy`); the belief in it is the product of the observed FAPs' memberships (8); the
+belief in an emotion is that in its best profile (9). The robust rule (`robust`) stands beside it: it is for faces that
+were measured.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from enum import StrEnum
-from functools import cache
 from types import MappingProxyType
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,52 +18,42 @@ from numpy.typing import ArrayLike
 from ...arrays import Bools, Floats
 from ...errors import ParameterError
 from ..standard import FAP_COUNT
-from .archetypes import VARIANTS, archetype
+from .archetypes import archetype
 from .expressions import expression
 from .features import FEATURE_COUNT, faps_from_features
+from .fuzzy import LEAST_MEMBERSHIP, LEAST_SEEN, FuzzyClass, archetype_classes
 from .profile import ARCHETYPES, Archetype, Profile
-
-# Half of the range's length is the paper's own spread. Faces differ in strength by more than the printed variants do,
-# so a range is widened to this share of its centre, and to this many units where it is printed around 0. Chosen with
-# the shape on posed faces (docs/evidence.md).
-RELATIVE_WIDTH = 1.0
-LEAST_WIDTH = 80.0  # FAP units
+from .robust import RobustRule, archetype_rule
 
 # By the paper's rule a FAP that was not seen speaks neither for nor against a profile: it counts as one width off the
 # centre. Left out instead, it would favour the profiles that ask for what cannot be seen.
 UNSEEN_MEMBERSHIP = 0.5
 
-# With less than this share of its FAPs seen, a profile is not judged at all: one lucky FAP is no evidence.
-LEAST_SEEN = 0.5
+#: The verdict of the robust rule on a face at rest.
+NEUTRAL: Literal["neutral"] = "neutral"
 
-# What a membership is taken for at least by the robust rule, so that one FAP does not decide alone.
-LEAST_MEMBERSHIP = 1e-6
+#: What a face shows; None where nothing is believed.
+Verdict: TypeAlias = Archetype | Literal["neutral"] | None
 
 
 class Rule(StrEnum):
     """How memberships of FAPs become the belief in a profile.
 
     paper : their product, equation (8).
-    robust : their geometric mean, FAPs that were not seen skipped: profiles of few and of many FAPs are judged alike.
+    robust : their geometric mean over all FAPs that were seen, those that a profile does not ask for by how little they
+        move, each weighed by how sure it is; and the neutral face is a verdict. See `robust`.
     """
 
     PAPER = "paper"
     ROBUST = "robust"
 
-
-@dataclass(frozen=True, eq=False)
-class _Class:
-    """What recognition works on: FAP indices, centres and widths of one profile, (k,) each."""
-
-    indices: tuple[int, ...]
-    centres: Floats
-    widths: Floats
-
-    def memberships(self, values: Floats) -> Floats:
-        """(k,) memberships of a frame (68,); NaN where not seen."""
-        asked = values[list(self.indices)]
-        found: Floats = np.where(np.isnan(asked), np.nan, membership(asked, self.centres, self.widths))
-        return found
+    @classmethod
+    def of(cls, name: str | Rule) -> Rule:
+        """The rule of that name; ParameterError when there is none."""
+        try:
+            return cls(name)
+        except ValueError:
+            raise ParameterError("rule", f"must be one of {', '.join(cls)}", name) from None
 
 
 class Beliefs(dict[Archetype, float]):
@@ -76,47 +62,48 @@ class Beliefs(dict[Archetype, float]):
     Attributes
     ----------
     profiles : archetype -> variant -> belief in that profile of Table 5.
+    neutral : belief that the face rests; None by the paper's rule, which does not ask, and where too little was seen.
     decisive : FAP number -> how much it speaks for the best emotion's best profile against the runner-up's: the
         logarithm of the ratio of the memberships (1 where a profile does not ask for it), the weightiest first.
     """
 
     def __init__(
-        self, profiles: Mapping[Archetype, Mapping[int, float]], decisive: Mapping[int, float] | None = None
+        self,
+        profiles: Mapping[Archetype, Mapping[int, float]],
+        decisive: Mapping[int, float] | None = None,
+        neutral: float | None = None,
     ) -> None:
         super().__init__({name: max(of_variants.values()) for name, of_variants in profiles.items()})
         self.profiles: dict[Archetype, dict[int, float]] = {name: dict(part) for name, part in profiles.items()}
         self.decisive: Mapping[int, float] = MappingProxyType(dict(decisive or {}))
+        self.neutral = neutral
 
     @property
-    def best(self) -> Archetype | None:
-        """The emotion of the largest belief (11); None where nothing is believed at all."""
+    def best(self) -> Verdict:
+        """The emotion of the largest belief (11), or "neutral" where that is believed no less; None where nothing is
+        believed at all."""
         name = max(self, key=self.__getitem__)
+        if self.neutral is not None and self.neutral >= self[name]:
+            return NEUTRAL
         return name if self[name] > 0.0 else None
 
     @property
     def best_profile(self) -> Profile | None:
-        """The profile of Table 5 that decided for the best emotion, in MPEG-4 signs; None where nothing is believed."""
-        if self.best is None:
+        """The profile of Table 5 that decided for the best emotion, in MPEG-4 signs; None where there is none."""
+        best = self.best
+        if best is None or best == NEUTRAL:
             return None
-        variants = self.profiles[self.best]
-        return archetype(self.best, max(variants, key=variants.__getitem__))
+        variants = self.profiles[best]
+        return archetype(best, max(variants, key=variants.__getitem__))
 
 
-def membership(values: Floats, centres: Floats, widths: Floats) -> Floats:
-    """Membership in fuzzy classes: 1 at the centre, 1/2 one width away, a normal curve.
-
-    Parameters
-    ----------
-    values, centres, widths : arrays of one shape, in FAP units; widths > 0.
-
-    Returns
-    -------
-    Memberships in [0, 1], of the same shape.
-    """
-    return np.asarray(np.exp2(-(((values - centres) / widths) ** 2)), dtype=np.float64)
-
-
-def recognise(frame: ArrayLike, *, rule: str | Rule = Rule.PAPER) -> Beliefs:
+def recognise(
+    frame: ArrayLike,
+    *,
+    rule: str | Rule = Rule.PAPER,
+    confidence: ArrayLike | None = None,
+    doubt: ArrayLike | None = None,
+) -> Beliefs:
     """Beliefs that a FAP frame shows each archetypal emotion: equations (8) and (9).
 
     Parameters
@@ -124,24 +111,32 @@ def recognise(frame: ArrayLike, *, rule: str | Rule = Rule.PAPER) -> Beliefs:
     frame : (68,) FAPs in FAP units and MPEG-4 signs, index = FAP number - 1; NaN where not observed, which by the
         paper's rule counts as a membership of 1/2. A profile of which less than half is observed has the belief 0.
     rule : "paper" (default) or "robust"; see `Rule`.
+    confidence : (68,) how sure each value is, 0..1, for the robust rule; by default all are equally sure.
+    doubt : (68, m) FAP units, for the robust rule: how the FAPs would change with the neutral face, were it wrong by
+        one standard deviation in each of m independent ways (`Track.doubt`); by default it is right.
 
     Returns
     -------
-    Archetype -> belief; its ``profiles`` gives each variant's belief, its ``best`` the decision of equation (11), its
-    ``decisive`` the FAPs that made it.
+    Archetype -> belief; its ``profiles`` gives each variant's belief, its ``neutral`` that in a face at rest (robust
+    rule), its ``best`` the decision of equation (11), its ``decisive`` the FAPs that made it.
 
     Raises
     ------
     ParameterError
-        When the frame has another shape or infinite values, or there is no such rule.
+        When the frame has another shape or infinite values, there is no such rule, confidence or doubt are not as
+        above, or the paper's rule is given them.
 
     Examples
     --------
     >>> beliefs = api.recognise(api.archetype("surprise").frame())
     >>> print(beliefs.best)
     surprise
+    >>> print(api.recognise(np.zeros(68), rule="robust").best)
+    neutral
     """
-    return _beliefs(_checked(frame), np.ones(FAP_COUNT, dtype=np.bool_), _rule(rule))
+    values, chosen = _checked(frame), Rule.of(rule)
+    sure, modes = checked_weights(chosen, confidence, doubt, (FAP_COUNT,))
+    return _beliefs(values, None, chosen, sure, modes)
 
 
 def recognise_words(frame: ArrayLike, words: Iterable[str], *, rule: str | Rule = Rule.ROBUST) -> dict[str, float]:
@@ -150,7 +145,8 @@ def recognise_words(frame: ArrayLike, words: Iterable[str], *, rule: str | Rule 
     Parameters
     ----------
     frame : as for `recognise`.
-    words : emotion words; a neutral one is left out. Profiles of one category are alike but for their strength.
+    words : emotion words; a neutral one is left out. Profiles of one category are alike but for their strength, so that
+        the robust rule takes each at its own.
     rule : "robust" (default), because profiles between archetypes ask for many more FAPs than archetypes; or "paper".
 
     Returns
@@ -168,14 +164,16 @@ def recognise_words(frame: ArrayLike, words: Iterable[str], *, rule: str | Rule 
     >>> next(iter(beliefs))
     'terrified'
     """
-    values, chosen, everything = _checked(frame), _rule(rule), np.ones(FAP_COUNT, dtype=np.bool_)
+    values, chosen = _checked(frame), Rule.of(rule)
     profiles = {word: expression(word) for word in words}
-    beliefs = {
-        word: _belief(_class(profile), values, everything, chosen)
-        for word, profile in profiles.items()
-        if profile.ranges
-    }
-    return dict(sorted(beliefs.items(), key=lambda item: -item[1]))
+    classes = {word: FuzzyClass.of(profile) for word, profile in profiles.items() if profile.ranges}
+    if not classes:
+        return {}
+    if chosen is Rule.ROBUST:
+        found = RobustRule.of(list(classes.values()), (1.0,)).judge(values[None]).beliefs[0].tolist()
+    else:
+        found = [_product(fuzzy, values, np.ones(FAP_COUNT, dtype=np.bool_)) for fuzzy in classes.values()]
+    return dict(sorted(zip(classes, found, strict=True), key=lambda item: -item[1]))
 
 
 def shown_strength(frame: ArrayLike, profile: Profile) -> float:
@@ -233,7 +231,7 @@ def recognise_features(features: ArrayLike, *, rule: str | Rule = Rule.PAPER) ->
     >>> print(api.recognise_features(face.features(surprised.positions)).best)
     surprise
     """
-    return _beliefs(faps_from_features(features), _shown_by_features(), _rule(rule))
+    return _beliefs(faps_from_features(features), _shown_by_features(), Rule.of(rule))
 
 
 def _checked(frame: ArrayLike) -> Floats:
@@ -244,65 +242,84 @@ def _checked(frame: ArrayLike) -> Floats:
     return values
 
 
-def _rule(rule: str | Rule) -> Rule:
-    """The rule of that name."""
-    try:
-        return Rule(rule)
-    except ValueError:
-        raise ParameterError("rule", f"must be one of {', '.join(Rule)}", rule) from None
+def checked_weights(
+    rule: Rule, confidence: ArrayLike | None, doubt: ArrayLike | None, shape: tuple[int, ...]
+) -> tuple[Floats | None, Floats | None]:
+    """Confidence of a shape and doubt (68, m), each as it was given or None.
+
+    Raises
+    ------
+    ParameterError : as `recognise`.
+    """
+    if rule is Rule.PAPER and (confidence is not None or doubt is not None):
+        given = "doubt" if confidence is None else "confidence"
+        raise ParameterError(given, 'needs the rule "robust": the paper\'s rule weighs nothing', rule)
+    sure = None if confidence is None else np.asarray(confidence, dtype=np.float64)
+    if sure is not None and (sure.shape != shape or not ((sure >= 0.0) & (sure <= 1.0)).all()):
+        raise ParameterError("confidence", f"must have the shape {shape} of the FAPs, in 0..1", sure.shape)
+    modes = None if doubt is None else np.asarray(doubt, dtype=np.float64)
+    if modes is not None and (modes.ndim != 2 or len(modes) != FAP_COUNT or not np.isfinite(modes).all()):
+        raise ParameterError("doubt", f"must be finite and have the shape ({FAP_COUNT}, m)", modes.shape)
+    return sure, modes
 
 
-def _beliefs(values: Floats, visible: Bools, rule: Rule) -> Beliefs:
+def _beliefs(
+    values: Floats, visible: Bools | None, rule: Rule, confidence: Floats | None = None, doubt: Floats | None = None
+) -> Beliefs:
     """Equations (8) and (9) over the visible FAPs, (68,) each; NaN where a visible FAP was not seen."""
+    if rule is Rule.ROBUST:
+        return _robust(values, visible, confidence, doubt)
+    shown = np.ones(FAP_COUNT, dtype=np.bool_) if visible is None else visible
+    classes = archetype_classes()
+    beliefs = _by_archetype([_product(fuzzy, values, shown) for fuzzy in classes.values()])
+    against = {key: np.zeros(FAP_COUNT) for key in classes}
+    for key, fuzzy in classes.items():
+        members = np.maximum(np.nan_to_num(fuzzy.memberships(values), nan=1.0), LEAST_MEMBERSHIP)
+        against[key][list(fuzzy.indices)] = -np.log(members)
+    return Beliefs(beliefs, _decisive(beliefs, against, shown & ~np.isnan(values)))
+
+
+def _robust(values: Floats, visible: Bools | None, confidence: Floats | None, doubt: Floats | None) -> Beliefs:
+    """Beliefs by the robust rule; `values`, `visible`, `confidence` (68,), `doubt` (68, m)."""
+    sure = None if confidence is None else confidence[None]
+    judged = archetype_rule().judge(values[None], visible=visible, confidence=sure, doubt=doubt)
+    beliefs = _by_archetype(judged.beliefs[0].tolist())
+    against = dict(zip(archetype_classes(), judged.against[0] * np.log(2.0), strict=True))
+    rest = float(judged.neutral[0])
+    return Beliefs(beliefs, _decisive(beliefs, against, ~np.isnan(values)), None if np.isnan(rest) else rest)
+
+
+def _by_archetype(found: Iterable[float]) -> dict[Archetype, dict[int, float]]:
+    """Beliefs in the order of `archetype_classes` by emotion and variant."""
     beliefs: dict[Archetype, dict[int, float]] = {name: {} for name in ARCHETYPES}
-    for (name, variant), fuzzy in _classes().items():
-        beliefs[name][variant] = _belief(fuzzy, values, visible, rule)
-    return Beliefs(beliefs, _decisive(beliefs, values, visible))
+    for (name, variant), belief in zip(archetype_classes(), found, strict=True):
+        beliefs[name][variant] = belief
+    return beliefs
 
 
-def _belief(fuzzy: _Class, values: Floats, visible: Bools, rule: Rule) -> float:
-    """Belief in one profile."""
+def _product(fuzzy: FuzzyClass, values: Floats, visible: Bools) -> float:
+    """Belief in one profile by the paper's rule."""
     judged = visible[list(fuzzy.indices)]
     memberships = fuzzy.memberships(values)[judged]
     seen = ~np.isnan(memberships)
     if not judged.any() or seen.sum() < LEAST_SEEN * judged.sum():
         return 0.0
-    if rule is Rule.PAPER:
-        return float(np.where(seen, memberships, UNSEEN_MEMBERSHIP).prod())
-    return float(np.exp(np.log(np.maximum(memberships[seen], LEAST_MEMBERSHIP)).mean()))
+    return float(np.where(seen, memberships, UNSEEN_MEMBERSHIP).prod())
 
 
-def _decisive(beliefs: Mapping[Archetype, Mapping[int, float]], values: Floats, visible: Bools) -> dict[int, float]:
-    """How much each FAP speaks for the best profile against the best one of the runner-up."""
+def _decisive(
+    beliefs: Mapping[Archetype, Mapping[int, float]], against: Mapping[tuple[Archetype, int], Floats], counted: Bools
+) -> dict[int, float]:
+    """How much each FAP speaks for the best profile against the best one of the runner-up.
+
+    `against`: (68,) logarithms that each FAP takes off a profile. `counted`: (68,) FAPs that were seen.
+    """
     best_of = {name: max(part, key=part.__getitem__) for name, part in beliefs.items()}
     first, second, *_ = sorted(beliefs, key=lambda name: -beliefs[name][best_of[name]])
-    logs = []
-    for name in (first, second):
-        fuzzy = _classes()[name, best_of[name]]
-        logarithm = np.zeros(FAP_COUNT)
-        logarithm[list(fuzzy.indices)] = np.log(
-            np.maximum(np.nan_to_num(fuzzy.memberships(values), nan=1.0), LEAST_MEMBERSHIP)
-        )
-        logs.append(logarithm)
-    speaks = np.where(visible & ~np.isnan(values), logs[0] - logs[1], 0.0)
+    speaks = np.where(counted, against[second, best_of[second]] - against[first, best_of[first]], 0.0)
     return {int(index) + 1: float(speaks[index]) for index in np.argsort(-np.abs(speaks)) if speaks[index] != 0.0}
 
 
 def _shown_by_features() -> Bools:
     """(68,) the FAPs that some feature shows."""
     return ~np.isnan(faps_from_features(np.zeros(FEATURE_COUNT)))
-
-
-@cache
-def _classes() -> Mapping[tuple[Archetype, int], _Class]:
-    """The fuzzy classes of all profiles of Table 5, in MPEG-4 signs, by emotion and variant."""
-    found = {(name, variant): _class(archetype(name, variant)) for name in ARCHETYPES for variant in VARIANTS[name]}
-    return MappingProxyType(found)
-
-
-def _class(profile: Profile) -> _Class:
-    """The fuzzy class of one profile."""
-    lows, highs = (np.array(ends) for ends in zip(*profile.ranges.values(), strict=True))
-    centres = (lows + highs) / 2.0
-    widths = np.maximum(np.maximum((highs - lows) / 2.0, RELATIVE_WIDTH * np.abs(centres)), LEAST_WIDTH)
-    return _Class(tuple(number - 1 for number in profile.ranges), centres, widths)

@@ -43,18 +43,21 @@ class RISORIUS_PT_read(MeshSidebar, Panel):
 
     def _draw_beliefs(self, layout: UILayout, reading: Reading) -> None:
         """What is most believed, and a bar for each of the six."""
-        best = reading.beliefs.best
+        best, neutral = reading.beliefs.best, reading.beliefs.neutral
         row = layout.row()
-        if reading.is_resting or best is None:
+        if best is not None and not reading.beliefs.best_profile:
+            row.label(text="Neutral", icon="CHECKMARK")
+        elif reading.is_resting or best is None:
             row.label(text="At rest: almost no expression", icon="INFO")
         else:
             row.label(text=best.capitalize(), icon="CHECKMARK")
             row.label(text=f"strength {reading.strength:.0%}")
         column = layout.column(align=True)
-        column.active = not reading.is_resting
-        for name, belief in reading.beliefs.items():
+        column.active = neutral is not None or not reading.is_resting
+        bars = [(name.capitalize(), belief) for name, belief in reading.beliefs.items()]
+        for name, belief in bars if neutral is None else [*bars, ("Neutral", neutral)]:
             split = column.split(factor=0.3, align=True)
-            split.label(text=name.capitalize())
+            split.label(text=name)
             split.progress(factor=belief, type="BAR", text=f"{belief:.3f}")
 
     def _draw_words(self, layout: UILayout, reading: Reading) -> None:

@@ -36,7 +36,8 @@ class RISORIUS_PG_read(PropertyGroup):
                 (
                     "robust",
                     "Robust",
-                    "Geometric mean over the measured FAPs. Tolerant: FAPs that cannot be measured are left out",
+                    "Geometric mean over the measured FAPs. Tolerant: FAPs that cannot be measured are left out. "
+                    "Motion that an emotion does not explain counts against it. A face can be neutral",
                 ),
             ),
             default="paper",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import bpy
+import numpy as np
 
 from ...errors import SceneError
 from ..blender_types import Action, AnimData, FCurve, Object, Slot
@@ -15,14 +16,14 @@ if TYPE_CHECKING:
 
 #: Custom properties are called risorius_joy and so on; the F-curves lie in a group of this name.
 PREFIX, GROUP = "risorius_", "Risorius Beliefs"
-STRENGTH = "strength"
+STRENGTH, NEUTRAL = "strength", "neutral"
 
 
 def property_names() -> tuple[str, ...]:
-    """The custom properties: one per emotion, and the strength of the most believed one."""
+    """The custom properties: one per emotion, the strength of the best one, and the neutral face (robust rule)."""
     from ... import api
 
-    return tuple(f"{PREFIX}{name}" for name in (*api.ARCHETYPES, STRENGTH))
+    return tuple(f"{PREFIX}{name}" for name in (*api.ARCHETYPES, STRENGTH, NEUTRAL))
 
 
 def write_curves(obj: Object, track: BeliefTrack) -> Action:
@@ -37,14 +38,14 @@ def write_curves(obj: Object, track: BeliefTrack) -> Action:
     refuse_unwritable_curves(obj)
     remove_curves(obj)
     columns = [*track.beliefs.T, track.strengths]
-    for name, values in zip(property_names(), columns, strict=True):
+    if track.neutral is not None:
+        columns.append(np.nan_to_num(track.neutral))
+    about = dict.fromkeys(property_names(), "Belief that the face shows this emotion")
+    about[f"{PREFIX}{STRENGTH}"] = "Strength of the emotion that the face shows"
+    about[f"{PREFIX}{NEUTRAL}"] = "Belief that the face is neutral"
+    for name, values in zip(property_names(), columns, strict=False):
         obj[name] = float(values[0])
-        about = (
-            "Strength of the emotion that the face shows"
-            if name.endswith(STRENGTH)
-            else "Belief that the face shows this emotion"
-        )
-        obj.id_properties_ui(name).update(min=0.0, max=10.0, soft_max=1.0, description=about)
+        obj.id_properties_ui(name).update(min=0.0, max=10.0, soft_max=1.0, description=about[name])
         obj.keyframe_insert(_path(name), frame=float(track.numbers[0]), group=GROUP)
         curve = _curve(obj, name)
         assert curve is not None

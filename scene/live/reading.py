@@ -56,7 +56,7 @@ class Reading:
 
     @property
     def is_resting(self) -> bool:
-        """Whether there is hardly any expression."""
+        """Whether there is hardly any expression: what the robust rule calls neutral, too."""
         return self.strength < RESTING
 
 

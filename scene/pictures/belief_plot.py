@@ -26,8 +26,8 @@ WIDTH, HEIGHT = 1280, 640
 LEFT, TOP, RIGHT, BOTTOM = 80, 84, 1090, 520
 BAND_TOP, BAND_BOTTOM = 556, 578
 TITLE, LETTER, LINE = 26.0, 18.0, 1.6
-#: Grey levels: ground, field, lines of the grid, letters.
-GROUND, FIELD, GRID, INK = 0.11, 0.15, 0.27, 0.88
+#: Grey levels: ground, field, lines of the grid, letters, the curve of the neutral face.
+GROUND, FIELD, GRID, INK, REST = 0.11, 0.15, 0.27, 0.88, 0.6
 #: Steps between lines of the grid: frames, and the highest belief.
 FRAME_STEPS = (1, 2, 5, 10, 20, 25, 50, 100, 200, 250, 500, 1000, 2000, 5000, 10000)
 HEIGHTS = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0)
@@ -53,12 +53,14 @@ def draw_plot(track: BeliefTrack, title: str, colours: Mapping[str, Colour]) -> 
     for number in _frames(track):
         column = round(_column(track, number))
         picture[TOP:BOTTOM, column : column + 1] = GRID
+    if track.neutral is not None:
+        _draw_curve(picture, np.clip(np.nan_to_num(track.neutral) / top, 0.0, 1.0), (REST, REST, REST))
+        _draw_key(picture, len(api.ARCHETYPES), (REST, REST, REST))
     for values, name in zip(track.beliefs.T, api.ARCHETYPES, strict=True):
         _draw_curve(picture, values / top, colours[name])
     _draw_band(picture, track, colours)
     for index, name in enumerate(api.ARCHETYPES):
-        row = round(TOP + 10 + 2 * LETTER * index)
-        picture[row - 2 : row + 3, RIGHT + 22 : RIGHT + 50] = colours[name]
+        _draw_key(picture, index, colours[name])
     with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
         ink = 1.0 - write_text(_texts(track, title, top), WIDTH, HEIGHT, Path(folder))
     drawn: Floats = np.clip(picture * (1.0 - ink) + INK * ink, 0.0, 1.0)
@@ -91,13 +93,19 @@ def _draw_curve(picture: Floats, values: Floats, colour: Colour) -> None:
     field += cover * (np.array(colour) - field)
 
 
+def _draw_key(picture: Floats, index: int, colour: Colour) -> None:
+    """A piece of a curve beside its name."""
+    row = round(TOP + 10 + 2 * LETTER * index)
+    picture[row - 2 : row + 3, RIGHT + 22 : RIGHT + 50] = colour
+
+
 def _draw_band(picture: Floats, track: BeliefTrack, colours: Mapping[str, Colour]) -> None:
     """For each frame the colour of the most believed emotion, the fuller the more it is shown; grey at rest."""
     nearest = np.linspace(0, len(track.frames) - 1, RIGHT - LEFT).round().astype(int)
     shades = np.full((len(track.frames), 3), FIELD)
     for index, name in enumerate(track.best):
         share = min(1.0, float(track.strengths[index]))
-        if name is not None and share >= RESTING:
+        if name is not None and name in colours and share >= RESTING:
             shades[index] += share * (np.array(colours[name]) - shades[index])
     picture[BAND_TOP:BAND_BOTTOM, LEFT:RIGHT] = shades[nearest]
 
@@ -112,7 +120,8 @@ def _texts(track: BeliefTrack, title: str, top: float) -> list[Text]:
         texts.append(Text((f"{share * top / 4:.3g}",), LEFT - 10, row, LETTER, right=True))
     for number in _frames(track):
         texts.append(Text((str(number),), _column(track, number) - 8, BOTTOM + 1.4 * LETTER, LETTER))
-    for index, name in enumerate(api.ARCHETYPES):
+    names = [*api.ARCHETYPES, *([api.NEUTRAL] if track.neutral is not None else [])]
+    for index, name in enumerate(names):
         texts.append(Text((name.capitalize(),), RIGHT + 60, TOP + 10 + 2 * LETTER * index + 0.35 * LETTER, LETTER))
     texts.append(Text(("most believed",), RIGHT + 22, BAND_BOTTOM - 5, LETTER))
     texts.append(

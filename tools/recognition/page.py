@@ -17,7 +17,7 @@ from .poses import SHARES, Measured, Series
 from .samples import Sample
 from .scans import STRENGTHS, combinations, shown, units
 from .shapes import CHOICES, Choice, Shape, best_of, held_out, own, score
-from .verdicts import EMOTIONS, NOTHING, Way, all_verdicts, confusion, correct
+from .verdicts import EMOTIONS, NOTHING, OTHERS, Way, all_verdicts, confusion, correct
 from .words import kind, meanings, rankings
 
 Table = list[str]
@@ -31,9 +31,10 @@ Written by `make evidence` (`tools/evidence.py`); do not edit.
 
 `api.recognise` turns FAPs into beliefs in the six archetypes by section 5 of the first paper: a membership per FAP,
 their product per profile (8), the best variant of an emotion (9), the most believed emotion (11). This is the *paper*
-rule. The *robust* rule takes the geometric mean and skips FAPs that are not measured. `api.recognise_features` uses
-only the 15 distances of Table 3. One part of the method is ours: figure 6, the shape of the membership, is illegible in
-the paper, so it was chosen on faces (below).
+rule. The *robust* rule takes the geometric mean over all FAPs that were measured: those that a profile does not ask for
+count against it if they move. It takes a profile at any strength, and *neutral* is a verdict. `api.recognise_features`
+uses only the 15 distances of Table 3. One part of the paper's rule is ours: figure 6, the shape of the membership, is
+illegible in the paper, so it was chosen on faces (below).
 
 Figures are per cent of correct results among the six emotions; chance is 17 %. *Least* is the emotion with the lowest
 figure.
@@ -71,9 +72,8 @@ natural poses above.
 The widths of each shape were chosen on all these poses, with *least* as tie-breaker. Nothing was chosen on the scans.
 
 *In use* is the normal curve with widths 1 and 80. It was chosen for the paper's rule. There, a wider bell is correct
-slightly more often overall, but clearly less often for the worst emotion. Narrower shapes would gain about one point
-for the robust rule and lose several for the paper's. One curve is used for both rules, so that their memberships are
-the same.
+slightly more often overall, but clearly less often for the worst emotion. The robust rule takes the same curve, so that
+the memberships of both rules are the same.
 
 | rule | shape | best share of the centre | least width | right | least | scans right |
 |---|---|---|---|---|---|---|
@@ -193,7 +193,7 @@ def _posed(posed: Mapping[Series, Measured], said: Mapping[Series, Mapping[Way, 
     lines += [FEATURES, "![Confusions](pictures/evidence-confusion.png)", ""]
     for way in (Way.FAPS_PAPER, Way.FAPS_ROBUST):
         lines += ["", f"Natural drive, {way} rule, per cent: rows are posed, columns are recognised.", ""]
-        lines += _head("", *EMOTIONS, NOTHING)
+        lines += _head("", *EMOTIONS, *OTHERS)
         shares = confusion(natural.asked, said[Series.NATURAL][way])
         lines += [_row([name, *map(percent, row)]) for name, row in zip(EMOTIONS, shares, strict=True)]
     lines += ["", "### By activation and by face, natural drive", "", *_head("", *Way)]
@@ -241,11 +241,10 @@ def _others(verdicts: np.ndarray, name: str, most: int = 2) -> str:
 def _shapes(natural: Measured, scans: Measured) -> Table:
     """Shapes and widths, picked on everything and on halves."""
     lines = [SHAPES.format(count=len(CHOICES)).rstrip("\n")]
-    for rule in Rule:
-        for shape in Shape:
-            choice, found = best_of(natural, [each for each in CHOICES if (each.shape, each.rule) == (shape, rule)])
-            lines.append(_choice(choice, found, scans, ""))
-        lines.append(_choice(own(rule), score(natural, own(rule)), scans, " (in use)"))
+    for shape in Shape:
+        choice, found = best_of(natural, [each for each in CHOICES if each.shape is shape])
+        lines.append(_choice(choice, found, scans, ""))
+    lines += [_choice(own(rule), score(natural, own(rule)), scans, " (in use)") for rule in Rule]
     lines.append(HELD_OUT.rstrip("\n"))
     for trial in held_out(natural):
         name = f"{trial.choice.shape}, {trial.choice.relative:g}, {trial.choice.least:g}"
@@ -311,11 +310,12 @@ def _scans(scans: Measured) -> Table:
 
 def _neutral() -> Table:
     """What is believed of a face at rest."""
-    lines = ["", "## The neutral face", "", "There is no class for it. These are the beliefs for a frame of zeros:", ""]
-    lines += _head("rule", *EMOTIONS)
+    lines = ["", "## The neutral face", "", "Beliefs for a frame of zeros. The paper has no class for it:", ""]
+    lines += _head("rule", *EMOTIONS, "neutral")
     for rule in Rule:
         beliefs = api.recognise(np.zeros(68), rule=rule)
-        lines.append(_row([rule, *(f"{belief:.3f}" for belief in beliefs.values())]))
+        rest = "–" if beliefs.neutral is None else f"{beliefs.neutral:.3f}"
+        lines.append(_row([rule, *(f"{belief:.3f}" for belief in beliefs.values()), rest]))
     return lines
 
 

@@ -14,7 +14,7 @@ from risorius.mpeg4 import Rule
 from .poses import Measured
 from .samples import Sample
 from .shapes import LEAST, RELATIVE, Choice, Shape, own, score
-from .verdicts import EMOTIONS, NOTHING, confusion
+from .verdicts import EMOTIONS, OTHERS, confusion
 
 mpl.use("Agg")
 
@@ -36,30 +36,26 @@ def _matrix(axes: Axes, percent: np.ndarray) -> None:
     for (row, column), value in np.ndenumerate(percent):
         if value >= 0.5:
             axes.text(column, row, f"{value:.0f}", ha="center", va="center", color="white" if value > 55.0 else "black")
-    axes.set_xticks(range(len(EMOTIONS) + 1), [*EMOTIONS, NOTHING], rotation=45, ha="right")
+    axes.set_xticks(range(len(EMOTIONS) + len(OTHERS)), [*EMOTIONS, *OTHERS], rotation=45, ha="right")
     axes.set_yticks(range(len(EMOTIONS)), EMOTIONS)
     axes.set_xlabel("recognised")
     axes.set_ylabel("posed")
 
 
 def draw_shapes(measured: Measured, path: Path) -> None:
-    """How much each shape recognises over its width, one panel per rule; the product's choice is ringed."""
-    figure = Figure(figsize=(9.0, 3.8), layout="constrained")
-    panels = figure.subplots(1, len(Rule), sharey=True)
-    for axes, rule in zip(panels, Rule, strict=True):
-        for shape in Shape:
-            best = [
-                max(score(measured, Choice(shape, relative, least, rule))[0] for least in LEAST)
-                for relative in RELATIVE
-            ]
-            axes.plot(RELATIVE, 100.0 * np.array(best), marker=".", label=shape.value)
-        mine = own(rule)
-        axes.plot(mine.relative, 100.0 * score(measured, mine)[0], "o", ms=12, mfc="none", mec="black")
-        axes.set_title(f"{rule} rule")
-        axes.set_xlabel("width as a share of the centre (best least width)")
-        axes.grid(alpha=0.3)
-    panels[0].set_ylabel("recognised, %")
-    panels[-1].legend(fontsize=8)
+    """How much each shape recognises over its width by the paper's rule; the product's choice is ringed."""
+    figure = Figure(figsize=(5.5, 3.8), layout="constrained")
+    axes, rule = figure.subplots(), Rule.PAPER
+    for shape in Shape:
+        best = [
+            max(score(measured, Choice(shape, relative, least, rule))[0] for least in LEAST) for relative in RELATIVE
+        ]
+        axes.plot(RELATIVE, 100.0 * np.array(best), marker=".", label=shape.value)
+    axes.plot(own(rule).relative, 100.0 * score(measured, own(rule))[0], "o", ms=12, mfc="none", mec="black")
+    axes.set_xlabel("width as a share of the centre (best least width)")
+    axes.set_ylabel("recognised, %")
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=8)
     _save(figure, path)
 
 

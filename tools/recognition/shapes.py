@@ -1,7 +1,7 @@
 """Membership functions compared: figure 6 of the first paper is lost, so that its shape is chosen by measurement.
 
-Here recognition is written once more for many faces at once and any shape; with the product's own choice it says the
-same as `api.recognise` (a test compares them).
+Here the paper's rule is written once more for many faces at once and any shape; with the product's own choice it says
+the same as `api.recognise` (a test compares them). The robust rule takes the curve that was chosen for the paper's.
 """
 
 from __future__ import annotations
@@ -15,13 +15,9 @@ import numpy as np
 import risorius.api as api
 from risorius.arrays import Bools, Floats
 from risorius.mpeg4 import ARCHETYPES, VARIANTS, Rule
-from risorius.mpeg4.emotions.recognition import (
-    LEAST_MEMBERSHIP,
-    LEAST_SEEN,
-    LEAST_WIDTH,
-    RELATIVE_WIDTH,
-    UNSEEN_MEMBERSHIP,
-)
+from risorius.mpeg4.emotions.fuzzy import LEAST_SEEN, LEAST_WIDTH, RELATIVE_WIDTH, archetype_classes
+from risorius.mpeg4.emotions.recognition import UNSEEN_MEMBERSHIP
+from risorius.mpeg4.emotions.robust import archetype_rule
 
 from .poses import Measured
 from .verdicts import correct, verdicts
@@ -63,7 +59,7 @@ class Choice:
 
 RELATIVE, LEAST = (0.35, 0.5, 0.75, 1.0, 1.5, 2.0), (20.0, 40.0, 80.0, 120.0)
 
-CHOICES = tuple(Choice(*each) for each in itertools.product(Shape, RELATIVE, LEAST, Rule))
+CHOICES = tuple(Choice(*each, Rule.PAPER) for each in itertools.product(Shape, RELATIVE, LEAST))
 
 
 def own(rule: Rule) -> Choice:
@@ -72,8 +68,13 @@ def own(rule: Rule) -> Choice:
 
 
 def believed(faps: Floats, choice: Choice) -> Floats:
-    """(n, 6) beliefs in the archetypes from FAPs (n, 68)."""
+    """(n, 6) beliefs in the archetypes from FAPs (n, 68); by the robust rule, whatever the choice of shape."""
     best = np.zeros((len(faps), len(ARCHETYPES)))
+    if choice.rule is Rule.ROBUST:
+        judged = archetype_rule().judge(faps)
+        for (name, _), belief in zip(archetype_classes(), judged.beliefs.T, strict=True):
+            best[:, ARCHETYPES.index(name)] = np.maximum(best[:, ARCHETYPES.index(name)], belief)
+        return best
     for column, name in enumerate(ARCHETYPES):
         for variant in VARIANTS[name]:
             ranges = api.archetype(name, variant).ranges
@@ -89,11 +90,7 @@ def _in_profile(values: Floats, ranges: Floats, choice: Choice) -> Floats:
     distance = np.maximum(np.abs(values - centres) - (halves if choice.shape.flat else 0.0), 0.0)
     members = choice.shape.at(distance / widths)
     seen = ~np.isnan(values)
-    if choice.rule is Rule.PAPER:
-        belief = np.where(seen, members, UNSEEN_MEMBERSHIP).prod(axis=1)
-    else:
-        logs = np.where(seen, np.log(np.maximum(np.nan_to_num(members), LEAST_MEMBERSHIP)), 0.0)
-        belief = np.exp(logs.sum(axis=1) / np.maximum(seen.sum(axis=1), 1))
+    belief = np.where(seen, members, UNSEEN_MEMBERSHIP).prod(axis=1)
     return np.where(seen.mean(axis=1) >= LEAST_SEEN, belief, 0.0)
 
 
@@ -136,9 +133,9 @@ def held_out(measured: Measured) -> list[Trial]:
         "variants": measured.variants % 2 == 0,
     }
     trials = []
-    for (split, half), rule in itertools.product(halves.items(), Rule):
+    for split, half in halves.items():
         for chosen_on in (half, ~half):
-            choice, chosen = best_of(measured.part(chosen_on), [each for each in CHOICES if each.rule is rule])
+            choice, chosen = best_of(measured.part(chosen_on), CHOICES)
             other = measured.part(~chosen_on)
-            trials.append(Trial(split, choice, chosen, score(other, choice), score(other, own(rule))))
+            trials.append(Trial(split, choice, chosen, score(other, choice), score(other, own(Rule.PAPER))))
     return trials

@@ -14,8 +14,8 @@ from .poses import Measured
 
 EMOTIONS = tuple(str(name) for name in ARCHETYPES)
 
-#: The verdict where nothing is believed at all.
-NOTHING = "nothing"
+#: The verdict where nothing is believed at all, and that of the robust rule on a face at rest.
+NOTHING, NEUTRAL = "nothing", str(api.NEUTRAL)
 
 
 class Way(StrEnum):
@@ -38,32 +38,32 @@ class Way(StrEnum):
 
 
 Verdicts = Mapping[Way, np.ndarray]
-"""Way -> (n,) the emotion of the largest belief, or `NOTHING`."""
+"""Way -> (n,) the emotion of the largest belief, `NEUTRAL` or `NOTHING`."""
 
-
-def beliefs(faps: Floats, features: Floats, way: Way) -> Floats:
-    """(n, 6) beliefs in the archetypes, in the order of `EMOTIONS`."""
-    if way.of_features:
-        found = [api.recognise_features(row, rule=way.rule) for row in features]
-    else:
-        found = [api.recognise(row, rule=way.rule) for row in faps]
-    return np.array([list(each.values()) for each in found])
+#: What a verdict may be besides an emotion.
+OTHERS = (NEUTRAL, NOTHING)
 
 
 def verdicts(believed: Floats) -> np.ndarray:
-    """(n,) verdicts by equation (11)."""
+    """(n,) verdicts by equation (11) on beliefs (n, 6)."""
     named = np.array(EMOTIONS)[believed.argmax(axis=1)]
     return np.where(believed.max(axis=1) > 0.0, named, NOTHING)
 
 
 def all_verdicts(measured: Measured) -> dict[Way, np.ndarray]:
     """Verdicts on measured faces by every way."""
-    return {way: verdicts(beliefs(measured.faps, measured.features, way)) for way in Way}
+    said = {}
+    for way in Way:
+        recognise, rows = (
+            (api.recognise_features, measured.features) if way.of_features else (api.recognise, measured.faps)
+        )
+        said[way] = np.array([str(recognise(row, rule=way.rule).best or NOTHING) for row in rows])
+    return said
 
 
 def confusion(asked: np.ndarray, said: np.ndarray) -> Floats:
-    """(6, 7) shares of the verdicts on each emotion; the last column is `NOTHING`."""
-    columns = (*EMOTIONS, NOTHING)
+    """(6, 8) shares of the verdicts on each emotion; the last columns are `OTHERS`."""
+    columns = (*EMOTIONS, *OTHERS)
     return np.array([[(said[asked == name] == verdict).mean() for verdict in columns] for name in EMOTIONS])
 
 

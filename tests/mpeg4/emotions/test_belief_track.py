@@ -67,3 +67,61 @@ def test_frames_of_another_shape_and_unwritable_tables_are_refused(rising: np.nd
         api.recognise_over_time(rising[0])
     with pytest.raises(FormatError, match=r"t\.csv"):
         api.write_belief_csv(tmp_path / "none" / "t.csv", api.recognise_over_time(rising))
+
+
+def clip(word: str, fps: float = 25.0) -> np.ndarray:
+    """(T, 68) a word that comes from rest and goes back to it."""
+    return np.nan_to_num(api.envelope(api.expression(word), onset=0.4, apex=0.4, offset=0.4, fps=fps))
+
+
+@pytest.mark.parametrize("fps", [10.0, 25.0, 120.0])
+@pytest.mark.parametrize("word", api.ARCHETYPES)
+def test_a_clip_is_neutral_then_its_emotion_then_neutral(word: str, fps: float) -> None:
+    track = api.recognise_over_time(clip(word, fps), rule="robust", fps=fps)
+    runs = [name for index, name in enumerate(track.best) if index == 0 or track.best[index - 1] != name]
+    assert runs == ["neutral", word, "neutral"]
+    assert track.neutral is not None
+    assert track.neutral[0] == 1.0
+    assert track.beliefs[0].max() == 0.0
+
+
+def test_trembling_does_not_name_what_a_face_does_not_show() -> None:
+    frames = clip("joy", 50.0)
+    shaken = frames + np.random.default_rng(1).normal(scale=40.0, size=frames.shape)
+    track = api.recognise_over_time(shaken, rule="robust", fps=50.0)
+    alone = [api.recognise(frame, rule="robust").best for frame in shaken]
+    assert not set(alone) <= {"neutral", "joy"}
+    assert set(track.best) == {"neutral", "joy"}
+
+
+def test_a_change_from_one_emotion_to_another_is_seen() -> None:
+    joy, anger = (np.nan_to_num(api.expression(word).frame()) for word in ("joy", "anger"))
+    frames = np.concatenate([np.tile(joy, (25, 1)), np.tile(anger, (25, 1))])
+    assert api.recognise_over_time(frames, rule="robust", fps=25.0).best == ("joy",) * 25 + ("anger",) * 25
+
+
+def test_frames_without_a_face_have_no_verdict_and_change_none() -> None:
+    frames = clip("joy")
+    frames[12:15] = np.nan
+    track = api.recognise_over_time(frames, rule="robust", fps=25.0)
+    assert track.best[11:16] == ("joy", None, None, None, "joy")
+
+
+def test_the_table_says_how_far_the_face_rests(tmp_path: Path) -> None:
+    track = api.recognise_over_time(clip("joy"), rule="robust", fps=25.0)
+    api.write_belief_csv(tmp_path / "t.csv", track)
+    with (tmp_path / "t.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert rows[0]["neutral"] == "1"
+    assert [row["best"] for row in rows] == list(track.best)
+
+
+def test_confidence_is_each_frame_s_own() -> None:
+    frames = np.tile(np.nan_to_num(api.archetype("sadness", 0).frame()), (2, 1))
+    frames[:, 12 - 1] = 400.0
+    confidence = np.ones((2, 68))
+    confidence[1, 12 - 1] = 0.0
+    track = api.recognise_over_time(frames, rule="robust", confidence=confidence)
+    assert track.beliefs[1, 1] > track.beliefs[0, 1]
+    with pytest.raises(ParameterError, match="confidence"):
+        api.recognise_over_time(frames, rule="robust", confidence=confidence[0])

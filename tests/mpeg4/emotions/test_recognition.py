@@ -23,7 +23,7 @@ from risorius.mpeg4 import (
     recognise_features,
     recognise_words,
 )
-from risorius.mpeg4.emotions.recognition import RELATIVE_WIDTH, membership
+from risorius.mpeg4.emotions.fuzzy import RELATIVE_WIDTH, membership
 
 ALL = [(name, variant) for name in ARCHETYPES for variant in VARIANTS[name]]
 

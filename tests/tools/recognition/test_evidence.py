@@ -91,7 +91,7 @@ def test_verdicts_are_counted() -> None:
     assert verdicts.correct(asked, said) == (22 / 24, 0.5)
     shares = verdicts.confusion(asked, said)
     np.testing.assert_allclose(shares.sum(axis=1), 1.0)
-    assert shares[0].tolist() == [0.5, 0.0, 0.25, 0.0, 0.0, 0.0, 0.25]
+    assert shares[0].tolist() == [0.5, 0.0, 0.25, 0.0, 0.0, 0.0, 0.0, 0.25]
     believed = np.zeros((2, 6))
     believed[0, 3] = 0.1
     assert verdicts.verdicts(believed).tolist() == [names[3], verdicts.NOTHING]
@@ -112,6 +112,8 @@ def test_with_the_choice_in_use_it_says_what_recognise_says(rule: Rule) -> None:
     faps[random.random(faps.shape) < 0.3] = np.nan
     expected = [list(api.recognise(row, rule=rule).values()) for row in faps]
     np.testing.assert_allclose(shapes.believed(faps, shapes.own(rule)), expected, atol=1e-12)
+    if rule is Rule.ROBUST:
+        return  # it has one curve
     flat = shapes.Choice(shapes.Shape.FLAT_NORMAL, 1.0, 80.0, rule)
     more = shapes.believed(faps, flat) - shapes.believed(faps, shapes.own(rule))
     assert more.min() >= 0.0  # inside a range nothing is taken off
@@ -119,16 +121,16 @@ def test_with_the_choice_in_use_it_says_what_recognise_says(rule: Rule) -> None:
 
 
 def test_halves_share_no_face_and_no_variant(monkeypatch: Any) -> None:
-    monkeypatch.setattr(shapes, "CHOICES", tuple(shapes.own(rule) for rule in Rule))
+    monkeypatch.setattr(shapes, "CHOICES", (shapes.own(Rule.PAPER),))
     parts = [posed("exact", name=name) for name in ("a", "b", "c")]
     columns = {key: np.concatenate([vars(part)[key] for part in parts]) for key in vars(parts[0]) if key != "seconds"}
     seen = []
     monkeypatch.setattr(shapes, "score", lambda measured, _: seen.append(measured) or (1.0, 1.0))
     trials = shapes.held_out(poses.Measured(**columns, seconds=0.0))
-    assert [trial.split for trial in trials] == ["faces"] * 4 + ["variants"] * 4
+    assert [trial.split for trial in trials] == ["faces"] * 2 + ["variants"] * 2
     for index in range(len(trials)):
         chosen_on, judged_on, own_on = seen[3 * index : 3 * index + 3]
-        key = "faces" if index < 4 else "variants"
+        key = "faces" if index < 2 else "variants"
         assert not set(vars(chosen_on)[key]) & set(vars(judged_on)[key])
         assert len(chosen_on.faps) + len(judged_on.faps) == 300
         assert len(own_on.faps) == len(judged_on.faps)
@@ -216,8 +218,8 @@ def test_the_page_says_what_was_measured(monkeypatch: Any) -> None:
     monkeypatch.setattr(page_of, "best_of", lambda measured, choices: (choices[0], page_of.score(measured, choices[0])))
     page = page_of.page(figures())
     right, least = cells(page, "natural")[1].split(" / ")
-    assert (right, least) == ("95", "0")  # 4 of 100 poses are spoilt, and one weak surprise is taken for fear
-    assert cells(page, "exact")[1] == "99 / 93.8"
+    assert (right, least) == ("96", "0")  # 4 of 100 poses are spoilt
+    assert cells(page, "exact")[1] == "100 / 100"
     assert cells(page, "natural", "robust", "disgust 0") == ["0", "joy 100 %"]
     assert cells(page, "default")[1] == "96"
     assert cells(page, "joy", "prototype", "6+12")[:2] == ["–", "1"]
