@@ -114,6 +114,7 @@ from .speech.phonemes import Alphabet, Phoneme
 from .speech.saying import Saying, say
 from .speech.timings import read_timings
 from .speech.utterance import Sound, SpokenWord, Utterance
+from .speech.voice import Voiced, speak, voices
 
 __all__ = [
     "ADDITIONS",
@@ -186,6 +187,7 @@ __all__ = [
     "Utterance",
     "Verdict",
     "VisemeField",
+    "Voiced",
     "archetype",
     "arkit_shapes",
     "between",
@@ -232,8 +234,10 @@ __all__ = [
     "say",
     "sequence",
     "shown_strength",
+    "speak",
     "unmet_lines",
     "viseme_frame",
+    "voices",
     "way_drawn",
     "write_animation_tables",
     "write_belief_csv",

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import sys
+import tempfile
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -34,11 +37,15 @@ BLENDER = (".blend", ".mp4")
 def add_speech_verb(verbs: Verbs) -> None:
     """Add say to the verbs."""
     say = verb(verbs, "say", _say)
-    about = "what is said when: a Praat TextGrid, Rhubarb's JSON, TSV or XML, or a table or JSON of sounds and times"
-    say.add_argument("--timings", type=Path, required=True, metavar="FILE", help=about)
-    say.add_argument(
-        "--sound", type=Path, metavar="FILE", help="the sound, from the same beginning; for .blend and .mp4"
-    )
+    say.add_argument("text", nargs="?", metavar="TEXT", help="what is said, by a voice of eSpeak NG")
+    about = "instead: what is said when, by a Praat TextGrid, Rhubarb's JSON, TSV or XML, or a table or JSON of sounds"
+    say.add_argument("--timings", type=Path, metavar="FILE", help=about)
+    about = "the sound, from the same beginning; for .blend and .mp4. With TEXT: where the voice is written, as WAV "
+    say.add_argument("--sound", type=Path, metavar="FILE", help=f"{about}(default: beside a .blend)")
+    about = "language of TEXT, as en, de, fr, with a variant: en+f3 (default: en)"
+    say.add_argument("--voice", metavar="CODE", help=about)
+    say.add_argument("--speed", type=float, help="words per minute of TEXT, 80 to 450 (default: 175)")
+    say.add_argument("--pitch", type=float, help="of the voice, 0 to 99 (default: 50)")
     say.add_argument("--tier", metavar="NAME", help="tier of a TextGrid with the sounds (default: found)")
     about = "how sounds are written: ipa, arpabet or xsampa (default: found)"
     say.add_argument("--alphabet", choices=("ipa", "arpabet", "xsampa"), help=about)
@@ -63,30 +70,57 @@ def add_speech_verb(verbs: Verbs) -> None:
 
 
 def _say(arguments: argparse.Namespace) -> Result:
-    """Say something, with feeling, by the times of its sounds (.mp4 and .blend need Blender)."""
+    """Say something, with feeling, as a voice speaks it or as its sounds were timed (.mp4 and .blend need Blender)."""
     from .. import api
 
     suffix = arguments.out.suffix.lower()
     if suffix not in (*api.WRITABLE_STREAMS, *BLENDER):
         raise UsageError(f"--out must end in one of {', '.join((*api.WRITABLE_STREAMS, *BLENDER))}")
-    utterance = api.read_timings(arguments.timings, tier=arguments.tier, alphabet=arguments.alphabet)
-    for line in utterance.assumed:
-        print(f"note: {arguments.timings.name}: {line}", file=sys.stderr)
-    say = partial(_said, utterance, arguments)
-    told: dict[str, Any] = {
-        "sounds": len(utterance.sounds),
-        "words": [word.text for word in utterance.words],
-        "seconds": utterance.duration,
-        "assumed": list(utterance.assumed),
-    }
-    if suffix in BLENDER:
-        return _in_blender(arguments, say, told)
-    if arguments.sound is not None:
-        raise UsageError("--sound needs --out to end in .blend or .mp4: a stream holds no sound")
-    stream = say(arguments.fps or 25.0).stream
-    api.write_stream(arguments.out, stream, progress=when_slow(), decimals=0)
+    with _heard(arguments) as (utterance, sound):
+        for line in utterance.assumed:
+            print(f"note: {line}", file=sys.stderr)
+        say = partial(_said, utterance, arguments)
+        told: dict[str, Any] = {
+            "sounds": len(utterance.sounds),
+            "words": [word.text for word in utterance.words],
+            "seconds": utterance.duration,
+            "assumed": list(utterance.assumed),
+            "sound": sound if arguments.sound is not None or suffix == ".blend" else None,
+        }
+        if suffix in BLENDER:
+            return _in_blender(arguments, say, sound, told)
+        stream = say(arguments.fps or 25.0).stream
+        api.write_stream(arguments.out, stream, progress=when_slow(), decimals=0)
     line = f"wrote {arguments.out}: {len(stream.frames)} frames at {stream.fps:g} per second, {told['sounds']} sounds"
     return Result({**told, "frames": len(stream.frames), "fps": stream.fps, "out": arguments.out}, [line])
+
+
+@contextlib.contextmanager
+def _heard(arguments: argparse.Namespace) -> Iterator[tuple[Utterance, Path | None]]:
+    """What is said when, and its sound where there is one; the sound of a text may last only as long as this."""
+    from .. import api
+
+    if (arguments.text is None) == (arguments.timings is None):
+        raise UsageError("give either a text, or --timings with what is said when")
+    suffix = arguments.out.suffix.lower()
+    if arguments.timings is not None:
+        for name in ("voice", "speed", "pitch"):
+            if getattr(arguments, name) is not None:
+                raise UsageError(f"--{name} needs a text, not --timings")
+        if arguments.sound is not None and suffix not in BLENDER:
+            raise UsageError("--sound needs --out to end in .blend or .mp4: a stream holds no sound")
+        yield api.read_timings(arguments.timings, tier=arguments.tier, alphabet=arguments.alphabet), arguments.sound
+        return
+    for name in ("tier", "alphabet"):
+        if getattr(arguments, name) is not None:
+            raise UsageError(f"--{name} needs --timings")
+    given = {name: getattr(arguments, name) for name in ("voice", "speed", "pitch")}
+    voiced = api.speak(arguments.text, **{name: value for name, value in given.items() if value is not None})
+    beside = arguments.out.with_suffix(".wav") if suffix == ".blend" else None
+    with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
+        sound = arguments.sound or beside or Path(folder) / "voice.wav"
+        voiced.write(sound)
+        yield voiced.utterance, sound
 
 
 def _said(utterance: Utterance, arguments: argparse.Namespace, fps: float) -> Saying:
@@ -99,12 +133,12 @@ def _said(utterance: Utterance, arguments: argparse.Namespace, fps: float) -> Sa
     return api.say(utterance, emotion=felt, fps=fps, liveliness=liveliness, **numbers)
 
 
-def _in_blender(arguments: argparse.Namespace, say: Any, told: dict[str, Any]) -> Result:
+def _in_blender(arguments: argparse.Namespace, say: Any, sound: Path | None, told: dict[str, Any]) -> Result:
     """A video or a .blend."""
     onto, shared = onto_options(arguments), scene_options(arguments)
     with needing_blender():
         from ..scene.jobs.saying import say_file
-    shared |= {name: getattr(arguments, name) for name in ("creases", "engine", "fps", "sound")}
+    shared |= {name: getattr(arguments, name) for name in ("creases", "engine", "fps")} | {"sound": sound}
     with silent_blender():
         made = dict(say_file(arguments.out, say, **shared, destination=destination_of(onto), progress=ShowProgress()))
     return Result({**made, **told}, lines_of(made))

@@ -2,6 +2,7 @@
 
 phonemes      speech sounds, their visemes, and the alphabets that write them
 utterance     sounds and words in time
+voice         text becomes sound and timed phonemes
 timings       files of aligners and lip-sync tools
 articulation  sounds in time become FAPs of mouth, jaw and tongue
 feeling       speech and emotion share a face

@@ -34,6 +34,8 @@ SAME_LETTER = {
 R_COLOURED = {"ə˞": "ɚ", "ɜ˞": "ɝ"}
 #: Consonants whose lips are rounded: what follows them is a short w.
 LABIALISED, ROUNDING = "ʷ", "w"
+#: Unicode's kinds of characters that are no letters: marks above and below, small letters behind, stress, hyphens.
+MARKS = ("Mn", "Lm", "Sk", "Po", "Sm", "Pd")
 #: What Praat, the Montreal Forced Aligner, MAUS, TIMIT and Kaldi write where nothing is said.
 PAUSES = frozenset({
     "", "sil", "sp", "pau", "h#", "epi", "#", "##", "_", "-", "<eps>", "<sil>", "<p:>", "<p>", "<pause>", "(.)",
@@ -134,6 +136,11 @@ def is_noise(symbol: str) -> bool:
     return symbol.strip().lower() in NOISES
 
 
+def is_mark(symbol: str) -> bool:
+    """Whether a symbol of IPA is a mark alone, which belongs to the sound before it."""
+    return bool(symbol.strip()) and not _without_marks(symbol.strip())
+
+
 def read_symbol(symbol: str, alphabet: Alphabet) -> tuple[Phoneme, ...]:
     """The sounds of one symbol, one after another: a diphthong has two. Empty where the symbol is unknown.
 
@@ -173,7 +180,7 @@ def _without_marks(symbol: str) -> str:
     kept = []
     for character in text:
         letters = character if character in phonemes() else unicodedata.normalize("NFD", character)
-        kept += [letter for letter in letters if unicodedata.category(letter) not in ("Mn", "Lm", "Sk", "Po", "Sm")]
+        kept += [letter for letter in letters if unicodedata.category(letter) not in MARKS]
     return "".join(kept)
 
 

@@ -30,7 +30,7 @@ def test_timings_become_a_stream(timings: Path, tmp_path: Path, capsys: pytest.C
     assert (data["sounds"], data["fps"]) == (3, 25.0)
     assumed = ["the sounds are read as IPA", "shown as the nearest sound: ɲ as ŋ"]
     assert data["assumed"] == assumed
-    assert [f"note: timings.txt: {line}" for line in assumed] == said.err.splitlines()
+    assert [f"note: {line}" for line in assumed] == said.err.splitlines()
     stream = api.read_fap(out)
     saying = api.say(timings, emotion=api.expression("joy"), seed=3, liveliness=api.Liveliness.usual(3))
     np.testing.assert_allclose(stream.frames, saying.stream.frames, atol=0.5 + 1e-9)
@@ -44,6 +44,34 @@ def test_options_are_heeded(timings: Path, tmp_path: Path) -> None:
     assert stream.fps == 50.0
     expected = api.say(timings, fps=50.0, jaw=1.5).stream.frames
     np.testing.assert_allclose(stream.frames, expected, atol=1e-6)
+
+
+def test_a_text_becomes_a_stream_and_a_sound(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out, sound = tmp_path / "a.fap", tmp_path / "a.wav"
+    arguments = ["say", "Pat my map.", "--voice", "en", "--emotion", "afraid", "--speed", "150", "--sound", str(sound)]
+    assert main([*arguments, "--out", str(out), "--json"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert (data["words"], data["sound"]) == (["Pat", "my", "map"], str(sound))
+    voiced = api.speak("Pat my map.", speed=150)
+    assert sound.stat().st_size == 44 + 2 * len(voiced.sound)
+    saying = api.say(voiced.utterance, emotion=api.expression("afraid"), liveliness=api.Liveliness.usual())
+    np.testing.assert_allclose(api.read_fap(out).frames, saying.stream.frames, atol=0.5 + 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "problem"),
+    [
+        ([], "give either a text, or --timings"),
+        (["Hello", "--timings", "a.txt"], "give either a text, or --timings"),
+        (["--timings", "a.txt", "--voice", "de"], "--voice needs a text"),
+        (["Hello", "--tier", "phones"], "--tier needs --timings"),
+    ],
+)
+def test_texts_and_timings_exclude_each_other(
+    arguments: list[str], problem: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["say", *arguments, "--out", str(tmp_path / "a.fap")]) == 2
+    assert problem in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -53,8 +53,10 @@ class DownloadError(Exception):
     """A wheel that could not be had; the message names it."""
 
 
-# Plain Python, the same on every system: praatio reads TextGrids, and needs the other.
+# The same for every Python. praatio reads TextGrids, and needs typing_extensions; espeakng-loader is eSpeak NG with its
+# voices, for one system.
 PLAIN = ("praatio>=6.2,<7", "typing_extensions>=4.10,<5")
+VOICES = "espeakng_loader>=0.2,<0.3"
 
 
 def fetch(platform: Platform, blender: BlenderRange, folder: Path) -> list[Path]:
@@ -65,17 +67,18 @@ def fetch(platform: Platform, blender: BlenderRange, folder: Path) -> list[Path]
     DownloadError
         when pip finds no such wheel or no network.
     """
-    compiled = [_compiled(platform, python, blender.scipy, folder) for python in blender.pythons]
-    return compiled + [_fetch(folder / "any", requirement, "any system", []) for requirement in PLAIN]
-
-
-def _compiled(platform: Platform, python: str, requirement: str, folder: Path) -> Path:
-    """A wheel for one Python on one system."""
-    place = folder / f"{platform.name}-cp{python.replace('.', '')}"
-    options = ["--python-version", python]
-    for tag in platform.tags:
-        options += ["--platform", tag]
-    return _fetch(place, requirement, f"Python {python} on {platform.name}", options)
+    tags = [option for tag in platform.tags for option in ("--platform", tag)]
+    compiled = [
+        _fetch(
+            folder / f"{platform.name}-cp{python.replace('.', '')}",
+            blender.scipy,
+            f"Python {python} on {platform.name}",
+            ["--python-version", python, *tags],
+        )
+        for python in blender.pythons
+    ]
+    plain = [_fetch(folder / "any", requirement, "any system", []) for requirement in PLAIN]
+    return [*compiled, _fetch(folder / platform.name, VOICES, platform.name, tags), *plain]
 
 
 def _fetch(place: Path, requirement: str, where: str, options: list[str]) -> Path:
