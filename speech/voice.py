@@ -127,7 +127,7 @@ def _library() -> Iterator[tuple[ctypes.CDLL, int]]:
         try:
             import espeakng_loader
 
-            path = shutil.copy(espeakng_loader.get_library_path(), folder)
+            path: str | None = shutil.copy(espeakng_loader.get_library_path(), folder)
             data: bytes | None = espeakng_loader.get_data_path().encode()
         except ImportError:
             path, data = ctypes.util.find_library("espeak-ng"), None
@@ -145,7 +145,7 @@ def _library() -> Iterator[tuple[ctypes.CDLL, int]]:
             yield library, rate
         finally:
             library.espeak_Terminate()
-            unload = _ctypes.FreeLibrary if sys.platform == "win32" else _ctypes.dlclose
+            unload = getattr(_ctypes, "FreeLibrary" if sys.platform == "win32" else "dlclose")
             unload(library._handle)
 
 
