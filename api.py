@@ -28,6 +28,7 @@ from .face.fit.topologies import (
     topology_of,
     write_topology,
 )
+from .face.kept.faces import KeptFaces
 from .face.mechanism import ADDITIONS, MUSCLE_GROUPS, Mechanism
 from .face.mesh.fap_units import Fapu
 from .face.mesh.files import MeshFile, read_mesh
@@ -157,6 +158,7 @@ __all__ = [
     "FitProgress",
     "FoundPoints",
     "HeadMesh",
+    "KeptFaces",
     "KeyShape",
     "LandmarkReading",
     "Liveliness",

@@ -18,10 +18,11 @@ preparation     what a first pose needs, stage by stage
 requests        the FAPs, drives and emotions that a caller gives, checked
 anatomy         one face prepared for motion; builds all that the rooms hold
 
-The rooms, in the same order (`products` and `retarget` stand above `face`):
+The rooms, in the same order (`products`, `retarget` and `kept` stand above `face`):
 
 products        what is made with a whole `Face`: tables for players, shapes for engines, creases, lines to look at
 retarget        a motion on the controls that a rig already has
+kept            prepared faces in files of their own, ready at once the next time
 drive           what is asked, what a face can do of it, and the muscles behind it
 response        what muscles do to the skin, and what follows the skin
 bodies          eyeballs, teeth, tongue, the head on its spine, and where skin meets them or itself

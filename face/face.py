@@ -40,6 +40,8 @@ class Face:
     def __init__(self, vertices: Floats, polygons: Sequence[Ints], anatomy: Anatomy) -> None:
         self._vertices, self._polygons = vertices, polygons
         self.anatomy = anatomy
+        self.kept_as, self.is_from_file = "", False
+        """Under which key it is kept, where it is (`kept`), and whether it comes out of a file."""
 
     @classmethod
     def from_arrays(
@@ -256,6 +258,11 @@ class Face:
     @cached_property
     def _poser(self) -> Poser:
         return Poser(self.anatomy)
+
+    @property
+    def poser(self) -> Poser:
+        """What poses it; for the rooms of `face` alone, as `anatomy` is."""
+        return self._poser
 
     def pose(
         self,

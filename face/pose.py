@@ -16,6 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Floats
+from ..mpeg4 import ARCHETYPES, expression
+from ..progress import Progress, Work
 from .anatomy import Anatomy
 from .assembly import Assembly
 from .drive.drives import DRIVES
@@ -26,6 +28,9 @@ from .posture import Balance, Posture
 from .requests import checked_request
 from .response.recollection import Recollection
 from .unmet import unmet
+
+#: Activations of the archetypes that are explored.
+EXPLORED = (7.0, 4.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +75,7 @@ class Poser:
         self.anatomy = anatomy
         self.balance = Balance(anatomy)
         self.assembly = Assembly(anatomy, folds=folds)
+        self.known = Recollection()
 
     def plan(self, request: Request) -> Plan:
         """What the face is to do for a request."""
@@ -100,9 +106,9 @@ class Poser:
         told = np.isfinite(goal) & (goal != 0.0)
         return dict(zip(rows.numbers[told].tolist(), shares[told].tolist(), strict=True))
 
-    def sketch(self, request: Request, known: Recollection) -> Sketch:
-        """What `pose` shows, a little short of balance and not measured."""
-        posture = self.balance.posture(self.plan(request), known=known)
+    def sketch(self, request: Request) -> Sketch:
+        """What `pose` shows, a little short of balance and not measured; what is found foretells others."""
+        posture = self.balance.posture(self.plan(request), known=self.known)
         return Sketch(self._positions(posture, request), self.anatomy.actuators.contractions(posture.amounts))
 
     def _positions(self, posture: Posture, request: Request) -> Floats:
@@ -117,7 +123,7 @@ class Sketcher:
     """
 
     def __init__(self, poser: Poser) -> None:
-        self._poser, self._known = poser, Recollection()
+        self._poser = poser
 
     def sketch(
         self,
@@ -129,4 +135,12 @@ class Sketcher:
     ) -> Sketch:
         """The face for one frame of FAPs; parameters and errors as `Face.pose`."""
         request = checked_request(frame, drive, emotion, contractions)
-        return self._poser.sketch(request, self._known)
+        return self._poser.sketch(request)
+
+    def explore(self) -> Work[None]:
+        """Sketch the archetypes, strong and less so, bit by bit: what is found foretells whatever lies between."""
+        words = [(name, level) for level in EXPLORED for name in ARCHETYPES]
+        for number, (name, level) in enumerate(words):
+            yield Progress(number / len(words), "Exploring expressions")
+            found = expression(name, activation=level)
+            self.sketch(found.frame(), emotion=found.weights)

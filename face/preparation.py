@@ -7,7 +7,6 @@ from operator import attrgetter
 from ..progress import Progress, Work, worked_out
 from .drive.request import Request, silent_faps
 from .pose import Poser
-from .response.recollection import Recollection
 
 #: What is worked out, in this order, of a poser; the text is for people.
 STAGES = (
@@ -42,4 +41,4 @@ def preparation(poser: Poser) -> Work[None]:
         for step in worked_out(attrgetter(owner)(poser), name):
             yield Progress((number + step.fraction) / count, text)
     yield Progress((count - 1) / count, "Solving the skin")
-    poser.sketch(Request(silent_faps()), Recollection())
+    poser.sketch(Request(silent_faps()))

@@ -13,10 +13,11 @@ from __future__ import annotations
 
 from copy import copy
 from enum import StrEnum
+from functools import cached_property
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import SuperLU, splu
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import ParameterError, SolverError
@@ -174,10 +175,21 @@ class Factor:
 
     def __init__(self, matrix: Sparse) -> None:
         self.shape: tuple[int, int] = (int(matrix.shape[0]), int(matrix.shape[1]))
+        self._matrix = sparse.csc_array(matrix)
         self._scale = 1.0
+        pivots = self._factor.U.diagonal() / matrix.diagonal()[np.argsort(self._factor.perm_c)]
+        if not pivots.min() > self._SMALLEST_PIVOT:
+            raise SolverError(
+                "the elastic matrix is not positive definite; anchor every piece of the skin",
+                residual=float(pivots.min()),
+            )
+
+    @cached_property
+    def _factor(self) -> SuperLU:
+        """The factors, which a factor that is kept and read again works out when it is first used."""
         try:
-            self._factor = splu(
-                sparse.csc_array(matrix),
+            return splu(
+                self._matrix,
                 permc_spec="MMD_AT_PLUS_A",
                 relax=1,  # no padding of supernodes: a fifth less to run through in every solve
                 diag_pivot_thresh=0.0,
@@ -185,12 +197,6 @@ class Factor:
             )
         except RuntimeError as error:
             raise SolverError("the elastic matrix is singular; anchor every piece of the skin") from error
-        pivots = self._factor.U.diagonal() / matrix.diagonal()[np.argsort(self._factor.perm_c)]
-        if not pivots.min() > self._SMALLEST_PIVOT:
-            raise SolverError(
-                "the elastic matrix is not positive definite; anchor every piece of the skin",
-                residual=float(pivots.min()),
-            )
 
     def times(self, scale: float) -> Factor:
         """The factor of the matrix times a number above 0, without factoring it again."""

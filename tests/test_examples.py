@@ -16,7 +16,7 @@ import risorius.api as api
 from places import ROOT
 
 #: Those that take more than about a second.
-SLOW = {"arkit_shapes", "Creases", "find_points"}
+SLOW = {"arkit_shapes", "Creases", "KeptFaces", "find_points"}
 
 
 def documented() -> Iterator[tuple[str, Any]]:

@@ -8,12 +8,17 @@ interpolation with a linear kernel and an affine part, see the transfer step of 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...arrays import Floats
 from ...tables import read_csv
 from ..figures import ANATOMY
+
+if TYPE_CHECKING:
+    from scipy.interpolate import RBFInterpolator
 
 MM = 1e-3
 
@@ -40,13 +45,18 @@ class TemplateWarp:
 
     def __init__(self, points: Mapping[str, Floats]) -> None:
         """Fit to a face's own feature points: name -> (3,) in head space (metres)."""
-        from scipy.interpolate import RBFInterpolator  # tables are read where SciPy is missing too
-
         carriers = [n for n in TEMPLATE_POINTS if n.split(".")[0] in WARP_GROUPS and n not in TEETH_POINTS]
         names = [n for n in carriers if n in points]
-        source = np.array([TEMPLATE_POINTS[n] for n in names]) / MM
-        target = np.array([points[n] for n in names]) / MM
-        self._offset = RBFInterpolator(source, target - source, kernel="linear", degree=1, smoothing=WARP_SMOOTHING)
+        self._source = np.array([TEMPLATE_POINTS[n] for n in names]) / MM
+        self._target = np.array([points[n] for n in names]) / MM
+
+    @cached_property
+    def _offset(self) -> RBFInterpolator:
+        """How far places of the template, in millimetres, are from their places on the face."""
+        from scipy.interpolate import RBFInterpolator  # tables are read where SciPy is missing too
+
+        way = self._target - self._source
+        return RBFInterpolator(self._source, way, kernel="linear", degree=1, smoothing=WARP_SMOOTHING)
 
     def __call__(self, positions: Floats) -> Floats:
         """Template positions (..., 3) as positions on the face, head space, metres."""
