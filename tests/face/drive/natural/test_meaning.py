@@ -153,8 +153,8 @@ def test_a_pose_says_what_the_emotion_showed_otherwise(face: Face) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("AU12 = [0, 1.0, 1.3]", "AU12 = [0, 1.0]", "joy.open.AU12"),
-        ("AU12 = [0, 1.0, 1.3]", "AU12 = [8, 1.0, 1.3]", "joy.open.AU12: must be the activation"),
+        ("AU12 = [0, 1.15, 1.5]", "AU12 = [0, 1.0]", "joy.open.AU12"),
+        ("AU12 = [0, 1.15, 1.5]", "AU12 = [8, 1.0, 1.3]", "joy.open.AU12: must be the activation"),
         ("still = [31, 32", "still = [99, 32", "names FAP 99"),
     ],
 )
