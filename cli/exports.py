@@ -139,8 +139,11 @@ def _export_gltf(arguments: argparse.Namespace) -> Result:
             object_name=arguments.object_name,
             morph_normals=arguments.morph_normals,
         )
-    lines = [f"wrote {made.path}: {', '.join(made.clips)}", *(f"note: {remark}" for remark in made.remarks)]
-    return Result({"out": made.path, "clips": made.clips, "remarks": made.remarks}, lines)
+    size = made.size
+    lines = [f"wrote {made.path}: {', '.join(made.clips)}", f"size: {size.line}"]
+    lines += [f"note: {remark}" for remark in made.remarks]
+    data = {"out": made.path, "clips": made.clips, "bytes": size.bytes, "bytes_full": size.full}
+    return Result({**data, "remarks": made.remarks}, lines)
 
 
 def _export_weights(arguments: argparse.Namespace) -> Result:

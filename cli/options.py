@@ -107,16 +107,25 @@ def add_onto(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--smooth", type=float, metavar="AMOUNT", help=about)
     about = "--onto keys, bones: key the action that plays, instead of laying a clip over it that can be taken off"
     parser.add_argument("--into-action", action="store_true", help=about)
+    about = "--onto new: at most N shape keys for a motion, the best ones; says how far it is off (default: no limit)"
+    parser.add_argument("--max-keys", type=int, metavar="N", help=about)
 
 
 def onto_options(arguments: argparse.Namespace, *, moves: bool = True) -> dict[str, Any]:
     """What `add_onto` has asked for; `moves` : whether a motion is baked, not single poses."""
     asked = {name: getattr(arguments, name) for name in ("symmetric", "smooth", "into_action")}
     given = {name: value for name, value in asked.items() if value not in (None, False)}
+    if arguments.max_keys is not None:
+        if arguments.onto != "new":
+            raise UsageError("--max-keys needs --onto new: your own keys and bones are as many as they are")
+        if not moves:
+            raise UsageError("--max-keys needs --dynamic: without it, each expression is one shape key")
+        if arguments.max_keys < 1:
+            raise UsageError("--max-keys must be 1 or more")
     if arguments.onto == "new":
         for name in given:
             raise UsageError(f"--{name.replace('_', '-')} needs --onto keys or bones")
-        return {"onto": "new"}
+        return {"onto": "new", "max_keys": arguments.max_keys}
     if arguments.mesh is None:
         raise UsageError(f"--onto {arguments.onto} needs --mesh: the default head has no controls of its own")
     if arguments.creases:

@@ -255,6 +255,18 @@ class Face:
             achieved.append(self.measure(place))
         return unmet(self.anatomy, frames, np.stack(achieved))
 
+    def unmet_measured(self, asked: ArrayLike, achieved: Floats) -> dict[int, str]:
+        """As `unmet`, of FAPs (n, 68) that were measured on the motion already.
+
+        Examples
+        --------
+        >>> face, asked = api.default_face(), np.full((1, 68), np.nan)
+        >>> asked[:, 31 - 1] = 100.0  # raise_l_i_eyebrow
+        >>> face.unmet_measured(asked, face.measure(face.vertices)[None])
+        {31: 'check feature point 4.1'}
+        """
+        return unmet(self.anatomy, checked_stream(asked), achieved)
+
     @cached_property
     def _poser(self) -> Poser:
         return Poser(self.anatomy)

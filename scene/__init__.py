@@ -21,6 +21,7 @@ node_graph            node groups built in a few words
 materials             materials and worlds with nodes
 sounds                sound on a timeline
 gltf                  a face with its clips as glTF
+traces                displacements too small to be seen
 laid_out             what such a file is made of: copies with each clip on a track of its name
 points                feature points on objects: found, kept, bound, shown
 bake                  shape keys, actions and strips

@@ -12,6 +12,7 @@ from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypedDict
 
 import bpy
 
@@ -23,11 +24,32 @@ from .pictures.film import refuse_unwritable_output
 
 
 @dataclass(frozen=True)
+class Size:
+    """How large a written file is.
+
+    Attributes
+    ----------
+    bytes : of the file, with what is beside it.
+    full : bytes that it would have if every morph target named every vertex: those that stay are left out.
+    """
+
+    bytes: int
+    full: int
+
+    @property
+    def line(self) -> str:
+        """For people."""
+        saved = f"; {self.full / 1e6:.1f} MB with every vertex of every shape key" if self.full > self.bytes else ""
+        return f"{self.bytes / 1e6:.1f} MB{saved}"
+
+
+@dataclass(frozen=True)
 class Exported:
-    """A glTF file, the names of the clips in it, and what the user should know."""
+    """A glTF file, the names of the clips in it, how large it is, and what the user should know."""
 
     path: Path
     clips: tuple[str, ...]
+    size: Size
     remarks: tuple[str, ...] = ()
 
 
@@ -52,7 +74,7 @@ def export_gltf(objects: Sequence[Object], path: str | Path, *, morph_normals: b
     own = set(shape_keys.own_names_of(head.data.shape_keys)) | {name for clip in clips.values() for name in clip.keys}
     blocks = () if head.data.shape_keys is None else head.data.shape_keys.key_blocks
     with laid_out(objects, clips) as scene, _shown(scene) as view, bpy.context.temp_override(**view):
-        write_gltf(
+        size = write_gltf(
             path,
             {block.name for block in blocks if block.name in own and not block.mute},
             clips,
@@ -64,12 +86,15 @@ def export_gltf(objects: Sequence[Object], path: str | Path, *, morph_normals: b
         )
     silent = ", ".join(silent_clips(head))
     return Exported(
-        path, tuple(clips), (f"nothing plays these clips, so they are not in the file: {silent}",) * bool(silent)
+        path, tuple(clips), size, (f"nothing plays these clips, so they are not in the file: {silent}",) * bool(silent)
     )
 
 
-def write_gltf(path: Path, targets: Collection[str], clips: Collection[str] = (), **options: object) -> None:
+def write_gltf(path: Path, targets: Collection[str], clips: Collection[str] = (), **options: object) -> Size:
     """Let Blender export the scene, and put what it wrote in place of what was there once all is in it.
+
+    A morph target lists the vertices that it moves wherever that is smaller. One that moves none lists one of them all
+    the same: not all engines read a list of nothing.
 
     Parameters
     ----------
@@ -88,23 +113,101 @@ def write_gltf(path: Path, targets: Collection[str], clips: Collection[str] = ()
     with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
         made = Path(folder) / path.name
         try:
-            bpy.ops.export_scene.gltf(filepath=str(made), export_format=kind, **options)
+            bpy.ops.export_scene.gltf(
+                filepath=str(made),
+                export_format=kind,
+                export_try_sparse_sk=True,
+                export_try_omit_sparse_sk=False,
+                **options,
+            )
         except RuntimeError as problem:
             raise SceneError(str(path), f"could not be exported ({str(problem).strip()[-200:]})") from problem
-        _refuse_incomplete(made, path, targets, clips)
-        for file in sorted(made.parent.rglob("*")):
-            if file.is_file():
-                place = path.parent / file.relative_to(made.parent)
-                place.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(file, place)
+        document = _document(made)
+        _refuse_incomplete(document, path, targets, clips)
+        files = [file for file in sorted(made.parent.rglob("*")) if file.is_file()]
+        for file in files:
+            place = path.parent / file.relative_to(made.parent)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, place)
+        written = sum(file.stat().st_size for file in files)
+    return Size(written, written + _left_out(document))
 
 
-def _refuse_incomplete(made: Path, path: Path, targets: Collection[str], clips: Collection[str]) -> None:
-    """Refuse a file `made` for `path` that holds no mesh, or not every morph target and clip."""
-    data = made.read_bytes()
+class _Listed(TypedDict):
+    """Where a sparse accessor lists the numbers or the values of its items."""
+
+    bufferView: int
+
+
+class _Sparse(TypedDict):
+    """The items of an accessor that are not zero."""
+
+    indices: _Listed
+    values: _Listed
+
+
+class _Accessor(TypedDict, total=False):
+    """So many items."""
+
+    count: int
+    sparse: _Sparse
+
+
+class _View(TypedDict):
+    """Part of a buffer."""
+
+    byteLength: int
+
+
+class _Extras(TypedDict, total=False):
+    """What a mesh is given besides."""
+
+    targetNames: list[str]
+
+
+class _Mesh(TypedDict, total=False):
+    """A mesh."""
+
+    extras: _Extras
+
+
+class _Animation(TypedDict, total=False):
+    """A clip."""
+
+    name: str
+
+
+class _Document(TypedDict, total=False):
+    """What is read of a glTF file."""
+
+    accessors: list[_Accessor]
+    bufferViews: list[_View]
+    meshes: list[_Mesh]
+    animations: list[_Animation]
+
+
+def _document(path: Path) -> _Document:
+    """The JSON of a .gltf or .glb."""
+    data = path.read_bytes()
     if data[:4] == b"glTF":
         data = data[20 : 20 + int.from_bytes(data[12:16], "little")]
-    document = json.loads(data)
+    found: _Document = json.loads(data)
+    return found
+
+
+def _left_out(document: _Document) -> int:
+    """Bytes that a file is spared by accessors that list only what is not zero: vectors of three floats, 12 bytes."""
+    spared = 0
+    for accessor in document.get("accessors", []):
+        if "sparse" in accessor:
+            listed = (accessor["sparse"]["indices"], accessor["sparse"]["values"])
+            views = (document["bufferViews"][each["bufferView"]] for each in listed)
+            spared += 12 * accessor["count"] - sum(view["byteLength"] for view in views)
+    return spared
+
+
+def _refuse_incomplete(document: _Document, path: Path, targets: Collection[str], clips: Collection[str]) -> None:
+    """Refuse a file for `path` that holds no mesh, or not every morph target and clip."""
     meshes = document.get("meshes", [])
     if not meshes:
         raise SceneError(str(path), "holds no mesh: Blender's exporter left the face out; export it with File > Export")

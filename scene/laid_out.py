@@ -24,6 +24,7 @@ from .rig import layers
 from .rig.clips import rig_clips
 from .rig.rig_copy import needed_objects, point_to_copies
 from .shape_mix import moving_keys
+from .traces import clear_traces
 
 #: What objects are called that lend their names.
 ASIDE = "Risorius Exporting"
@@ -110,6 +111,8 @@ def laid_out(objects: Sequence[Object], clips: Mapping[str, Clip]) -> Iterator[S
             copies[obj].data = obj.data.copy()
             _strip_modifiers(copies[obj])
             _lay_out_keys(obj, copies[obj], moved)
+        keyed = [keys for obj in objects if (keys := copies[obj].data.shape_keys) is not None]
+        clear_traces(keyed, {name for keys in keyed for name in shape_keys.own_names_of(keys)})
         if rigs:
             _lay_out_rigs(rigs, copies, moved)
         for obj in objects:

@@ -37,6 +37,7 @@ class RISORIUS_PT_bake(MeshSidebar, Panel):
             for name in ("start", "onset", "apex", "offset"):
                 column.prop(chosen, name)
         if destination_of(obj).to is BakeTo.NEW:
+            layout.prop(chosen, "max_keys")
             layout.prop(chosen, "creases")
         self._draw_state(layout, obj)
         column = layout.column(align=True)

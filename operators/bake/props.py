@@ -84,6 +84,17 @@ class RISORIUS_PG_bake(PropertyGroup):
             precision=2,
         ),
     ]
+    max_keys: Annotated[
+        int,
+        IntProperty(
+            name="Max Keys",
+            description="Shape keys that a baked motion may have. Engines limit them. The best ones are taken, and the "
+            "bake says how far the motion is off. 0: as many as it takes",
+            default=0,
+            min=0,
+            soft_max=100,
+        ),
+    ]
     start: Annotated[
         int,
         IntProperty(name="Start Frame", description="Frame at which the expression starts", default=1),

@@ -54,6 +54,11 @@ def creases_wanted(obj: Object) -> bool | None:
     return bool(chosen.creases) if chosen.is_property_set("creases") else None
 
 
+def most_keys(obj: Object) -> int | None:
+    """How many shape keys a motion may have; None for any number."""
+    return int(obj.risorius.bake.max_keys) or None
+
+
 def motion_of(obj: Object, performance: Performance) -> CueMotion:
     """What a motion bake of a performance simulates."""
     hands = [wanted.contractions for wanted in performance.wanted]
@@ -66,9 +71,10 @@ def expression_settings(obj: Object, scene: Scene, where: Destination) -> str:
 
 
 def _besides(obj: Object, where: Destination, *, moving: bool = False) -> object:
-    """What else a bake is made of: creases with new keys; onto a rig, how."""
+    """What else a bake is made of: creases with new keys, and how many; onto a rig, how."""
     if where.to is BakeTo.NEW:
-        return creases_wanted(obj)
+        limit = most_keys(obj) if moving else None
+        return creases_wanted(obj) if limit is None else (creases_wanted(obj), limit)
     return where.to.value, where.onto.symmetric, round(where.onto.smooth, 6) if moving else 0.0
 
 

@@ -19,6 +19,7 @@ from .settings import (
     clip_name,
     creases_wanted,
     expression_settings,
+    most_keys,
     motion_of,
     motion_settings,
     strip_curve,
@@ -89,9 +90,16 @@ def stream_work(
     where, target = where or destination_of(obj), target_of(obj, scene)
     fps, drive = bake.scene_fps(scene), obj.risorius.emotion.drive
     if where.to is BakeTo.NEW:
-        creases = creases_wanted(obj)
         return bake.bake_motion(
-            target, motion, clip=clip, start=start, fps=fps, drive=drive, creases=creases, note=note
+            target,
+            motion,
+            clip=clip,
+            start=start,
+            fps=fps,
+            drive=drive,
+            max_keys=most_keys(obj),
+            creases=creases_wanted(obj),
+            note=note,
         )
     rig = find_rig(where.to)
     return bake_motion_onto(

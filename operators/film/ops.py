@@ -103,7 +103,7 @@ class RISORIUS_OT_export_gltf(RisoriusOperator, Operator):
         exported = gltf.export_gltf(target.objects(), path, morph_normals=chosen.morph_normals)
         for remark in (*exported.remarks, *target.remarks()):
             self.report({"WARNING"}, remark)
-        return f"Exported {', '.join(exported.clips)} to {exported.path}"
+        return f"Exported {', '.join(exported.clips)} to {exported.path}: {exported.size.line}"
 
 
 def rendering(context: Context) -> Work[film.FilmResult]:

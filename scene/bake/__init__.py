@@ -6,6 +6,7 @@ writing                     shape keys and a clip written on all objects of a fa
 performance, strips         several expressions; a timeline
 motion                      what a motion bake simulates
 compress, compress_long     a motion as few shapes times weights; one of which some frames were posed
+gathered, fewest, local     its frames as they come; the fewest shapes; shapes that move a part each
 shape_keys, action, notes   Risorius' own keys; clips as actions; what a bake notes on them
 tracks                      how clips play: as the keys' action, or on NLA tracks beside one another
 remarks                     what an animator should know about a bake

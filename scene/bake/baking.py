@@ -18,7 +18,7 @@ from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of, face_steps
 from . import action as actions
 from . import shape_keys
-from .compress import TOLERANCE, Shapes, compress_steps
+from .compress import TOLERANCE, Shapes, gathering, squeeze
 from .compress_long import compress_long
 from .motion import Motion
 from .notes import Note
@@ -118,6 +118,7 @@ def bake_motion(
     fps: float | None = None,
     drive: str = "natural",
     tolerance: float = TOLERANCE,
+    max_keys: int | None = None,
     creases: bool | None = None,
     note: Note | None = None,
 ) -> Work[BakeResult]:
@@ -131,6 +132,7 @@ def bake_motion(
     fps : frames per second of the motion; by default the scene's.
     drive : as for `Face.simulate`.
     tolerance : metres on a life-size face; in proportion on one of another size.
+    max_keys : no more shape keys than these, the best ones; a remark says where the motion is then farther off.
     creases, note : as for `bake_expression`.
 
     Raises
@@ -147,11 +149,12 @@ def bake_motion(
     between = motion.between(face, drive)
     within, said = tolerance * face.scale, tuple[str, ...]()
     if between is None:
-        packed, missed = yield from part_of(_simulated(face, motion, rate, drive, within), 0.1, 0.97)
+        packed, missed = yield from part_of(_simulated(face, motion, rate, drive, within, max_keys), 0.1, 0.97)
     else:
         long = yield from part_of(between, 0.1, 0.7)
-        packed, missed = yield from part_of(_between(face, long, within), 0.7, 0.97)
+        packed, missed = yield from part_of(_between(face, long, within, max_keys), 0.7, 0.97)
         said = (long_remark(clip, long),)
+    said += few_keys_remarks(clip, packed, within)
     if len(packed.shapes) == 0:
         raise SceneError(source.head.name, "nothing moves in this motion: increase its activation or its duration")
     yield Progress(0.97, "Writing the shape keys")
@@ -164,27 +167,29 @@ def bake_motion(
 
 
 def _simulated(
-    face: Face, motion: Motion, fps: float, drive: str, tolerance: float
+    face: Face, motion: Motion, fps: float, drive: str, tolerance: float, max_keys: int | None
 ) -> Work[tuple[Shapes, Mapping[int, str]]]:
     """A motion simulated frame by frame, as shapes within a tolerance in metres; FAP number -> why it does not show."""
     count = motion.frame_count(fps)
-    moving = np.empty((count, *face.vertices.shape))
-    frames = motion.positions(face, fps, drive)
+    gathered = gathering(len(face.vertices), tolerance=tolerance, max_keys=max_keys)
+    frames, shown = motion.positions(face, fps, drive), list[Floats]()
     yield from part_of(frames.prepare(), 0.0, 0.2)
     for index, positions in enumerate(frames):
-        moving[index] = positions
+        gathered.add(positions - face.vertices)
+        shown.append(face.measure(positions))
         yield Progress(0.2 + 0.6 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
-    missed = yield from part_of(face.unmet_steps(motion.asked, moving), 0.8, 0.88)
-    yield Progress(0.88, "Compressing the motion to shape keys")
-    moving -= face.vertices
-    return (yield from part_of(compress_steps(moving, tolerance=tolerance), 0.88, 1.0)), missed
+    missed = face.unmet_measured(motion.asked, np.array(shown))
+    return (yield from part_of(squeeze(gathered, tolerance=tolerance, max_keys=max_keys), 0.8, 1.0)), missed
 
 
-def _between(face: Face, long: LongMotion, tolerance: float) -> Work[tuple[Shapes, Mapping[int, str]]]:
+def _between(
+    face: Face, long: LongMotion, tolerance: float, max_keys: int | None
+) -> Work[tuple[Shapes, Mapping[int, str]]]:
     """The same of a long motion, of which the frames that differ most are looked at."""
     some = long.posed[:MEASURED]
     missed = yield from part_of(face.unmet_steps(long.frames[some], long.positions(some)), 0.0, 0.2)
-    return (yield from part_of(compress_long(long, face.vertices, tolerance=tolerance), 0.2, 1.0)), missed
+    packing = compress_long(long, face.vertices, tolerance=tolerance, max_keys=max_keys)
+    return (yield from part_of(packing, 0.2, 1.0)), missed
 
 
 def long_remark(clip: str, long: LongMotion) -> str:
@@ -195,6 +200,14 @@ def long_remark(clip: str, long: LongMotion) -> str:
         f"{clip}: {len(long.posed)} of {len(long)} frames were posed and the others are between these, as a rule within"
         f" {usual:.1f} mm, at most {most:.1f} mm; the skin adds no inertia of its own"
     )
+
+
+def few_keys_remarks(clip: str, packed: Shapes, tolerance: float) -> tuple[str, ...]:
+    """What is to be said where fewer shape keys were allowed than a tolerance in metres takes."""
+    if packed.error <= tolerance or not packed.is_limited:
+        return ()
+    keys = f"{len(packed.shapes)} shape key" + "s" * (len(packed.shapes) != 1)
+    return (f"{clip}: {keys} show the motion within {1000.0 * packed.error:.2f} mm; more keys show it better",)
 
 
 def joined(results: Sequence[BakeResult]) -> BakeResult:

@@ -14,7 +14,8 @@ import numpy as np
 
 from ...arrays import Floats, Ints
 from ...progress import Progress, Work, part_of
-from .compress import TOLERANCE, Shapes
+from .compress import TOLERANCE, Shapes, gathering, squeeze
+from .gathered import squares
 
 if TYPE_CHECKING:
     from ...face.long_motion import LongMotion
@@ -25,74 +26,66 @@ SPREAD, CHECKED = 400, 100
 TELLING = 3
 #: Frames whose weights are found at once.
 BLOCK = 500
-#: Figures of each frame that are compared at once, and what share of the largest is nothing.
-COLUMNS, LEAST = 3000, 1e-12
+#: Frames of which all vertices are looked at at once.
+AT_ONCE = 16
 
 
-def compress_long(motion: LongMotion, rest: Floats, *, tolerance: float = TOLERANCE) -> Work[Shapes]:
+def compress_long(
+    motion: LongMotion, rest: Floats, *, tolerance: float = TOLERANCE, max_keys: int | None = None
+) -> Work[Shapes]:
     """A long motion with as few shapes as keep every vertex within `tolerance` at the frames they are made from.
 
     Parameters
     ----------
-    rest : (V, 3) of the face. tolerance : metres.
+    rest : (V, 3) of the face. tolerance : metres. max_keys : as for `compress`.
 
     Returns
     -------
     Shapes with weights for every frame; their `error` is the largest at frames between those, too.
     """
     steps = np.union1d(motion.posed, _spread(len(motion), SPREAD))
-    yield Progress(0.0, "Looking at the frames that differ")
-    moved = motion.positions(steps) - rest
-    shapes = yield from part_of(_few_shapes(moved, tolerance), 0.1, 0.5)
-    if len(shapes) == 0:
-        return Shapes(shapes, np.zeros((len(motion), 0)), float(np.linalg.norm(moved, axis=2).max()))
-    vertices = _telling(shapes)
-    solve = np.linalg.pinv(shapes[:, vertices].reshape(len(shapes), -1).T)
-    weights = np.empty((len(motion), len(shapes)))
-    for first in range(0, len(motion), BLOCK):
-        yield Progress(0.5 + 0.4 * first / len(motion), "Finding the weights of all frames")
-        some = np.arange(first, min(first + BLOCK, len(motion)))
-        weights[some] = (motion.positions(some, vertices) - rest[vertices]).reshape(len(some), -1) @ solve.T
-    weights[np.abs(np.nan_to_num(motion.frames)).max(axis=1) == 0.0] = 0.0
+    gathered = gathering(len(rest), tolerance=tolerance, max_keys=max_keys)
+    for first in range(0, len(steps), AT_ONCE):
+        yield Progress(0.3 * first / len(steps), "Looking at the frames that differ")
+        for positions in motion.positions(steps[first : first + AT_ONCE]):
+            gathered.add(positions - rest)
+    packed = yield from part_of(squeeze(gathered, tolerance=tolerance, max_keys=max_keys), 0.3, 0.5)
+    shapes = packed.shapes
+    weights = yield from part_of(_weights(motion, rest, shapes), 0.5, 0.9)
     peaks = np.abs(weights).max(axis=0)
     # Rounded as Blender will hold them.
     shapes = (shapes * peaks[:, None, None]).astype(np.float32).astype(np.float64)
     weights = (weights / peaks).astype(np.float32).astype(np.float64)
-    yield Progress(0.9, "Looking at frames between")
-    between = _spread(len(motion), CHECKED, between=True)
-    off = _farthest(moved, weights[steps], shapes)
-    off_between = _farthest(motion.positions(between) - rest, weights[between], shapes)
-    return Shapes(shapes, weights, max(off, off_between))
+    seen = np.union1d(steps, _spread(len(motion), CHECKED, between=True))
+    off = yield from part_of(_farthest(motion, rest, seen, weights, shapes), 0.9, 1.0)
+    return Shapes(shapes, weights, off, packed.is_limited)
 
 
-def _few_shapes(moved: Floats, tolerance: float) -> Work[Floats]:
-    """(K, V, 3) shapes whose sums come within `tolerance` of every vertex of displacements (n, V, 3), as few as do."""
-    flat = moved.reshape(len(moved), -1)
-    gram = np.zeros((len(flat), len(flat)))
-    for first in range(0, flat.shape[1], COLUMNS):
-        yield Progress(0.5 * first / flat.shape[1], "Comparing the frames that differ")
-        part = flat[:, first : first + COLUMNS]
-        gram += part @ part.T
-    values, vectors = np.linalg.eigh(gram)
-    kept = np.flatnonzero(values[::-1] > LEAST * max(float(values[-1]), 1e-300))
-    loadings = vectors[:, ::-1][:, kept]
-    shapes = (loadings.T @ flat).reshape(len(kept), *moved.shape[1:])
-    few, many = 0, len(kept)
-    while few < many:
-        yield Progress(0.5 + 0.5 * (1.0 - (many - few) / len(kept)), "Compressing the motion to shape keys")
-        middle = (few + many) // 2
-        if _farthest(moved, loadings[:, :middle], shapes[:middle]) > tolerance:
-            few = middle + 1
-        else:
-            many = middle
-    return shapes[:few]
+def _weights(motion: LongMotion, rest: Floats, shapes: Floats) -> Work[Floats]:
+    """(T, K) how much of each shape (K, V, 3) comes nearest to every frame, at the vertices that tell."""
+    weights = np.zeros((len(motion), len(shapes)))
+    if not len(shapes):
+        return weights
+    vertices = _telling(shapes)
+    solve = np.linalg.pinv(shapes[:, vertices].reshape(len(shapes), -1).T)
+    for first in range(0, len(motion), BLOCK):
+        yield Progress(first / len(motion), "Finding the weights of all frames")
+        some = np.arange(first, min(first + BLOCK, len(motion)))
+        weights[some] = (motion.positions(some, vertices) - rest[vertices]).reshape(len(some), -1) @ solve.T
+    weights[np.abs(np.nan_to_num(motion.frames)).max(axis=1) == 0.0] = 0.0
+    return weights
 
 
-def _farthest(moved: Floats, weights: Floats, shapes: Floats) -> float:
-    """The largest distance of any vertex of displacements (n, V, 3) from what weights (n, K) of shapes make."""
-    shown = weights.astype(np.float32) @ shapes.reshape(len(shapes), moved[0].size).astype(np.float32)
-    apart = moved - shown.reshape(moved.shape)
-    return float(np.sqrt((apart**2).sum(axis=2).max(initial=0.0)))
+def _farthest(motion: LongMotion, rest: Floats, steps: Ints, weights: Floats, shapes: Floats) -> Work[float]:
+    """The largest distance of any vertex at some frames from what weights (T, K) of shapes make."""
+    farthest = 0.0
+    for first in range(0, len(steps), AT_ONCE):
+        yield Progress(first / len(steps), "Looking at frames between")
+        some = steps[first : first + AT_ONCE]
+        shown = np.tensordot(weights[some], shapes, axes=1)
+        apart = (motion.positions(some) - rest - shown).reshape(len(some), -1)
+        farthest = max(farthest, float(np.sqrt(squares(apart).max(initial=0.0))))
+    return farthest
 
 
 def _spread(count: int, wanted: int, *, between: bool = False) -> Ints:

@@ -58,10 +58,17 @@ class Destination:
 
     to: BakeTo = BakeTo.NEW
     onto: Onto = USUAL
+    max_keys: int | None = None
 
     @classmethod
     def of(
-        cls, onto: str = BakeTo.NEW, *, symmetric: bool = False, smooth: float = 1.0, into_action: bool = False
+        cls,
+        onto: str = BakeTo.NEW,
+        *,
+        symmetric: bool = False,
+        smooth: float = 1.0,
+        into_action: bool = False,
+        max_keys: int | None = None,
     ) -> Destination:
         """From options.
 
@@ -70,12 +77,13 @@ class Destination:
         onto : "new", "keys" or "bones".
         symmetric, smooth : as in `Onto`.
         into_action : key the action that plays now instead of laying the clip over it.
+        max_keys : no more new shape keys for a motion than these, the best ones.
         """
         if onto not in list(BakeTo):
             raise ParameterError("onto", f"must be one of {', '.join(BakeTo)}", onto)
         if not (np.isfinite(smooth) and smooth >= 0.0):
             raise ParameterError("smooth", "must be 0 or more", smooth)
-        return cls(BakeTo(onto), Onto(symmetric, smooth, above=not into_action))
+        return cls(BakeTo(onto), Onto(symmetric, smooth, above=not into_action), max_keys)
 
     def expressions(self, face: Subject, cues: Sequence[Cue], creases: bool | None) -> Work[Baked]:
         """Each cue as a clip of its own, one after another, with few keyframes."""
@@ -104,7 +112,9 @@ class Destination:
         """A simulated motion as one clip."""
         start = bpy.context.scene.frame_start
         if self.to is BakeTo.NEW:
-            made = yield from bake.bake_motion(face.target, motion, clip=clip, start=start, creases=creases)
+            made = yield from bake.bake_motion(
+                face.target, motion, clip=clip, start=start, max_keys=self.max_keys, creases=creases
+            )
             return Baked([made], (), made.frame_range[1])
         moved = yield from bake_motion_onto(
             face.target, motion, find_rig(self.to), clip=clip, start=start, onto=self.onto

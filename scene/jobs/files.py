@@ -17,7 +17,13 @@ from ...errors import FormatError, ParameterError, SceneError
 
 @dataclass(frozen=True)
 class Made:
-    """What a job has written; ``dict(made)`` names it all. `clips` : reports of clips on a rig (`rig.report`)."""
+    """What a job has written; ``dict(made)`` names it all.
+
+    Attributes
+    ----------
+    error_mm : of new shape keys, how far the motion is off at most. bytes : size of the .blend.
+    clips : reports of clips on a rig (`rig.report`).
+    """
 
     blend: Path | None = None
     film: Path | None = None
@@ -26,6 +32,7 @@ class Made:
     frames: int | None = None
     shape_keys: int | None = None
     error_mm: float | None = None
+    bytes: int | None = None
     clips: tuple[Mapping[str, object], ...] = ()
     remarks: tuple[str, ...] = ()
 

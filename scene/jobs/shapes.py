@@ -10,6 +10,7 @@ from ...progress import Report, run
 from ..blendshape_keys import WrittenKeys, write_blendshapes
 from ..gltf import Exported, export_gltf, write_gltf
 from ..pictures.film import refuse_unwritable_output
+from ..traces import clear_traces
 from .files import save
 from .inputs import Input
 from .subjects import subject
@@ -52,6 +53,8 @@ def blendshape_file(
     if path.suffix.lower() == ".blend":
         save(path)
     else:
+        keys = [keys for obj in face.target.objects() if (keys := obj.data.shape_keys) is not None]
+        clear_traces(keys, written.keys)
         write_gltf(path, written.keys, export_animations=False, export_morph_normal=morph_normals)
     return written
 

@@ -178,6 +178,7 @@ def save_baked(out: Path, face: Subject, baked: Baked, look: Look) -> Made:
         face=face.obj.name,
         shape_keys=baked.new_keys,
         error_mm=baked.error_mm,
+        bytes=out.stat().st_size,
         clips=baked.reports,
         remarks=face.remarks + baked.remarks + said,
     )

@@ -19,6 +19,9 @@ ONTO = [*BAKE, "--mesh", "face.blend", "--onto", "keys"]
         ([*ONTO, "--smooth", "2"], "--smooth needs --dynamic"),
         ([*ONTO, "--creases"], "--creases needs --onto new"),
         ([*BAKE, "--onto", "hands"], "--onto"),
+        ([*BAKE, "--max-keys", "8"], "--max-keys needs --dynamic"),
+        ([*BAKE, "--dynamic", "--max-keys", "0"], "--max-keys must be 1 or more"),
+        ([*ONTO, "--dynamic", "--max-keys", "8"], "--max-keys needs --onto new"),
     ],
 )
 def test_what_does_not_go_together_exits_with_2(

@@ -13,11 +13,14 @@ from risorius.errors import SolverError
 from risorius.face.face import Face
 from risorius.face.mesh.parts import Part
 from risorius.mpeg4 import VARIANTS, default_variant
+from risorius.operators.bake.settings import stale_clips
+from risorius.progress import run
 from risorius.scene import bake, faces
 from risorius.scene import mesh as meshes
 from risorius.scene.bake import shape_keys
 from risorius.scene.bake.action import data_path
-from risorius.scene.bake.motion import FapMotion
+from risorius.scene.bake.motion import CueMotion, FapMotion
+from risorius.scene.bake.notes import BakeKind
 from risorius.scene.fcurves import key_curves
 from risorius.scene.points.stored import store_points
 
@@ -278,6 +281,25 @@ def test_a_motion_is_baked_within_a_tenth_of_a_millimetre(head: Any) -> None:
     count = len(key_names(head)) - 1
     assert 1 <= count <= len(moving) // 2
     print(f"{count} shape keys for {len(moving)} frames, {worst * 1000:.3f} mm")
+
+
+@pytest.mark.slow
+def test_a_motion_has_no_more_keys_than_are_allowed_and_says_how_far_it_is_off(head: Any) -> None:
+    choose(head, "surprise", onset=0.1, apex=0.04, offset=0.1)
+    motion = CueMotion([api.Cue(api.expression("surprise"), onset=0.1, apex=0.04, offset=0.1)])
+    made = run(bake.bake_motion(bake.Target(head), motion, clip="few", max_keys=2))
+    assert len(made.keys) == 2
+    assert made.error > 1e-4
+    (line,) = (line for line in made.remarks if line.startswith("few: 2 shape keys show the motion within"))
+    assert f"{1000.0 * made.error:.2f} mm" in line
+    free = run(bake.bake_motion(bake.Target(head), motion, clip="free"))
+    assert len(free.keys) > 2
+    assert not any("show the motion within" in line for line in free.remarks)
+    head.risorius.bake.max_keys = 1
+    assert bpy.ops.risorius.bake_motion() == {"FINISHED"}
+    assert len(shape_keys.read_own(head.data).clips["surprise motion"]) == 1
+    head.risorius.bake.max_keys = 2
+    assert stale_clips(head, bpy.context.scene) == {"surprise motion": BakeKind.MOTION}
 
 
 @pytest.mark.slow

@@ -90,3 +90,75 @@ def test_a_long_motion_in_which_nothing_moves_has_no_shapes() -> None:
     assert packed.shapes.shape == (0, 300, 3)
     assert packed.weights.shape == (100, 0)
     assert packed.error == 0.0
+
+
+def local_motion(vertices: int = 600) -> np.ndarray:
+    """Four parts of a row of vertices, each with a motion of its own."""
+    rng = np.random.default_rng(3)
+    weights = np.linalg.qr(rng.standard_normal((60, 4)))[0]
+    middles = np.linspace(75.0, vertices - 75.0, 4)
+    places = np.exp(-(((np.arange(vertices) - middles[:, None]) / 25.0) ** 2))
+    return np.tensordot(0.05 * weights, places[:, :, None] * rng.standard_normal((4, 1, 3)), axes=1)
+
+
+def test_shapes_are_local_where_the_motion_is() -> None:
+    packed = compress(local_motion())
+    moved = np.abs(packed.shapes).max(axis=2) > 0.0
+    assert len(packed.shapes) == 4
+    assert moved.mean() < 0.25
+    assert packed.error <= 1e-4
+
+
+def few_by_decomposition(moving: np.ndarray, tolerance: float) -> int:
+    """Shapes that a plain singular value decomposition takes."""
+    left, scale, right = np.linalg.svd(moving.reshape(len(moving), -1), full_matrices=False)
+    for count in range(len(scale)):
+        rest = (left[:, count:] * scale[count:]) @ right[count:]
+        if np.linalg.norm(rest.reshape(moving.shape), axis=2).max() <= tolerance:
+            return count
+    return len(scale)
+
+
+def test_fewer_shapes_than_are_best_in_the_mean() -> None:
+    """A region of few vertices that moves in many ways is what a decomposition comes to last."""
+    rng = np.random.default_rng(5)
+    broad = np.tensordot(rng.standard_normal((50, 10)), rng.standard_normal((10, 2000, 3)), axes=1) * 1e-4
+    broad[:, :20] += np.tensordot(rng.standard_normal((50, 3)), rng.standard_normal((3, 20, 3)), axes=1) * 1e-3
+    tolerance = 1.2e-3
+    assert len(compress(broad, tolerance=tolerance).shapes) < few_by_decomposition(broad, tolerance)
+
+
+@pytest.mark.parametrize("most", [1, 5, 12])
+def test_no_more_shapes_than_are_allowed_and_the_error_is_said(most: int) -> None:
+    moving = motion(30)
+    free = compress(moving, tolerance=1e-3)
+    packed = compress(moving, tolerance=1e-3, max_keys=most)
+    assert len(packed.shapes) == most < len(free.shapes)
+    assert packed.is_limited
+    assert not free.is_limited
+    apart = np.linalg.norm(packed.displacement() - moving, axis=2).max()
+    assert packed.error == pytest.approx(apart, rel=1e-6)
+    left, scale, right = np.linalg.svd(moving.reshape(len(moving), -1), full_matrices=False)
+    rest = (left[:, most:] * scale[most:]) @ right[most:]
+    assert apart <= np.linalg.norm(rest.reshape(moving.shape), axis=2).max()
+
+
+def test_a_limit_that_is_not_reached_changes_nothing() -> None:
+    moving = motion(5)
+    free, packed = compress(moving), compress(moving, max_keys=100)
+    np.testing.assert_array_equal(packed.shapes, free.shapes)
+    assert not packed.is_limited
+
+
+def test_no_shapes_at_all_is_refused() -> None:
+    with pytest.raises(ParameterError, match="max_keys"):
+        compress(motion(1), max_keys=0)
+
+
+def test_a_long_motion_has_no_more_shapes_than_are_allowed() -> None:
+    motion = Waves(12, 3000)
+    packed = run(compress_long(motion, np.ones((300, 3)), tolerance=1e-5, max_keys=4))
+    assert len(packed.shapes) == 4
+    assert packed.is_limited
+    apart = packed.displacement() - (motion.positions(np.arange(3000)) - 1.0)
+    assert np.linalg.norm(apart, axis=2).max() <= 1.05 * packed.error

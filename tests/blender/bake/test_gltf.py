@@ -360,3 +360,20 @@ def test_keys_that_ours_drive_move_in_the_clips_under_an_armature(head: Any, tmp
             bpy.context.scene.frame_set(frame)
             seen.append(face.data.shape_keys.key_blocks["fix"].value)
         assert max(seen) == pytest.approx(highest, abs=1e-4)
+
+
+def test_targets_list_only_the_vertices_that_they_move(joy_and_fear: Any, tmp_path: Path) -> None:
+    exported = export_gltf([joy_and_fear], tmp_path / "face.glb")
+    written = document(exported.path)
+    targets = [target for part in written["meshes"][0]["primitives"] for target in part["targets"]]
+    listed = [written["accessors"][target["POSITION"]] for target in targets]
+    moving = sum(each["sparse"]["count"] if "sparse" in each else each["count"] for each in listed)
+    assert 0 < moving < 0.75 * sum(each["count"] for each in listed)
+    assert exported.size.bytes == exported.path.stat().st_size
+    assert exported.size.full > 1.08 * exported.size.bytes
+    assert f"{exported.size.full / 1e6:.1f} MB with every vertex" in exported.size.line
+
+
+def test_what_is_beside_a_gltf_counts(joy_and_fear: Any, tmp_path: Path) -> None:
+    size = export_gltf([joy_and_fear], tmp_path / "face.gltf", morph_normals=True).size
+    assert size.bytes == sum(file.stat().st_size for file in tmp_path.iterdir())

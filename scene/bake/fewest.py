@@ -1,0 +1,144 @@
+"""The fewest shapes that keep every vertex of a motion within a tolerance.
+
+A singular value decomposition is best in the mean: it spends shapes on the whole cheek where only the corner of the
+mouth is still off. Here vertices that are farther off count more and the decomposition is made again, until the worst
+vertices are equally far off (Lawson's algorithm for approximation in the largest error, with a decomposition in place
+of least squares). On the six emotions of the default head, 16 shapes do instead of 23.
+
+Limitations. The worst vertex falls from round to round as a rule, not always, and the rounds may end above the best
+that there is: then there is one shape more than there must be.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Floats, Ints, Singles
+from ...progress import Progress, Work
+from .gathered import BLOCK, TEXT, Gathered, squares
+
+#: Rounds for one number of shapes, how sharply the error of a vertex counts in the next, and the least that it counts.
+ROUNDS, SHARPNESS, LEAST = 14, 0.7, 0.02
+#: Vertices and frames that stand for all at first, and how many of the worst join them where others turn out worse.
+VERTICES, FRAMES, JOINING = 3000, 120, 500
+#: How often vertices may join for one number of shapes.
+JOINED = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Few:
+    """Shapes of a gathered motion: ``displacement = weights @ parts @ fields``, weights (T, k) and parts (k, r)."""
+
+    weights: Floats
+    parts: Floats
+
+    def turned(self, rotation: Floats) -> Few:
+        """The same motion, by shapes turned (k, k) among one another."""
+        return Few(self.weights @ rotation.T, rotation @ self.parts)
+
+    def scaled(self) -> Few:
+        """The same motion, with weights whose largest is 1."""
+        rows = np.argmax(np.abs(self.weights), axis=0)
+        peaks = self.weights[rows, np.arange(len(rows))]
+        return Few(self.weights / peaks, self.parts * peaks[:, None])
+
+
+class Search:
+    """Looks for few shapes of one motion, with some of its frames and vertices in place of all."""
+
+    def __init__(self, motion: Gathered) -> None:
+        """Choose frames that differ and vertices spread evenly."""
+        from scipy.linalg import qr
+
+        self.fields, self.loadings = motion.fields, motion.loadings
+        self._orthonormal, self._scale = np.linalg.qr(self.loadings)
+        _, order = qr(self.loadings.T, mode="r", pivoting=True)
+        evenly = np.linspace(0, len(self.loadings) - 1, FRAMES).astype(np.int64)
+        self._frames = np.union1d(order[:FRAMES], evenly)
+        count = self.fields.shape[1] // 3
+        self._sampled(np.unique(np.linspace(0, count - 1, VERTICES).astype(np.int64)))
+
+    def _sampled(self, vertices: Ints) -> None:
+        """Let some vertices stand for all; each counts alike."""
+        self._vertices = vertices
+        columns = (3 * vertices[:, None] + np.arange(3)).ravel()
+        self._some = np.ascontiguousarray(self.fields[:, columns], dtype=np.float64)
+        self._count = np.ones(len(vertices))
+
+    def fewest(self, tolerance: float, *, most: int | None = None) -> Work[tuple[Few, Floats]]:
+        """The fewest that stay within a tolerance, metres, and how far (V,) each vertex is off at most.
+
+        `most` : no more than these, even where they do not stay within it.
+        """
+        low, high = 0, len(self.fields)
+        while low < high:
+            yield Progress(0.5, TEXT)
+            middle = (low + high) // 2
+            if self._best(middle, tolerance)[1] <= tolerance:
+                high = middle
+            else:
+                low = middle + 1
+        last = len(self.fields) if most is None else min(most, len(self.fields))
+        for count in range(min(low, last), last + 1):
+            few, off = yield from self.best(count, tolerance)
+            if off.max(initial=0.0) <= tolerance:
+                break
+        return few, off
+
+    def best(self, count: int, tolerance: float) -> Work[tuple[Few, Floats]]:
+        """So many that come nearest, or within a tolerance, and how far (V,) each vertex is off at most."""
+        found: tuple[Few, Floats] | None = None
+        for _ in range(JOINED):
+            few, sampled = self._best(count, tolerance)
+            off = yield from self.off(few)
+            if found is None or off.max(initial=0.0) < found[1].max():
+                found = few, off
+            worst = np.argsort(off)[::-1][:JOINING]
+            worst = worst[off[worst] > max(tolerance, sampled)]
+            if not len(worst):
+                break
+            self._sampled(np.union1d(self._vertices, worst))
+        assert found is not None
+        return found
+
+    def off(self, few: Few) -> Work[Floats]:
+        """(V,) how far each vertex is off in any frame, metres."""
+        left = (self.loadings - few.weights @ few.parts).astype(np.float32)
+        return (yield from farthest(left, self.fields))
+
+    def _best(self, count: int, tolerance: float) -> tuple[Few, float]:
+        """So many shapes, and how far the sampled vertices are off at most in the sampled frames."""
+        found, least, counts = None, np.inf, np.ones(len(self._vertices))
+        for _ in range(ROUNDS):
+            few = self._weighted(count, counts)
+            left = self.loadings[self._frames] - few.weights[self._frames] @ few.parts
+            off = np.sqrt(squares(left @ self._some).max(axis=0))
+            largest = float(off.max(initial=0.0))
+            if found is None or largest < least:
+                found, least = few, largest
+            if least <= tolerance or largest == 0.0:
+                break
+            counts = counts * np.maximum(off / largest, LEAST) ** SHARPNESS
+            counts /= counts.max()
+        assert found is not None
+        return found, least
+
+    def _weighted(self, count: int, counts: Floats) -> Few:
+        """So many shapes that are best in the mean, each sampled vertex counting so much."""
+        scaled = self._scale @ (self._some * np.repeat(counts, 3))
+        _, vectors = np.linalg.eigh(scaled @ scaled.T)
+        chosen = np.ascontiguousarray(vectors[:, ::-1][:, :count])
+        return Few(self._orthonormal @ chosen, chosen.T @ self._scale)
+
+
+def farthest(left: Singles, fields: Singles) -> Work[Floats]:
+    """(V,) the longest that any row of loadings (T, r) makes each vertex of some fields (r, 3 V)."""
+    longest = np.empty(fields.shape[1] // 3)
+    size = max(BLOCK // (3 * max(len(left), 1)), 1)
+    for first in range(0, len(longest), size):
+        yield Progress(0.5, TEXT)
+        apart = left @ fields[:, 3 * first : 3 * (first + size)]
+        longest[first : first + size] = np.sqrt(squares(apart).max(axis=0, initial=0.0))
+    return longest
