@@ -11,6 +11,7 @@ from ...arrays import Floats, Ints
 from ...mpeg4 import ANGLE_UNIT
 from ..figures import Length, Share, read_figures
 from ..mechanisms.lids import Eye
+from ..mesh.head_frame import rotation_between
 from ..skin.outer import smoothstep
 from .direct_faps import value_of
 from .surroundings import Look
@@ -115,7 +116,8 @@ class Eyeball:
         body = (away @ self.gaze) < np.cos(self.iris) * np.linalg.norm(away, axis=1)
         if body.sum() < 4:
             body = np.ones(len(away), dtype=bool)
-        turn, _ = Rotation.align_vectors(now[body] - now[body].mean(axis=0), away[body] - away[body].mean(axis=0))
+        turned = rotation_between(away[body] - away[body].mean(axis=0), now[body] - now[body].mean(axis=0))
+        turn = Rotation.from_matrix(turned)
         centre_shift = now[body].mean(axis=0) - turn.apply(away[body].mean(axis=0))
         yaw, pitch, _ = turn.as_euler("yxz")
         values = {

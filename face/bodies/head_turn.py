@@ -10,11 +10,13 @@ from scipy.spatial.transform import Rotation
 from ...arrays import Bools, Floats, Ints
 from ...mpeg4 import ANGLE_UNIT
 from ..figures import Length, Pair, read_figures
+from ..mesh.head_frame import rotation_between
 from ..skin.outer import smoothstep
 from .direct_faps import value_of
 
-#: The skull's pose is refitted this often with weight on the vertices that agree to about this distance, metres.
-SKULL_ROUNDS, SKULL_TOLERANCE = 12, 1e-6
+#: The skull's pose is refitted this often with weight on the vertices that agree to about this distance, metres, or
+#: until none of them is off by this more or less than before.
+SKULL_ROUNDS, SKULL_TOLERANCE, SKULL_SETTLED = 12, 1e-6, 1e-12
 
 
 @dataclass(frozen=True)
@@ -78,14 +80,17 @@ class HeadTurn:
 
     def _rigid_motion(self, source: Floats, target: Floats) -> tuple[Rotation, Floats]:
         """Rotation about the pivot and shift (3,) that most skull vertices agree on (iteratively reweighted)."""
-        weights = np.ones(len(source))
+        weights, before = np.ones(len(source)), np.full(len(source), np.inf)
         for _ in range(SKULL_ROUNDS):
-            middle, moved = np.average(source, axis=0, weights=weights), np.average(target, axis=0, weights=weights)
-            turn, _ = Rotation.align_vectors(target - moved, source - middle, weights=weights)
-            shift = moved - (turn.apply(middle - self.pivot) + self.pivot)
-            off = np.linalg.norm(turn.apply(source - self.pivot) + self.pivot + shift - target, axis=1)
-            weights = 1.0 / (off + SKULL_TOLERANCE)
-        return turn, shift
+            shares = weights / weights.sum()
+            middle, moved = shares @ source, shares @ target
+            turn = rotation_between((source - middle) * shares[:, None], target - moved)
+            shift = moved - (turn @ (middle - self.pivot) + self.pivot)
+            off = np.sqrt((((source - self.pivot) @ turn.T + self.pivot + shift - target) ** 2).sum(axis=1))
+            if np.abs(off - before).max() <= SKULL_SETTLED:
+                break
+            weights, before = 1.0 / (off + SKULL_TOLERANCE), off
+        return Rotation.from_matrix(turn), shift
 
 
 def build_head_turn(positions: Floats, pivot: Floats, brow_height: float, read: Bools) -> HeadTurn:

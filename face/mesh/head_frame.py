@@ -53,7 +53,7 @@ class HeadFrame:
         return positions @ self.axes * self.scale + self.origin
 
 
-def _rotation_between(source: Floats, target: Floats) -> Floats:
+def rotation_between(source: Floats, target: Floats) -> Floats:
     """Rotation R (3, 3) with R @ source ~ target for centred point sets (n, 3) (Kabsch)."""
     u, _, vt = np.linalg.svd(target.T @ source)
     flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt))])
@@ -96,7 +96,7 @@ def _axes(points: Mapping[str, Floats]) -> Floats:
     spread = np.linalg.svd(target, compute_uv=False)
     if not np.isfinite(spread).all() or spread[1] < 1e-3 * spread[0] or spread[0] == 0.0:
         raise ModelError("the feature points are on one line or in one place: they do not form a face")
-    fitted: Floats = _rotation_between(source, target).T
+    fitted: Floats = rotation_between(source, target).T
     modelled = np.rint(fitted)
     if not np.array_equal(modelled @ modelled.T, np.eye(3)):  # far from any axes: no rotation at all
         return fitted
