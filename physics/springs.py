@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from ..arrays import Floats, Ints
+from ..arrays import Floats, Ints, Singles
 from ..errors import ParameterError
 from .elastic import dirichlet_springs, pair_laplacian
 from .mesh import Polygons, Sparse
@@ -209,7 +209,7 @@ class SpringNetwork:
         """Elastic energy in J at `positions` (V, 3) m; 0 where every spring has its rest length."""
         return self.energy_and_force(positions)[0]
 
-    def stiffness_between(self, positions: Floats, apart: Floats) -> Floats:
+    def stiffness_between(self, positions: Floats, apart: Singles) -> Floats:
         """(k, k) N/m: what the true stiffness at positions (V, 3) m makes of k displacement fields, each by each.
 
         `apart` (3, S, k) is how far each field takes the ends of each spring apart, along x, y and z.
@@ -221,9 +221,11 @@ class SpringNetwork:
         pull, _ = _tension_and_work(stretch, self.stiffness_low, extra, limit, self.law)
         across = pull / np.where(length > 0, length, 1.0)
         along = self.stiffness_low + extra * (stretch > limit) - across
-        lengthened = np.einsum("cs,csk->sk", way / np.where(length > 0, length, 1.0), apart)
-        turned = sum((part.T @ (across[:, None] * part) for part in apart), np.zeros(2 * (apart.shape[2],)))
-        return np.asarray(turned + lengthened.T @ (along[:, None] * lengthened))
+        across, along = (each[:, None].astype(np.float32) for each in (across, along))
+        x, y, z = (way / np.where(length > 0, length, 1.0)).astype(np.float32)[:, :, None] * apart
+        lengthened = x + y + z
+        turned = sum((part.T @ (across * part) for part in apart), np.zeros(2 * (apart.shape[2],)))
+        return np.asarray(turned + lengthened.T @ (along * lengthened), dtype=np.float64)
 
     def laplacian(self, *, high: bool = False) -> Sparse:
         """Graph Laplacian (V, V) N/m of the low (or high) constants: a bound from above on the true stiffness."""

@@ -33,6 +33,9 @@ UNSEEN = 5e-6
 #: The same for a face that is only sketched; and how far off what is foretold may be, metres.
 SKETCHED, FORETOLD = 2e-5, 7e-5
 
+#: The same for one of the balances that stand for a whole clip, metres.
+SAMPLED = 5e-6
+
 #: Matrices that differ by less than this share are one.
 ROUNDING = 1e-12
 
@@ -73,14 +76,33 @@ class Relaxation:
         ------
         SolverError : contractions beyond what the skin can bear.
         """
+        if known is None:
+            return self._balance(amounts, 0.0, TOLERANCE)[0]
+        balanced, known.latest = self._balance(amounts, known.latest, SKETCHED)
+        return balanced
+
+    def added(self, amounts: Amounts, foretold: Floats | None = None) -> Floats:
+        """(n, 3) metres, what the springs add to the sheet's displacement at low strain, before sliding and bulging.
+
+        Where something is `foretold` of it, the search begins there and ends a little short of balance.
+
+        Raises
+        ------
+        SolverError : as `balance`.
+        """
+        if not amounts.muscles.any() or not self.skin.has(Mechanism.BIPHASIC):
+            return np.zeros_like(self.skin.positions)
+        if foretold is None:
+            return self._balance(amounts, 0.0, TOLERANCE)[1]
+        return self._balance(amounts, foretold, SAMPLED)[1]
+
+    def _balance(self, amounts: Amounts, added: Floats | float, tolerance: float) -> tuple[Floats, Floats]:
+        """Positions of the sheet in balance, and what springs add there, where they add about so much; (n, 3) each."""
         low_strain = np.tensordot(amounts.muscles, self.actuators.sheets, axes=1)
         force = self._membrane * np.asarray(self.sheet.stiffness @ low_strain)
         start = self.skin.positions + low_strain
-        if known is None:
-            return self._solver.solve(force, start=start).positions
-        balanced = self._solver.solve(force, start=start + known.latest, tolerance=SKETCHED).positions
-        known.latest = balanced - start
-        return balanced
+        balanced = self._solver.solve(force, start=start + added, tolerance=tolerance).positions
+        return balanced, balanced - start
 
     def pulled(self, amounts: Amounts, *, known: Recollection | None = None) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, metres: what `Actuators.low_strain` is at low strain.

@@ -3,8 +3,8 @@
 Along a clip the amounts of the muscles run through few directions, and what stiffening springs add to the low-strain
 response is small and smooth over them. So the equilibrium is solved for some of the clip's own amounts, the farthest
 from all others first, and what it adds is interpolated for the rest by radial functions over the amounts
-(`scipy.interpolate.RBFInterpolator`). Each new equilibrium is first held against what the others foretold of it; none
-is added any more where that agrees.
+(`scipy.interpolate.RBFInterpolator`). Each new equilibrium is sought from what the others foretold of it, and held
+against that; none is added any more where it agrees.
 """
 
 from __future__ import annotations
@@ -71,33 +71,34 @@ def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[Sample
     muscles = np.array([amounts.muscles for amounts in clip])
     places = _places(muscles)
     chosen: list[int] = []
-    beyond: list[Floats] = []
+    added: list[Floats] = []
     largest = off = 0.0
     tried = [0]
     while tried:
         weights = foretelling(places, chosen)
         off = 0.0
         for step in tried:
-            yield Progress(1.0 - 1.0 / (1.0 + len(beyond) / (1 + places.shape[1])), TEXT)
-            linear = relaxation.actuators.low_strain(clip[step])
+            yield Progress(1.0 - 1.0 / (1.0 + len(added) / (1 + places.shape[1])), TEXT)
+            fields = (weight * field for weight, field in zip(weights[step], added, strict=False))
+            foretold = sum(fields, np.zeros_like(relaxation.skin.positions))
             try:
-                added = relaxation.pulled(clip[step]) - linear
+                # The first is found as a pose is, so that a clip which holds a face holds its pose.
+                found = relaxation.added(clip[step], foretold if added else None)
             except SolverError as error:
                 raise SolverError(f"the motion could not be solved: {error}", frame=step) from error
-            foretold = sum((w * field for w, field in zip(weights[step], beyond, strict=False)), np.zeros_like(added))
-            off = max(off, float(np.linalg.norm(added - foretold, axis=1).max()))
+            off = max(off, float(np.linalg.norm(found - foretold, axis=1).max()))
+            linear = relaxation.actuators.low_strain(clip[step])
             largest = max(largest, float(np.linalg.norm(linear, axis=1).max()))
-            beyond.append(added)
+            added.append(found)
         spanned = len(chosen) > places.shape[1]
         chosen += tried
         if spanned and off <= max(AGREED, AGREED_SHARE * largest):
             break
         more = max(TRIED, int(TRIED_SHARE * len(chosen)))
         tried = farthest(places, chosen, more if len(chosen) > places.shape[1] else 1)
-    every = foretelling(places, chosen)
-    return SampledPull(
-        relaxation.actuators.low_strain_each, muscles, np.array(chosen), np.array(beyond), every, off
-    )
+    beyond = relaxation.sheet.show(np.array(added))
+    low_strain, every = relaxation.actuators.low_strain_each, foretelling(places, chosen)
+    return SampledPull(low_strain, muscles, np.array(chosen), beyond, every, off)
 
 
 def farthest(places: Floats, chosen: Sequence[int], count: int) -> list[int]:
