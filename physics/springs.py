@@ -221,11 +221,11 @@ class SpringNetwork:
         pull, _ = _tension_and_work(stretch, self.stiffness_low, extra, limit, self.law)
         across = pull / np.where(length > 0, length, 1.0)
         along = self.stiffness_low + extra * (stretch > limit) - across
-        across, along = (each[:, None].astype(np.float32) for each in (across, along))
+        sideways, lengthways = (each[:, None].astype(np.float32) for each in (across, along))
         x, y, z = (way / np.where(length > 0, length, 1.0)).astype(np.float32)[:, :, None] * apart
         lengthened = x + y + z
-        turned = sum((part.T @ (across * part) for part in apart), np.zeros(2 * (apart.shape[2],)))
-        return np.asarray(turned + lengthened.T @ (along * lengthened), dtype=np.float64)
+        turned = sum((part.T @ (sideways * part) for part in apart), np.zeros(2 * (apart.shape[2],)))
+        return np.asarray(turned + lengthened.T @ (lengthways * lengthened), dtype=np.float64)
 
     def laplacian(self, *, high: bool = False) -> Sparse:
         """Graph Laplacian (V, V) N/m of the low (or high) constants: a bound from above on the true stiffness."""
