@@ -20,6 +20,7 @@ face, followers, parts,    which face, what belongs to it, where its feature poi
 emotion, wheel, preview    which emotion, pointed at, shown at once
 muscles, tissue, show      muscles by hand, what skin is made of, what happens under it
 timeline, library          expressions in time; kept as files
+speech                     what a face says
 recording                  what trackers saw, and FAPs over time
 bake, film, shapes         made of it: keys, films, shapes for engines
 read                       what a face shows

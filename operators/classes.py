@@ -61,6 +61,9 @@ from .recording.props import RISORIUS_PG_recording
 from .shapes.ops import RISORIUS_OT_make_shapes
 from .shapes.props import RISORIUS_PG_shapes
 from .show.props import RISORIUS_PG_show
+from .speech.ops import RISORIUS_OT_speak
+from .speech.panel import RISORIUS_PT_speech
+from .speech.props import RISORIUS_PG_speech
 from .timeline.drag import RISORIUS_OT_drag_clip
 from .timeline.ops import (
     RISORIUS_MT_clips,
@@ -98,6 +101,7 @@ PROPERTIES = (
     RISORIUS_PG_timeline,
     RISORIUS_PG_bake,
     RISORIUS_PG_recording,
+    RISORIUS_PG_speech,
     RISORIUS_PG_film,
     RISORIUS_PG_shapes,
     RISORIUS_PG_read,
@@ -166,6 +170,7 @@ OPERATORS = (
     RISORIUS_OT_load_preset,
     RISORIUS_OT_bake_recording,
     RISORIUS_OT_import_fap,
+    RISORIUS_OT_speak,
     RISORIUS_OT_render_film,
     RISORIUS_OT_export_gltf,
     RISORIUS_OT_make_shapes,
@@ -196,6 +201,7 @@ PANELS = (
     RISORIUS_MT_library,
     RISORIUS_FH_preset,
     RISORIUS_FH_fap,
+    RISORIUS_PT_speech,
     RISORIUS_PT_bake,
     RISORIUS_PT_read,
     RISORIUS_PT_read_faps,

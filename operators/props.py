@@ -21,6 +21,7 @@ from .read.props import RISORIUS_PG_read
 from .recording.props import RISORIUS_PG_recording
 from .shapes.props import RISORIUS_PG_shapes
 from .show.props import RISORIUS_PG_show
+from .speech.props import RISORIUS_PG_speech
 from .timeline.props import RISORIUS_PG_timeline
 from .tissue.props import RISORIUS_PG_tissue
 from .wheel.props import RISORIUS_PG_wheel
@@ -36,6 +37,7 @@ class RISORIUS_PG_object(PropertyGroup):
     tissue: Annotated[RISORIUS_PG_tissue, PointerProperty(type=RISORIUS_PG_tissue)]
     bake: Annotated[RISORIUS_PG_bake, PointerProperty(type=RISORIUS_PG_bake)]
     recording: Annotated[RISORIUS_PG_recording, PointerProperty(type=RISORIUS_PG_recording)]
+    speech: Annotated[RISORIUS_PG_speech, PointerProperty(type=RISORIUS_PG_speech)]
 
 
 class RISORIUS_PG_scene(PropertyGroup):

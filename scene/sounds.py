@@ -11,8 +11,10 @@ from .blender_types import Scene
 CHANNEL = 2
 
 
-def add_sound(scene: Scene, path: str | Path, *, frame: int) -> None:
+def add_sound(scene: Scene, path: str | Path, *, frame: int, packed: bool = False) -> None:
     """Put a sound file on a scene's timeline, from a frame on, on the first channel that is free there.
+
+    `packed`: into the .blend, so that it needs the file no more.
 
     Raises
     ------
@@ -32,3 +34,5 @@ def add_sound(scene: Scene, path: str | Path, *, frame: int) -> None:
     if strip.frame_final_duration <= 1:
         strips.remove(strip)
         raise FormatError(file, "is no sound that this Blender can play: convert it to WAV")
+    if packed:
+        strip.sound.pack()

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ..arrays import Floats
+from ..errors import ParameterError
 from ..face.drive.over_time import cue_plans
 from ..face.drive.request import Drive
 from ..mpeg4 import ARCHETYPES, FAP_COUNT, Cue, FapStream, Liveliness, Profile, emotion_weights, load_timings, strengths
@@ -44,6 +45,8 @@ def say(
     said: Utterance | str | Path,
     *,
     emotion: Profile | None = None,
+    cues: Sequence[Cue] = (),
+    begin: float = 0.0,
     fps: float = 25.0,
     articulation: float = 1.0,
     jaw: float = 1.0,
@@ -59,6 +62,7 @@ def say(
     ----------
     said : an utterance, or a file of timings (`read_timings`, which takes tier and alphabet).
     emotion : what is felt all the while (`expression`); it goes when all is said.
+    cues : instead, expressions that come and go; `begin` : seconds of their time at which the speech begins.
     fps : frames per second.
     articulation : how distinctly lips and tongue move, 0 to 2. jaw : how far the jaw opens, 0 to 2.
     lean : how far the mouth leans to the emotion while speaking, 0 to 2.
@@ -68,7 +72,7 @@ def say(
     Raises
     ------
     FormatError : the file of timings cannot be read.
-    ParameterError : a value outside its range.
+    ParameterError : a value outside its range, or both an emotion and cues.
 
     Examples
     --------
@@ -79,22 +83,26 @@ def say(
     >>> bool(lower_lip + upper_lip > 0.0)  # closed
     True
     """
+    if emotion is not None and cues:
+        raise ParameterError("cues", "must be left out where an emotion is given", len(cues))
     utterance = said if isinstance(said, Utterance) else read_timings(said, tier=tier, alphabet=alphabet)
     spoken = articulate(utterance, fps, articulation=articulation, jaw=jaw)
-    cues = [] if emotion is None else [_cue(emotion, utterance, seed)]
-    count = max(len(spoken), math.ceil(cues[0].duration * fps - 1e-6) + 1 if cues else 0)
+    felt_cues = tuple(cues) if emotion is None else (_throughout(emotion, utterance, seed),)
+    ahead = round(begin * fps)
+    shown = emotion_weights(felt_cues, fps=fps) if felt_cues else np.zeros((0, len(ARCHETYPES)))
+    count = max(len(spoken), len(shown) - ahead)
     spoken = _lasting(spoken, count)
-    felt = _felt(cues, liveliness, count, fps)
-    emotions = np.zeros((count, len(ARCHETYPES)))
-    if cues:
-        shown = emotion_weights(cues, fps=fps)
-        emotions[: len(shown)] = shown[:count]
+    emotions = _shifted(shown, ahead, count, 0.0)
+    felt = _shifted(_planned(felt_cues, fps), ahead, count, np.nan)
+    if liveliness is not None:
+        shares = strengths(felt_cues, fps=fps) if felt_cues else np.zeros((0, 0))
+        felt = _alive(felt, felt_cues, _shifted(shares, ahead, count, 0.0), liveliness, fps)
     frames = mixed(spoken, felt, utterance, fps, lean=lean)
     stream = FapStream(frames, fps=fps, name="speech", assumed=utterance.assumed)
     return Saying(utterance, stream, emotions, utterance.assumed)
 
 
-def _cue(emotion: Profile, utterance: Utterance, seed: int | None) -> Cue:
+def _throughout(emotion: Profile, utterance: Utterance, seed: int | None) -> Cue:
     """An emotion that is there from the beginning, and goes when all is said."""
     timing = load_timings()[TIMING]
     return Cue(emotion, onset=0.0, apex=utterance.duration, offset=timing.offset, ramp=timing.ramp, seed=seed)
@@ -105,17 +113,25 @@ def _lasting(spoken: Floats, count: int) -> Floats:
     return np.concatenate([spoken, np.repeat(spoken[-1:], count - len(spoken), axis=0)])
 
 
-def _felt(cues: list[Cue], liveliness: Liveliness | None, count: int, fps: float) -> Floats:
-    """(T, 68) what the natural drive plans for the emotion, and blinks and small motions; NaN where nothing."""
-    felt = np.full((count, FAP_COUNT), np.nan)
-    if cues:
-        plans = [plan.goal for plan in cue_plans(cues, fps, Drive.NATURAL, None, None)]
-        felt[: len(plans)] = plans[:count]
-        felt[len(plans) :] = plans[-1]
-    if liveliness is None:
-        return felt
-    overlay, shares = liveliness.over(count, fps), strengths(cues, fps=fps)[:, 0] if cues else np.zeros(0)
-    for step in range(count):
-        borne = [(cues[0], float(shares[step]))] if step < len(shares) else []
-        felt[step] = overlay.upon(liveliness.borne(felt[step], borne), step)
-    return felt
+def _planned(cues: Sequence[Cue], fps: float) -> Floats:
+    """(T, 68) what the natural drive plans for cues; NaN where nothing."""
+    plans = [plan.goal for plan in cue_plans(cues, fps, Drive.NATURAL)] if cues else []
+    return np.array(plans).reshape(len(plans), FAP_COUNT)
+
+
+def _shifted(rows: Floats, ahead: int, count: int, otherwise: float) -> Floats:
+    """(count, m) rows from one of them on, which may be before the first; what is not there is otherwise."""
+    result = np.full((count, rows.shape[1]), otherwise)
+    first, last = max(-ahead, 0), min(len(rows) - ahead, count)
+    if last > first:
+        result[first:last] = rows[first + ahead : last + ahead]
+    return result
+
+
+def _alive(felt: Floats, cues: Sequence[Cue], shares: Floats, liveliness: Liveliness, fps: float) -> Floats:
+    """(T, 68) with blinks, small motions, and what words do with head and eyes; shares (T, C) of the cues."""
+    overlay = liveliness.over(len(felt), fps)
+    borne = [
+        liveliness.borne(faps, zip(cues, row.tolist(), strict=True)) for faps, row in zip(felt, shares, strict=True)
+    ]
+    return overlay.upon_all(np.array(borne))

@@ -54,13 +54,17 @@ class Voiced:
 
     def write(self, path: str | Path) -> None:
         """Write the sound as WAV; FormatError where it cannot be written."""
+        write_whole(path, self.wav())
+
+    def wav(self) -> bytes:
+        """The sound as a WAV file holds it."""
         held = io.BytesIO()
         with wave.open(held, "wb") as file:
             file.setnchannels(1)
             file.setsampwidth(2)
             file.setframerate(self.rate)
             file.writeframes(self.sound.astype("<i2").tobytes())
-        write_whole(path, held.getvalue())
+        return held.getvalue()
 
 
 class _Id(ctypes.Union):

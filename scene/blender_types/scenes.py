@@ -113,10 +113,17 @@ class ImageStrip(Protocol):
     elements: StripElements
 
 
+class Sound(Protocol):
+    """A sound."""
+
+    def pack(self) -> None: ...
+
+
 class SequencerStrip(Protocol):
-    """Any strip of the video sequencer."""
+    """A strip of the video sequencer, as one of sound."""
 
     channel: int
+    sound: Sound
 
     @property
     def frame_final_duration(self) -> int: ...

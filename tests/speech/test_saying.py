@@ -118,3 +118,23 @@ def test_wrong_shapes_and_leans_are_refused() -> None:
         api.say(said, lean=3.0)
     with pytest.raises(ParameterError, match="felt must have the shape of spoken"):
         mixed(frames, frames[:5], said, 25.0)
+
+
+@pytest.mark.parametrize("begin", [0.0, 0.5, -0.5])
+def test_cues_come_and_go_in_their_own_time(begin: float) -> None:
+    said = uttered("a i a i", silence=0.5)
+    cue = api.Cue(api.expression("joy"), start=0.2, onset=0.4, apex=0.5, offset=0.4)
+    saying = api.say(said, cues=[cue], begin=begin, fps=FPS)
+    joy = list(api.ARCHETYPES).index(api.Archetype("joy"))
+    times = np.arange(len(saying.emotions)) / FPS
+    np.testing.assert_allclose(saying.emotions[:, joy], cue.strength(times + begin), atol=1e-9)
+    full, gone = round((0.85 - begin) * FPS), round((0.1 - begin) * FPS)
+    assert saying.stream.frames[full, CHEEK] > 20.0
+    assert gone < 0 or not np.nan_to_num(saying.stream.frames[gone, CHEEK]) > 1.0
+
+
+def test_an_emotion_and_cues_exclude_each_other() -> None:
+    joy = api.expression("joy")
+    cue = api.Cue(joy, onset=0.4, apex=0.5, offset=0.4)
+    with pytest.raises(ParameterError, match="cues must be left out where an emotion is given"):
+        api.say(uttered("a"), emotion=joy, cues=[cue])

@@ -98,7 +98,7 @@ def test_a_mesh_without_points_is_told_what_it_needs(cube: Any) -> None:
 
 def test_all_panels_for_a_head_in_order_of_work(head: Any) -> None:
     shown = drawn()
-    first = "main followers parts points topologies emotion muscles tissue timeline variation bake"
+    first = "main followers parts points topologies emotion muscles tissue timeline variation speech bake"
     last = "read read_faps read_features film"
     assert list(shown) == [f"RISORIUS_PT_{name}" for name in f"{first} {last}".split()]
     assert ("label", head.name) in shown["RISORIUS_PT_main"]
