@@ -1,4 +1,4 @@
-"""The panel Speak: texts and timings are baked where the playhead is, with their sound and the feeling that is chosen."""
+"""The panel Speak: texts and timings are baked where the playhead is, with their sound and the feeling chosen."""
 
 from __future__ import annotations
 
