@@ -201,7 +201,7 @@ class Balance:
         doubts = np.array([each.doubts for each in targets])
         rounds = self._rounds(correction)
         free = postures.carried + postures.elastic
-        shown = contact.settle(free, shares, at)
+        shown = contact.settle(free, shares, at, shut=rounds == 0)
         elastic, pushed = postures.elastic, shown - free
         for number in range(1, rounds + 1):
             change = correct(wanted - self._read(shown), doubts)
@@ -209,7 +209,7 @@ class Balance:
             if correction is Correction.FAPS and number == rounds:
                 shown = contact.clear(free, at, self._near_points)
             else:
-                shown = contact.settle(free, shares, at)
+                shown = contact.settle(free, shares, at, shut=number == rounds)
             pushed = pushed + (shown - free)
         return replace(postures, elastic=elastic, pushed=pushed)
 

@@ -101,21 +101,28 @@ class Contact:
         self.lids = {side: build_meeting(skin, skin.eyes[side], skin.lid_distances(side), lids=True) for side in free}
 
     def settle(
-        self, displacement: Floats, lip_share: Floats | float = CONTACT.upper_lip, at: Surroundings = AT_REST
+        self,
+        displacement: Floats,
+        lip_share: Floats | float = CONTACT.upper_lip,
+        at: Surroundings = AT_REST,
+        *,
+        shut: bool = True,
     ) -> Floats:
         """The displacement (..., n, 3) of the outer skin in head space, metres, with every contact resolved.
 
-        `lip_share` (...) is the upper lip's part of the way back (`lip_share`). T moments have T of each.
+        `lip_share` (...) is the upper lip's part of the way back (`lip_share`). T moments have T of each. `shut`: lids
+        that nearly meet are drawn together; what is settled again and again is so the last time alone.
         """
         if not self.skin.has(Mechanism.CONTACT):
             return displacement
         positions = (self.skin.positions + displacement).reshape(-1, *self.skin.positions.shape)
         shares = np.broadcast_to(lip_share, len(positions))
         at, going = at.each(len(positions)), np.arange(len(positions))
+        closings = [meeting.closing(positions) if shut else None for meeting, _ in self._meetings(shares)]
         for _ in range(SWEEPS):
             met = positions[going]
-            for meeting, share in self._meetings(shares[going]):
-                met = meeting.settle(met, share)
+            for (meeting, share), closing in zip(self._meetings(shares[going]), closings, strict=True):
+                met = meeting.settle(met, share, closing=None if closing is None else closing.some(going))
             cleared = met.copy()
             self._lift(cleared, at.some(going))
             positions[going] = cleared

@@ -80,6 +80,31 @@ def _spread(positions: Floats, arc: Ints, weight: Floats) -> Sparse:
 
 
 @dataclass(frozen=True, eq=False)
+class Closing:
+    """Margins that are drawn together: so far from where they were, and however often, so that lids close evenly.
+
+    Attributes
+    ----------
+    before : how deep both margins lay beyond contact, as `Meeting.depths`. drawn : (T, 1) the share of the way, 0..1.
+    """
+
+    before: Depths
+    drawn: Floats
+
+    def some(self, chosen: Ints) -> Closing:
+        """Those of some moments."""
+        return Closing((self.before[0][chosen], self.before[1][chosen]), self.drawn[chosen])
+
+    def passed(self, above: Floats, below: Floats) -> Depths:
+        """How far margins at these depths are to go back, or, below 0, to be drawn on."""
+        upper, lower = (
+            np.where(depth > 0.0, depth, np.minimum(depth - (1.0 - self.drawn) * np.minimum(before, 0.0), 0.0))
+            for depth, before in zip((above, below), self.before, strict=True)
+        )
+        return upper, lower
+
+
+@dataclass(frozen=True, eq=False)
 class Meeting:
     """Two margins of one opening that may meet.
 
@@ -104,15 +129,18 @@ class Meeting:
         below = crossing(positions, self.lower, self.upper)
         return np.minimum(self.rest[0], 0.0) - above, below - np.maximum(self.rest[1], 0.0)
 
-    def settle(self, positions: Floats, upper_share: Floats, slack: Depths | None = None) -> Floats:
-        """Positions (T, n, 3) with the margins moved to contact where they had passed each other, or were nearly shut.
+    def settle(
+        self, positions: Floats, upper_share: Floats, slack: Depths | None = None, closing: Closing | None = None
+    ) -> Floats:
+        """Positions (T, n, 3) with the margins moved to contact where they had passed each other.
 
         The upper one takes its share (T,), 0..1, of the way and the lower one the rest. With a slack, for skin on its
-        way to a pose: margins may pass each other by it, and are not drawn together.
+        way to a pose: margins may pass each other by it. With a closing, they are drawn together as far as it says.
         """
         settled = positions
+        drawn = np.zeros((len(positions), 1)) if closing is None else closing.drawn
         for _ in range(ROUNDS):
-            upper, lower, drawn = self._passed(settled, slack)
+            upper, lower = self._passed(settled, slack, closing)
             pushed = np.flatnonzero(np.maximum(np.abs(upper).max(axis=1), np.abs(lower).max(axis=1)) >= SETTLED)
             if not len(pushed):
                 break
@@ -126,25 +154,22 @@ class Meeting:
             settled[pushed[:, None], self.touched, 1] += share * up - (1.0 - share) * down
         return settled
 
-    def _passed(self, positions: Floats, slack: Depths | None) -> tuple[Floats, Floats, Floats]:
-        """How far the upper margin (T, k) has passed the lower one, and it (T, l) that, as far as they are to go back.
-
-        And how firmly they are drawn together (T, 1).
-        """
+    def _passed(self, positions: Floats, slack: Depths | None, closing: Closing | None) -> Depths:
+        """How far the upper margin (T, k) has passed the lower one, and it (T, l) that, as far as they are to go back."""
         above, below = self.depths(positions)
-        drawn = np.zeros((len(positions), 1))
         if slack is not None:
             above, below = above - slack[0], below - slack[1]
-        elif self.shuts:
-            drawn = self._shut(above)
-        return np.maximum(above, drawn * above), np.maximum(below, drawn * below), drawn
+        return (np.maximum(above, 0.0), np.maximum(below, 0.0)) if closing is None else closing.passed(above, below)
 
-    def _shut(self, depth: Floats) -> Floats:
-        """(T, 1) how firmly the margins are drawn together, 0..1, by how much of the opening is closed."""
-        open_now, open_before = np.maximum(-depth, 0.0).sum(axis=1, keepdims=True), np.maximum(self.rest[0], 0.0).sum()
-        closed = 1.0 - open_now / max(float(open_before), 1e-9)
+    def closing(self, positions: Floats) -> Closing | None:
+        """How margins that nearly meet at positions (T, n, 3) are drawn together; None where these never are."""
+        if not self.shuts:
+            return None
+        depths = self.depths(positions)
+        open_now, open_before = np.maximum(-depths[0], 0.0).sum(axis=1, keepdims=True), np.maximum(self.rest[0], 0.0)
+        closed = 1.0 - open_now / max(float(open_before.sum()), 1e-9)
         begin, full = MARGINS.shut
-        return smoothstep((closed - begin) / (full - begin))
+        return Closing(depths, smoothstep((closed - begin) / (full - begin)))
 
 
 def _felt(places: Sequence[Floats], passed: Depths, own: int) -> Floats:

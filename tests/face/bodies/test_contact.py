@@ -222,6 +222,20 @@ def test_a_half_closed_eye_is_left_half_closed(face: Face) -> None:
     assert achieved[[18, 19]] == pytest.approx(400.0, rel=0.1)
 
 
+@pytest.mark.slow
+def test_lids_that_close_evenly_are_drawn_together_evenly(face: Face) -> None:
+    """A tracker's blink trembles about its end: lids that jump from ajar to shut would flicker."""
+    asked = np.arange(760.0, 960.0, 25.0)
+    closed = []
+    for value in asked:
+        frame = np.full(68, np.nan)
+        frame[18:20] = value
+        closed.append(face.pose(frame).achieved[[18, 20]].sum())
+    assert np.diff(closed).min() > -5.0
+    assert np.diff(closed).max() < 4.0 * 25.0
+    assert closed[-1] > 1010.0
+
+
 @pytest.mark.parametrize("head", HEADS)
 def test_a_face_at_rest_is_in_no_contact(head: str, any_face: Callable[[str], Face]) -> None:
     """Overlap of the neutral lips is the head's own."""
