@@ -98,7 +98,11 @@ class Closing:
     def passed(self, above: Floats, below: Floats) -> Depths:
         """How far margins at these depths are to go back, or, below 0, to be drawn on."""
         upper, lower = (
-            np.where(depth > 0.0, depth, np.minimum(depth - (1.0 - self.drawn) * np.minimum(before, 0.0), 0.0))
+            np.where(
+                (depth > 0.0) | (self.drawn == 0.0),
+                np.maximum(depth, 0.0),
+                np.minimum(depth - (1.0 - self.drawn) * np.minimum(before, 0.0), 0.0),
+            )
             for depth, before in zip((above, below), self.before, strict=True)
         )
         return upper, lower
@@ -155,7 +159,7 @@ class Meeting:
         return settled
 
     def _passed(self, positions: Floats, slack: Depths | None, closing: Closing | None) -> Depths:
-        """How far the upper margin (T, k) has passed the lower one, and it (T, l) that, as far as they are to go back."""
+        """How far the upper margin (T, k) has passed the lower, and it (T, l) that, as far as they are to go back."""
         above, below = self.depths(positions)
         if slack is not None:
             above, below = above - slack[0], below - slack[1]
