@@ -4,8 +4,8 @@
     python tools/track_evidence.py read      in one with `pip install -e .[track]` and scikit-image (for its photograph)
     python tools/track_evidence.py sheet     in the first again
 
-The first step leaves pictures in out/track; the second reads them, writes the generic face and the trust in each FAP
-(presets/capture/generic_face.csv, camera_faps.csv) and the tables of docs/tracking.md; the third its picture.
+The first step leaves pictures in out/track; the second reads them, writes the generic face, how people differ from it and the trust in each FAP
+(presets/capture/generic_face.csv, people.csv, camera_faps.csv) and the tables of docs/tracking.md; the third its picture.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ def read_films(out: Path) -> None:
     """Track the films, and write what was found."""
     from tracking.emotions import read_emotions
     from tracking.figures import read_film
-    from tracking.generic import write_generic_face
+    from tracking.generic import write_people
     from tracking.page import write_tables
     from tracking.photograph import read_photograph
     from tracking.trust_table import write_trust
 
-    write_generic_face(out / NEUTRAL)
+    write_people(out / NEUTRAL)
     films = [read_film(folder) for folder in sorted((out / "faps").iterdir())]
     trust = write_trust(films)
     emotions = [read_emotions(folder) for folder in sorted((out / "emotions").iterdir())]
@@ -57,7 +57,14 @@ def picture_what_was_read(out: Path) -> None:
     print(write_sheet(out / "emotions" / "ict-0", DOCS / "pictures" / "tracking.jpg"))
 
 
-STEPS = {"films": make_films, "read": read_films, "sheet": picture_what_was_read}
+def read_people(out: Path) -> None:
+    """Picture all heads neutral where they are not, and write how people differ."""
+    from tracking.generic import write_people
+
+    write_people(out / NEUTRAL)
+
+
+STEPS = {"films": make_films, "people": read_people, "read": read_films, "sheet": picture_what_was_read}
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -2,7 +2,8 @@
 
 pictures        a film, pictures or a camera, one picture at a time
 face_mesh       landmarks of the face in a picture, by MediaPipe (the only module that needs the extra, with `pictures`)
-generic_face    a neutral face of nobody, for pictures that show none
+generic_face    a neutral face of nobody
+people          the neutral face of a person guessed from pictures that show none, and its doubt
 trust           how far a camera can be trusted for each FAP, and from where it stands
 smoothing       trembling taken out, and the delay that this costs
 tracking        landmarks to a stream with a confidence for every value

@@ -18,9 +18,9 @@ from .face_mesh import LANDMARKS
 TABLE = CAPTURE_PRESETS / "generic_face.csv"
 AXES = ("left_mm", "up_mm", "forward_mm")
 
-#: Points that lie farther from the generic face than this many times their usual distance are unusual. Neutral faces of
-#: the films in docs/tracking.md come to 1.9, smiling ones to 2.7 and more.
-UNUSUAL = 2.5
+#: Points that lie farther from the generic face than this many times their usual distance are unusual. Of 21 neutral
+#: heads one comes to it; smiling photographs come to 4 and more (docs/tracking.md).
+UNUSUAL = 1.95
 
 #: Corners of the mouth and the middle of the lower lip, where smiles and speech show first; and where distances begin.
 MOUTH, ORIGIN = ("8.3", "8.4", "2.3"), "9.15"

@@ -131,6 +131,13 @@ def read_points(
     return LandmarkReading(stream, at_rest, units, chosen, pose)
 
 
+def shifts_as_faps(shifts: Floats, names: Sequence[str], units: Fapu) -> Floats:
+    """(n, 68) FAP units that shifts (n, P, 3) of feature points in head space come to; 0 where they move no FAP."""
+    stream = np.zeros((len(shifts), FAP_COUNT))
+    _read_shifts(stream, shifts, {name: index for index, name in enumerate(names)}, units)
+    return stream
+
+
 def fit_poses(reference: Floats, points: Floats, seen: Bools) -> Pose3:
     """Similarities from reference points (P, 3) to seen ones (T, P, 3), by least squares; NaN where unseen.
 

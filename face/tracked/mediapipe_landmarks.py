@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
 
@@ -34,7 +34,7 @@ def read_landmarks(landmarks: Landmarks, *, neutral: Neutral | None = None) -> L
     return read_points(
         landmarks.positions[:, list(tracked.values())],
         list(tracked),
-        stable=preset.texts("stable"),
+        stable=stable_points(),
         eye_radius=preset.number("eye_radius"),
         unseen=[int(number) for number in preset.numbers("unseen")],
         neutral=stretch,
@@ -45,6 +45,12 @@ def read_landmarks(landmarks: Landmarks, *, neutral: Neutral | None = None) -> L
 def _preset() -> TomlTable:
     """What MediaPipe's landmarks are and can tell."""
     return read_toml(CAPTURE_PRESETS / "mediapipe_landmarks.toml")
+
+
+def stable_points() -> Sequence[str]:
+    """Feature points that expression does not move; they carry the head's pose."""
+    return _preset().texts("stable")
+
 
 
 @lru_cache(maxsize=1)

@@ -132,12 +132,13 @@ class RobustRule:
         Parameters
         ----------
         frames : (n, 68) FAPs, NaN where not seen. visible : (68,) FAPs that could be seen at all.
-        confidence : (n, 68) 0..1; None: 1 everywhere.
+        confidence : (n, 68) 0..1, in each frame beside that of the surest value; None: the same everywhere.
         doubt : (68, m) FAP units: errors of the neutral face, each as large as one standard deviation.
         fall : what a distance from a centre, in widths, takes off.
         """
         seen = ~np.isnan(frames) & (True if visible is None else visible)
         sure = np.where(seen, 1.0 if confidence is None else confidence, 0.0)
+        sure = sure / np.maximum(sure.max(axis=1, keepdims=True), 1e-9)
         parts = [slice(first, first + CHUNK) for first in range(0, len(frames), CHUNK)]
         judged = [self._judge(np.nan_to_num(frames[part]), sure[part], doubt, fall) for part in parts]
         asked = self.asked & (True if visible is None else visible)

@@ -174,6 +174,7 @@ def test_an_interrupt_ends_a_camera_and_keeps_what_was_seen(monkeypatch: pytest.
             return SimpleNamespace(multi_face_landmarks=[face] if picture[0, 0, 0] else None)
 
     module = "mediapipe.python.solutions.face_mesh"
+    monkeypatch.setitem(sys.modules, "mediapipe", SimpleNamespace())
     monkeypatch.setitem(sys.modules, module, SimpleNamespace(FaceMesh=FakeMesh))
     seen = find_landmarks(open_pictures(["camera"]))
     assert seen.positions.shape == (2, 478, 3)
