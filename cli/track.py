@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from .progress import ShowProgress
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
+    from ..arrays import Floats
     from ..track import Track
 
 SOURCES = (
@@ -40,7 +42,12 @@ def add_track_verb(verbs: Verbs) -> None:
     track.add_argument("--fps", type=float, help="frames per second (default: those of the video; 25 for images)")
     track.add_argument("--seconds", type=float, help="duration in seconds (default: to the end; camera: until Ctrl-C)")
     track.add_argument("--least", type=float, help="mask values with a lower confidence, 0 to 1 (default: 0.3)")
-    track.add_argument("--confidence", type=Path, metavar="FILE.csv", help="write the confidence of each value")
+    about = "write the confidence of each value, for `recognise --confidence`"
+    track.add_argument("--confidence", type=Path, metavar="FILE.csv", help=about)
+    about = "your own model, for MediaPipe 1.x and every Python (default: the one in mediapipe 0.10.21)"
+    track.add_argument("--model", type=Path, metavar="face_landmarker.task", help=about)
+    about = "with --model: also write the blend shapes, a recording for `import` and `fap`"
+    track.add_argument("--shapes", type=Path, metavar="FILE.csv", help=about)
 
 
 def _track(arguments: argparse.Namespace) -> Result:
@@ -53,11 +60,17 @@ def _track(arguments: argparse.Namespace) -> Result:
         raise RisoriusError(OUTSIDE_BLENDER) from absent
     if arguments.out.suffix.lower() not in WRITABLE:
         raise UsageError(f"--out must end in {' or '.join(WRITABLE)}")
+    if arguments.shapes is not None and arguments.model is None:
+        raise UsageError("--shapes needs --model: the model in MediaPipe's package has no blend shapes")
     neutral = _neutral(arguments.neutral)
     pictures = track.open_pictures(arguments.source, fps=arguments.fps, seconds=arguments.seconds)
     if pictures.live:
         print("reading the camera; press Ctrl-C to stop", file=sys.stderr, flush=True)
-    landmarks = track.find_landmarks(pictures, progress=ShowProgress(percent=5))
+    progress, shapes = ShowProgress(percent=5), list[Mapping[str, float]]()
+    if arguments.model is None:
+        landmarks = track.find_landmarks(pictures, progress=progress)
+    else:
+        landmarks, shapes = track.find_faces(pictures, model=arguments.model, progress=progress)
     options = {} if arguments.least is None else {"least": arguments.least}
     found = track.track_landmarks(
         landmarks,
@@ -69,7 +82,9 @@ def _track(arguments: argparse.Namespace) -> Result:
     )
     api.write_stream(arguments.out, found.stream)
     if arguments.confidence is not None:
-        _write_confidence(arguments.confidence, found)
+        track.write_confidence(arguments.confidence, found.confidence, found.doubt)
+    if arguments.shapes is not None:
+        _write_shapes(arguments.shapes, landmarks.times, shapes)
     return _described(found, arguments.out)
 
 
@@ -83,12 +98,14 @@ def _neutral(text: str | None) -> tuple[float, float] | str | None:
     return float(times[1]), float(times[2])
 
 
-def _write_confidence(path: Path, found: Track) -> None:
-    """A row per frame, a column per FAP."""
-    heading = ["frame", *(f"F{number}" for number in range(1, found.confidence.shape[1] + 1))]
-    write_csv(
-        path, heading, ([index, *(f"{value:.3f}" for value in row)] for index, row in enumerate(found.confidence))
-    )
+def _write_shapes(path: Path, times: Floats, shapes: list[Mapping[str, float]]) -> None:
+    """A row per image, a column per blend shape: a recording as `import` reads it; cells without a face are empty."""
+    names = sorted({name for scores in shapes for name in scores})
+    rows = [
+        [index, f"{when:.4f}", *("" if name not in scores else f"{scores[name]:.4f}" for name in names)]
+        for index, (when, scores) in enumerate(zip(times, shapes, strict=True))
+    ]
+    write_csv(path, ["frame", "timestamp", *names], rows)
 
 
 def _described(found: Track, out: Path) -> Result:
@@ -113,7 +130,8 @@ def _described(found: Track, out: Path) -> Result:
         lines.append(f"{len(found.lost)} frames without a face are masked")
     if found.generic:
         lines.append(
-            "no neutral face of this person: FAPs are relative to a generic face and include the difference from it"
+            "no neutral face of this person: FAPs are relative to a generic face and include the difference from it; "
+            "--confidence writes how doubtful that is"
         )
     else:
         lines.append(
@@ -124,6 +142,11 @@ def _described(found: Track, out: Path) -> Result:
             f"its mouth is unusual for a neutral face ({', '.join(found.doubts)}): if it smiles or speaks there, give "
             "a time range at rest with --neutral FROM:TO, or use --neutral generic"
         )
+    if len(stream.frames) == 1:
+        shown = found.recognise()
+        verdict = shown.best[0]
+        data["best"] = verdict
+        lines.append(f"shows: {verdict or 'nothing that can be told'} (robust rule)")
     if found.delay:
         lines.append(f"slow motions lag by {1000.0 * found.delay:.0f} ms")
     lines += [

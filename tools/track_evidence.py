@@ -4,8 +4,9 @@
     python tools/track_evidence.py read      in one with `pip install -e .[track]` and scikit-image (for its photograph)
     python tools/track_evidence.py sheet     in the first again
 
-The first step leaves pictures in out/track; the second reads them, writes the generic face, how people differ from it and the trust in each FAP
-(presets/capture/generic_face.csv, people.csv, camera_faps.csv) and the tables of docs/tracking.md; the third its picture.
+The first step leaves pictures in out/track; the second reads them, writes the generic face, how people differ from it
+and the trust in each FAP (presets/capture/generic_face.csv, people.csv, camera_faps.csv) and the tables of
+docs/tracking.md; the third its picture. `people` writes the first two tables alone.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ confidence_file  the confidence beside the stream, as a table
 """
 
 from .confidence_file import read_confidence, write_confidence
-from .face_mesh import find_landmarks
+from .face_mesh import find_faces, find_landmarks
 from .generic_face import generic_landmarks
 from .pictures import Pictures, open_pictures
 from .smoothing import Smoothing, smooth
@@ -26,6 +26,7 @@ __all__ = [
     "Track",
     "camera_faps",
     "confidence",
+    "find_faces",
     "find_landmarks",
     "generic_landmarks",
     "open_pictures",

@@ -35,14 +35,12 @@ NO_MODEL = (
 )
 BAD_MODEL = "is not a face_landmarker.task that MediaPipe can read: download it again"
 
-#: A picture and its time in seconds -> landmarks (478, 3) of a face, shares of the picture, and its blend shapes; or None.
+#: A picture and its time in seconds -> landmarks (478, 3) of a face, shares of the picture, and blend shapes; or None.
 Seen: TypeAlias = tuple[Floats, Mapping[str, float]] | None
 Finder: TypeAlias = Callable[[Picture, float], Seen]
 
 
-def find_landmarks(
-    pictures: Pictures, *, model: str | Path | None = None, progress: Report | None = None
-) -> Landmarks:
+def find_landmarks(pictures: Pictures, *, model: str | Path | None = None, progress: Report | None = None) -> Landmarks:
     """Landmarks in every picture; NaN where it shows no face. Of several faces, one is taken.
 
     A keyboard interrupt ends a camera's pictures; those so far are kept.

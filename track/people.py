@@ -1,8 +1,8 @@
 """A person's neutral face guessed from pictures that may show none, and how wrong the guess may be.
 
-What is known of people: the generic face and the ways in which neutral faces differ from it (presets/capture/people.csv).
-What is seen: points that expression does not move, which tell something of the others (wide eyes, a wide mouth); and of
-several pictures where each point usually is.
+What is known of people: the generic face and the ways in which neutral faces differ from it
+(presets/capture/people.csv). What is seen: points that expression does not move, which tell something of the others
+(wide eyes, a wide mouth); and of several pictures where each point usually is.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from .generic_face import AXES, generic_landmarks
 
 PEOPLE = CAPTURE_PRESETS / "people.csv"
 
-#: How far MediaPipe misses a point in one picture, metres: with it the guesses for heads that were left out were as wrong
-#: as they said (docs/tracking.md).
+#: How far MediaPipe misses a point in one picture, metres: with it the guesses for heads that were left out are as
+#: wrong as they say (docs/tracking.md).
 MISSED = 2e-3
 
 #: What expressions move a point by, metres: in several pictures at least so much (own choice).

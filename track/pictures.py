@@ -26,7 +26,10 @@ CAMERA = re.compile(r"camera(?::(\d+))?")
 #: Pictures a second where nothing says how many.
 USUAL_RATE = 25.0
 
-MISSING = "tracking needs MediaPipe: run `pip install risorius[track]` with Python 3.11 or 3.12"
+MISSING = (
+    "tracking needs MediaPipe: run `pip install risorius[track]` with Python 3.11 or 3.12, or on any Python "
+    "`pip install risorius[track-model]` and give --model face_landmarker.task"
+)
 
 
 @dataclass(frozen=True, eq=False)

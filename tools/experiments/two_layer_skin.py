@@ -114,7 +114,7 @@ def on_bone(skin: OuterSkin) -> Floats:
 
 def firmness(skin: OuterSkin) -> Floats:
     """(n,) by how much scalp, nose bridge, nose base, chin pad and neck are held more firmly than the cheek, 1/m^2."""
-    return np.asarray(regions.anchor(skin) - 1.0 / tissue_of().anchor_length**2)
+    return np.asarray(regions.anchor(skin) - 1.0 / tissue_of().anchor_length ** 2)
 
 
 def bed_matrix(skin: OuterSkin, layers: Layers, membrane: float) -> Sparse:

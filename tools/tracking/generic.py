@@ -21,11 +21,11 @@ from risorius.track.people import PEOPLE
 from .sides import SIDES
 
 SOURCE = """\
-# Written by tools/track_evidence.py from Workbench pictures of neutral heads, each from the front, 20 degrees from either
-# side and nodding by 12 degrees up and down, and their mirror images:
+# Written by tools/track_evidence.py from Workbench pictures of neutral heads, each from the front, 20 degrees from
+# either side and nodding by 12 degrees up and down, and their mirror images:
 # {heads}.
-# Statistics of our own; no mesh is copied. Heads: default (this project); ict, identity-* of ICT-FaceKit (MIT); makehuman*
-# (CC0); jeeliz_human of jeelizWeboji (Apache-2.0); mhr of Momentum Human Rig (Apache-2.0).
+# Statistics of our own; no mesh is copied. Heads: default (this project); ict, identity-* of ICT-FaceKit (MIT);
+# makehuman* (CC0); jeeliz_human of jeelizWeboji (Apache-2.0); mhr of Momentum Human Rig (Apache-2.0).
 """
 
 GENERIC = """\
@@ -35,8 +35,8 @@ GENERIC = """\
 """
 
 MODES = """\
-# How neutral faces differ from generic_face.csv, as MediaPipe sees them: principal components of where feature points lie
-# once the points that expression does not move are laid on each other. In mm; each mode by one standard deviation.
+# How neutral faces differ from generic_face.csv, as MediaPipe sees them: principal components of where feature points
+# lie once the points that expression does not move are laid on each other. In mm; each mode by one standard deviation.
 # own_mm: standard deviation that the modes leave.
 """
 
@@ -83,7 +83,7 @@ def _seen_faces(folder: Path, names: Sequence[str]) -> list[Floats]:
 
 
 def laid_on_each_other(seen: Floats, names: Sequence[str]) -> Floats:
-    """(2n, P, 3) faces (n, P, 3) and their mirror images, moved so that steady points lie on those of the mean, metres."""
+    """(2n, P, 3) faces (n, P, 3) and their mirror images in metres, their steady points on those of the mean."""
     steady = [names.index(name) for name in stable_points()]
     twins = [names.index(FEATURE_POINTS[name].mirror or name) for name in names]
     there: Bools = np.ones(len(seen), dtype=np.bool_)
