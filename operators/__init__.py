@@ -24,6 +24,7 @@ speech                     what a face says
 recording                  what trackers saw, and FAPs over time
 bake, film, shapes         made of it: keys, films, shapes for engines
 read                       what a face shows
+kept                       prepared faces, kept for the next time
 
 Parts that know nothing of Blender (`wheel.geometry`, `timeline.bars`) can be imported without it.
 """

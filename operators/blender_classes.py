@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from ..scene.blender_types import Event, Items
     from .blender_types import Context, Object, Structure, UILayout
 
+    class AddonPreferences:
+        """What the user has set for the add-on."""
+
     class PropertyGroup:
         """Properties that are kept with something; those that Risorius is told of, with an object."""
 
@@ -104,6 +107,7 @@ if TYPE_CHECKING:
 else:
     from bl_operators.presets import AddPresetBase as AddPresetBase
     from bl_ui.utils import PresetPanel as PresetPanel
+    from bpy.types import AddonPreferences as AddonPreferences
     from bpy.types import FileHandler as FileHandler
     from bpy.types import Gizmo as Gizmo
     from bpy.types import GizmoGroup as GizmoGroup

@@ -5,7 +5,7 @@ Like those, these are protocols for mypy alone. The classes that Risorius' own d
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
@@ -98,9 +98,25 @@ class System(Protocol):
     def ui_scale(self) -> float: ...
 
 
+class OwnPreferences(Protocol):
+    """What the user has set for Risorius."""
+
+    @property
+    def keep_faces(self) -> bool: ...
+
+
+class Addon(Protocol):
+    """An add-on that is enabled; its preferences are of Risorius where it is that one."""
+
+    @property
+    def preferences(self) -> OwnPreferences | None: ...
+
+
 class Preferences(Protocol):
     """What the user prefers."""
 
+    @property
+    def addons(self) -> Mapping[str, Addon]: ...
     @property
     def system(self) -> System: ...
     @property

@@ -25,6 +25,8 @@ from .film.props import RISORIUS_PG_film
 from .followers.ops import RISORIUS_OT_add_followers, RISORIUS_OT_find_followers, RISORIUS_OT_remove_follower
 from .followers.panel import RISORIUS_PT_followers, RISORIUS_UL_followers
 from .followers.props import RISORIUS_PG_follower
+from .kept.ops import RISORIUS_OT_clear_kept_faces
+from .kept.props import RISORIUS_AP_preferences
 from .library.ops import RISORIUS_OT_load_preset, RISORIUS_OT_save_preset
 from .library.panel import RISORIUS_FH_preset, RISORIUS_MT_library
 from .muscles.ops import RISORIUS_OT_reset_muscles
@@ -88,6 +90,7 @@ from .wheel.props import RISORIUS_PG_wheel
 
 #: Groups of properties.
 PROPERTIES = (
+    RISORIUS_AP_preferences,
     RISORIUS_PG_follower,
     RISORIUS_PG_face,
     RISORIUS_PG_emotion,
@@ -167,6 +170,7 @@ OPERATORS = (
     RISORIUS_OT_line_mouth,
     RISORIUS_OT_bake_six,
     RISORIUS_OT_save_preset,
+    RISORIUS_OT_clear_kept_faces,
     RISORIUS_OT_load_preset,
     RISORIUS_OT_bake_recording,
     RISORIUS_OT_import_fap,

@@ -16,6 +16,7 @@ from ..scene.faces import forget_faces
 from . import props, translations
 from .classes import CLASSES
 from .followers import loaded as followers_loaded
+from .kept import folder as kept_folder
 from .parts import overlay as parts_overlay
 from .points import drag as points_drag
 from .points import hover as points_hover
@@ -34,6 +35,7 @@ from .wheel import pick as wheel_pick
 ATTACHED = (
     props.attach,
     translations.attach,
+    kept_folder.attach,
     followers_loaded.attach,
     points_overlay.attach,
     points_drag.attach,

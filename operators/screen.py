@@ -16,6 +16,11 @@ def windows() -> Sequence[Window]:
     return () if manager is None else manager.windows.values()
 
 
+def is_playing() -> bool:
+    """Whether a window plays the timeline."""
+    return any(window.screen.is_animation_playing for window in windows())
+
+
 def redraw_viewports(owner: object = None, context: Context | None = None) -> None:
     """Draw all 3D viewports anew; may be the update function of a property."""
     _redraw("VIEW_3D")

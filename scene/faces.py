@@ -5,8 +5,9 @@ Building a face takes a moment, so the last few are kept, found again by the fin
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,11 +28,22 @@ from .refusals import refuse_broken_vertices, refuse_unreadable
 from .shape_mix import Resting, resting_values, settle_drivers
 
 if TYPE_CHECKING:
-    from ..api import Face
+    from ..api import Face, KeptFaces
 
 KEPT_FACES = 3
 #: Those that were asked for last, the last one at the end.
 _faces: list[tuple[Fingerprint, Face]] = []
+
+
+def nowhere() -> Path | None:
+    """Prepared faces are kept in no folder."""
+    return None
+
+
+#: Tells in which folder prepared faces are kept.
+_where: Callable[[], Path | None] = nowhere
+#: Why the last one could not be kept.
+_trouble = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,15 +216,45 @@ def face_steps(source: FaceSource) -> Work[Face]:
     if kept is None:
         from .. import api
 
-        face = yield from api.Face.from_arrays_steps(
-            source.vertices, source.polygons, dict(source.points), parts=source.parts
-        )
+        kept_faces = _kept_faces()
+        steps = api.Face.from_arrays_steps if kept_faces is None else kept_faces.face_steps
+        face = yield from steps(source.vertices, source.polygons, dict(source.points), parts=source.parts)
         kept = source.fingerprint, face
     else:
         _faces.remove(kept)
     _faces.append(kept)
     del _faces[:-KEPT_FACES]
     return kept[1]
+
+
+def keep_where(where: Callable[[], Path | None]) -> None:
+    """Keep prepared faces in the folder that `where` tells whenever it is asked; in none where that is None."""
+    global _where
+    _where = where
+
+
+def keep_steps(face: Face) -> Work[bool]:
+    """Keep a face of `face_of` for the next time, bit by bit; whether it is kept (`keeping_trouble` tells why not)."""
+    global _trouble
+    kept_faces = _kept_faces()
+    if kept_faces is None:
+        return False
+    done = yield from kept_faces.keep_steps(face)
+    _trouble = kept_faces.entries.trouble
+    return done
+
+
+def keeping_trouble() -> str:
+    """Why the last face could not be kept, in words; or nothing."""
+    return _trouble and f"The last face was not kept: {_trouble}"
+
+
+def _kept_faces() -> KeptFaces | None:
+    """The folder of prepared faces, where there is to be one."""
+    from .. import api
+
+    folder = _where()
+    return None if folder is None else api.KeptFaces(folder)
 
 
 def forget_faces() -> None:

@@ -26,7 +26,7 @@ from ..active import all_objects, ready_reason, target_of
 from ..blender_types import Context, Object, Scene, WindowManager
 from ..emotion.performance import performance_of
 from ..emotion.profile import Wanted, wanted_of
-from ..screen import show_status_everywhere
+from ..screen import is_playing, show_status_everywhere
 from ..session import Previews, Shown, session
 
 if TYPE_CHECKING:
@@ -85,13 +85,16 @@ def object_of(uid: int) -> Object | None:
 def _answer() -> float | None:
     """Timer: do what is due, and say when to come again."""
     previews = session().previews
-    if not is_on() or not (previews.due or previews.faces.is_preparing):
+    faces = previews.faces
+    if not is_on() or not (previews.due or faces.is_preparing or faces.has_more):
         return None
     try:
-        return _prepare(previews) if previews.faces.is_preparing else _look(previews)
+        if faces.is_preparing:
+            return _prepare(previews)
+        return _look(previews) if previews.due else _go_on(previews)
     except RisoriusError as refusal:
         previews.trouble = str(refusal)
-    previews.faces.stop()
+    faces.drop()
     previews.due.clear()
     show_status_everywhere(None)
     return None
@@ -124,6 +127,16 @@ def _prepare(previews: Previews) -> float:
         show_status_everywhere(None)
         return 0.0
     show_status_everywhere(f"Preparing the face: {step.text} ({step.fraction:.0%})")
+    return PAUSE
+
+
+def _go_on(previews: Previews) -> float:
+    """A share of what can be done while nothing is due and nothing plays; returns the seconds until the next one."""
+    if is_playing():
+        return REST
+    until = time.monotonic() + SHARE
+    while previews.faces.has_more and time.monotonic() < until:
+        previews.faces.go_on()
     return PAUSE
 
 
@@ -206,7 +219,7 @@ def end() -> None:
     """Take every preview away."""
     if session().previews.faces.is_preparing:
         show_status_everywhere(None)
-    session().previews.faces.stop()
+    session().previews.faces.drop()
     session().previews = Previews()
     if bpy.app.timers.is_registered(_answer):
         bpy.app.timers.unregister(_answer)

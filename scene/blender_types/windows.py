@@ -92,6 +92,7 @@ class Screen(Protocol):
     """The areas of a window."""
 
     areas: Items[Area]
+    is_animation_playing: bool
 
 
 class WorkSpace(Protocol):

@@ -26,6 +26,12 @@ class HeldFaces:
     def __init__(self) -> None:
         self._faces: OrderedDict[int, LiveFace] = OrderedDict()
         self._work: Work[None] | None = None
+        self._later: Work[None] | None = None
+
+    @property
+    def has_more(self) -> bool:
+        """Whether there is something to be done for a face that is ready, once nothing else is due."""
+        return self._later is not None
 
     @property
     def is_preparing(self) -> bool:
@@ -56,7 +62,7 @@ class HeldFaces:
             self._faces[uid] = face
             while len(self._faces) > KEPT:
                 self._faces.popitem(last=False)
-            self._work = face.prepare()
+            self._work, self._later = face.prepare(), face.keep()
         return self.get(uid)
 
     def prepare(self) -> Progress | None:
@@ -71,11 +77,23 @@ class HeldFaces:
             self.stop()
         return step
 
+    def go_on(self) -> None:
+        """A share of what is to be done for a face that is ready."""
+        if self._later is not None and next(self._later, None) is None:
+            self._later = None
+
     def stop(self) -> None:
         """Get no face ready any more."""
         if self._work is not None:
             self._work.close()
         self._work = None
+
+    def drop(self) -> None:
+        """Do no more for any face."""
+        self.stop()
+        if self._later is not None:
+            self._later.close()
+        self._later = None
 
     def forget(self, uid: int) -> None:
         """Let go of a face."""

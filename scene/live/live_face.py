@@ -13,7 +13,7 @@ import numpy as np
 from ...arrays import Floats, Ints
 from ...progress import Work
 from ..bake.target import Target
-from ..faces import face_of
+from ..faces import face_of, keep_steps
 from ..fingerprint import fingerprint, uid_of
 from . import preview
 
@@ -65,6 +65,10 @@ class LiveFace:
     def prepare(self) -> Work[None]:
         """Work out what the first sketch needs."""
         yield from self._face.prepare()
+
+    def keep(self) -> Work[None]:
+        """Keep what was worked out for the next time, where the user wants that."""
+        yield from keep_steps(self._face)
 
     def pose(
         self,

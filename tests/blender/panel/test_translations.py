@@ -29,7 +29,7 @@ def names(properties_of: Callable[[type], Any]) -> set[tuple[str, str]]:
         context = "Operator" if issubclass(cls, bpy.types.Operator) else "*"
         if getattr(cls, "bl_label", None) and not issubclass(cls, PresetPanel):  # its label becomes the preset's name
             found.add((context, cls.bl_label))
-        if issubclass(cls, (bpy.types.Operator, bpy.types.PropertyGroup)):
+        if issubclass(cls, (bpy.types.Operator, bpy.types.PropertyGroup, bpy.types.AddonPreferences)):
             ours = [base for base in cls.__mro__ if base.__module__.startswith("risorius.")]
             own = {name for base in ours for name in vars(base).get("__annotations__", {})}
             shown = [prop for prop in properties_of(cls) if prop.identifier in own and prop.name != prop.identifier]
