@@ -88,6 +88,15 @@ def motion_settings(obj: Object, performance: Performance, where: Destination) -
     )
 
 
+def played_settings(obj: Object, performance: Performance) -> str:
+    """Digest of all that a motion depends on but the face itself."""
+    motion = motion_of(obj, performance)
+    return _digest(
+        (performance.first_frame, performance.fps, obj.risorius.emotion.drive),
+        *(motion.cues, motion.contractions, motion.tissue, motion.liveliness),
+    )
+
+
 def strip_curve(performance: Performance, number: int) -> Curve:
     """How much of a clip shows: four keyframes, or each frame's share where it overlaps with others."""
     start, end = performance.span(number)

@@ -20,11 +20,13 @@ from ...scene.fingerprint import uid_of
 from ...scene.live import preview
 from ...scene.live.held_faces import REST
 from ...scene.live.live_face import LiveFace
+from ...scene.live.played import PlayedMotion
 from ...scene.points.kept import has_points
 from ...scene.rig.clips import rig_clips
 from ..active import all_objects, ready_reason, target_of
+from ..bake.settings import motion_of, played_settings
 from ..blender_types import Context, Object, Scene, WindowManager
-from ..emotion.performance import performance_of
+from ..emotion.performance import Performance, performance_of
 from ..emotion.profile import Wanted, wanted_of
 from ..screen import is_playing, show_status_everywhere
 from ..session import Previews, Shown, session
@@ -36,6 +38,8 @@ if TYPE_CHECKING:
 PAUSE = 0.01
 #: Seconds of each answer for which a face is got ready, in small steps.
 SHARE = 0.05
+#: The same while the timeline plays.
+BETWEEN_FRAMES = 0.01
 
 
 def is_on() -> bool:
@@ -131,10 +135,8 @@ def _prepare(previews: Previews) -> float:
 
 
 def _go_on(previews: Previews) -> float:
-    """A share of what can be done while nothing is due and nothing plays; returns the seconds until the next one."""
-    if is_playing():
-        return REST
-    until = time.monotonic() + SHARE
+    """A share of what can be done while nothing is due; returns the seconds until the next one."""
+    until = time.monotonic() + (BETWEEN_FRAMES if is_playing() else SHARE)
     while previews.faces.has_more and time.monotonic() < until:
         previews.faces.go_on()
     return PAUSE
@@ -171,13 +173,21 @@ def _asked_of(wanted: Wanted) -> _Besides:
 
 
 def play(obj: Object, face: LiveFace, scene: Scene) -> None:
-    """Show `obj` as it is laid out at the scene's frame, out of the apexes of its expressions.
+    """Show `obj` as it is laid out at the scene's frame: as a bake will, or as long as that is not worked out, out of
+    the apexes of its expressions.
 
     Raises
     ------
     RisoriusError : an expression cannot be posed.
     """
     performance = performance_of(obj, scene)
+    known = _worked_out(obj, face, performance).at(scene.frame_current_final) if performance.cues else None
+    if known is not None:
+        if known.any():
+            face.show(target_of(obj), known)
+        else:
+            rest(obj)
+        return
     shares = performance.shares(scene.frame_current_final)
     if not shares.any():
         rest(obj)
@@ -188,6 +198,20 @@ def play(obj: Object, face: LiveFace, scene: Scene) -> None:
         if share > 0.0
     ]
     face.show(target_of(obj), np.sum(apexes, axis=0))
+
+
+def _worked_out(obj: Object, face: LiveFace, performance: Performance) -> PlayedMotion:
+    """What is known of the motion of `obj`; more will be, while nothing else is to be done."""
+    played = face.played(
+        played_settings(obj, performance),
+        motion_of(obj, performance),
+        first_frame=performance.first_frame,
+        fps=performance.fps,
+        drive=obj.risorius.emotion.drive,
+    )
+    if face.has_more and not bpy.app.timers.is_registered(_answer):
+        bpy.app.timers.register(_answer, first_interval=PAUSE)
+    return played
 
 
 def play_or_rest(obj: Object, face: LiveFace, scene: Scene) -> None:

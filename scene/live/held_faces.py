@@ -26,12 +26,11 @@ class HeldFaces:
     def __init__(self) -> None:
         self._faces: OrderedDict[int, LiveFace] = OrderedDict()
         self._work: Work[None] | None = None
-        self._later: Work[None] | None = None
 
     @property
     def has_more(self) -> bool:
-        """Whether there is something to be done for a face that is ready, once nothing else is due."""
-        return self._later is not None
+        """Whether there is something to be done for a face, once nothing else is due."""
+        return any(face.has_more for face in self._faces.values())
 
     @property
     def is_preparing(self) -> bool:
@@ -62,7 +61,7 @@ class HeldFaces:
             self._faces[uid] = face
             while len(self._faces) > KEPT:
                 self._faces.popitem(last=False)
-            self._work, self._later = face.prepare(), face.keep()
+            self._work = face.prepare()
         return self.get(uid)
 
     def prepare(self) -> Progress | None:
@@ -78,9 +77,15 @@ class HeldFaces:
         return step
 
     def go_on(self) -> None:
-        """A share of what is to be done for a face that is ready."""
-        if self._later is not None and next(self._later, None) is None:
-            self._later = None
+        """A share of that.
+
+        Raises
+        ------
+        RisoriusError : it cannot be done, and will not be tried again.
+        """
+        face = next((face for face in reversed(self._faces.values()) if face.has_more), None)
+        if face is not None:
+            face.go_on()
 
     def stop(self) -> None:
         """Get no face ready any more."""
@@ -91,9 +96,8 @@ class HeldFaces:
     def drop(self) -> None:
         """Do no more for any face."""
         self.stop()
-        if self._later is not None:
-            self._later.close()
-        self._later = None
+        for face in self._faces.values():
+            face.drop()
 
     def forget(self, uid: int) -> None:
         """Let go of a face."""

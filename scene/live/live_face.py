@@ -12,10 +12,12 @@ import numpy as np
 
 from ...arrays import Floats, Ints
 from ...progress import Work
+from ..bake.motion import CueMotion
 from ..bake.target import Target
 from ..faces import face_of, keep_steps
 from ..fingerprint import fingerprint, uid_of
 from . import preview
+from .played import PlayedMotion
 
 if TYPE_CHECKING:
     from ...api import EmotionShares
@@ -57,6 +59,9 @@ class LiveFace:
         self._face = face_of(self._source)
         self._sketcher = self._face.sketcher()
         self._apexes: OrderedDict[str, Floats] = OrderedDict()
+        self._played: tuple[str, PlayedMotion] | None = None
+        self._motion: Work[None] | None = None
+        self._keeping: Work[bool] | None = keep_steps(self._face)
 
     def is_of(self, target: Target) -> bool:
         """Whether the face is still as it was read."""
@@ -66,9 +71,39 @@ class LiveFace:
         """Work out what the first sketch needs."""
         yield from self._face.prepare()
 
-    def keep(self) -> Work[None]:
-        """Keep what was worked out for the next time, where the user wants that."""
-        yield from keep_steps(self._face)
+    @property
+    def has_more(self) -> bool:
+        """Whether there is something to be done for it once nothing else is due."""
+        return self._motion is not None or self._keeping is not None
+
+    def go_on(self) -> None:
+        """A share of that: the motion that is played first, then what is kept for the next time.
+
+        Raises
+        ------
+        RisoriusError : it cannot be done, and will not be tried again.
+        """
+        motion, keeping = self._motion, self._keeping
+        if motion is not None:
+            self._motion = None
+            if next(motion, None) is not None:
+                self._motion = motion
+        elif keeping is not None and next(keeping, None) is None:
+            self._keeping = None
+
+    def drop(self) -> None:
+        """Do no more for it."""
+        for work in (self._motion, self._keeping):
+            if work is not None:
+                work.close()
+        self._motion = self._keeping = None
+
+    def played(self, settings: str, motion: CueMotion, *, first_frame: float, fps: float, drive: str) -> PlayedMotion:
+        """A motion of this face, of which `go_on` works out more and more; another one where its settings differ."""
+        if self._played is None or self._played[0] != settings:
+            played = PlayedMotion(self._face, motion, first_frame=first_frame, fps=fps, drive=drive)
+            self._played, self._motion = (settings, played), played.work()
+        return self._played[1]
 
     def pose(
         self,
