@@ -58,8 +58,8 @@ def _across(places: Floats, known: Floats, values: Floats) -> Floats:
     """(..., k) values (..., l) of known places (..., l), interpolated linearly at others (..., k); beyond, the last."""
     order = np.argsort(known, axis=-1, kind="stable")
     if known.size == known.shape[-1]:  # one moment alone: NumPy's own takes a tenth of the time
-        at, line = order.ravel(), (each.ravel() for each in (known, values))
-        return np.interp(places, *(each[at] for each in line)).reshape(places.shape)
+        rising = order.ravel()
+        return np.asarray(np.interp(places, known.ravel()[rising], values.ravel()[rising]))
     known, values = (np.take_along_axis(each, order, axis=-1) for each in (known, values))
     after = (known[..., None, :] <= places[..., :, None]).sum(axis=-1)
     left, right = np.maximum(after - 1, 0), np.minimum(after, known.shape[-1] - 1)

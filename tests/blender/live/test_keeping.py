@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
 import pytest
 from risorius.operators.kept import folder as kept_folder
 from risorius.operators.kept import ops
+from risorius.operators.kept.props import RISORIUS_AP_preferences
 from risorius.scene import faces
 from risorius.scene.bake.target import Target
 from risorius.scene.live.held_faces import HeldFaces
@@ -77,3 +79,17 @@ def test_prepared_faces_are_cleared(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     (tmp_path / "notes.txt").write_text("mine")
     assert bpy.ops.risorius.clear_kept_faces() == {"FINISHED"}
     assert [path.name for path in tmp_path.iterdir()] == ["notes.txt"]
+
+
+def test_the_preferences_show_the_setting_the_folder_and_the_button(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = list[Any]()
+    layout = SimpleNamespace(
+        prop=lambda _, name: drawn.append(name),
+        label=lambda text, **_: drawn.append(text),
+        operator=drawn.append,
+        column=lambda: layout,
+    )
+    monkeypatch.setattr(faces, "_trouble", "No space left on device")
+    RISORIUS_AP_preferences.draw(SimpleNamespace(layout=layout), bpy.context)  # type: ignore[arg-type]
+    trouble = "The last face was not kept: No space left on device"
+    assert drawn == ["keep_faces", str(kept_folder.kept_folder()), trouble, "risorius.clear_kept_faces"]
