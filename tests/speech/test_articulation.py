@@ -74,9 +74,11 @@ def test_lips_close_at_any_tempo(word: str, length: float, fps: float) -> None:
 @pytest.mark.parametrize("length", [0.2, 0.05])
 def test_the_lower_lip_is_at_the_teeth_in_f(length: float) -> None:
     said = uttered("ɑ f ɑ", length)
-    frame, shape = at(articulate(said, FPS), said, 1), VISEME_SHAPES[2]
-    for number in (4, 5, 16):
-        assert frame[number - 1] == pytest.approx(shape[number - 1], abs=1e-6)
+    frame = at(articulate(said, FPS), said, 1)
+    assert frame[16 - 1] == pytest.approx(VISEME_SHAPES[2][16 - 1], abs=1e-6)  # drawn in
+    assert frame[LOWER] >= 100.0
+    assert frame[UPPER] <= -100.0  # the teeth show
+    assert frame[JAW] <= 140.0
 
 
 def test_rounding_is_awaited_through_consonants() -> None:

@@ -52,7 +52,7 @@ def picture(head: str, face: Face, asked: Sequence[Sitting], poses: Poses, folde
     missing = [sitting for sitting in asked if not files[sitting].is_file()]
     if missing:
         folder.mkdir(parents=True, exist_ok=True)
-        sitter = _sitter(head, face)
+        sitter = sitter_of(head, face)
         for yaw in sorted({sitting.turned for sitting in missing}):
             wanted = [sitting for sitting in missing if sitting.turned == yaw]
             shots = sitter.shots([poses.positions(sitting) for sitting in wanted], float(np.radians(yaw)))
@@ -70,7 +70,7 @@ def digest(face: Face, sitting: Sitting, pose: str) -> str:
     return known.hexdigest()[:24]
 
 
-def _sitter(head: str, face: Face) -> Sitter:
+def sitter_of(head: str, face: Face) -> Sitter:
     """A head as it is pictured here."""
     obj = object_alone(head, face)
     _dull(obj)
