@@ -1,4 +1,4 @@
-"""What outside judges see in rendered faces: a check, and no loss that anything is tuned to.
+"""What outside judges see in rendered faces: a check, and no loss to descend.
 
 sittings       what is pictured: a head, a word at an activation, or a sum of scanned actions as control; its pose
 paint          brows, lips and irises for heads that bring no paint: where they lie

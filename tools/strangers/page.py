@@ -41,10 +41,11 @@ with the weights in their packages. Faces are posed as a user gets them (natural
 "Named" means that, in the mean of both judges, the asked emotion is the likeliest of the six. Probabilities are over
 seven classes, neutral among them.
 
-It is a check, and no loss: no figure of this project is fitted to it. Beside it stands a control: scanned actions of
-the ICT head, summed as the Facial Action Coding System describes the six, under the same camera and light. The sums
-were chosen among several by how well they are named, so they are a ceiling; the outer brow's raiser is not among the
-scans at hand, and others stand in for it.
+It is a check, and no loss: no figure is set by it alone. Among ways to show anger, joy and fear that the Facial Action
+Coding System describes it helped to choose, on some of these same heads, so what it says of them flatters. Beside it
+stands a control: scanned actions of the ICT head, summed as that system describes the six, under the same camera and
+light. The sums were chosen among several by how well they are named, so they are a ceiling; the outer brow's raiser is
+not among the scans at hand, and others stand in for it.
 
 **What these judges cannot tell.** They were trained on small pictures of hurried labels: on FER-2013, people agree with
 the label in about two of three (Goodfellow et al. 2013). Anger and disgust are hard for them on real faces, too. They
