@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo quick test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence speech-evidence rigs strangers clean
+.PHONY: help demo quick test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence recording-evidence speech-evidence rigs strangers clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -48,6 +48,9 @@ track-evidence: ## docs/tracking.md: how well FAPs come back from films of known
 
 speech-evidence: ## docs/speech.md: closures, timing and feelings of speech, read off the meshes
 	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/speech_evidence.py $(ARGS)
+
+recording-evidence: ## docs/recordings.md: how much of real recordings arrives at the vertices; ARGS="--help" for parts of it
+	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/recording_evidence.py $(ARGS)
 
 rigs: ## docs/rigs.md: how far a character's own keys follow the muscles; ARGS="--sheets" for contact sheets in out/rigs/, too
 	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/rigs.py $(ARGS)
