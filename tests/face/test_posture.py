@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.api import Drive, Face
+from risorius.face.assembly import Assembly
 from risorius.face.drive.drives import DRIVES
 from risorius.face.drive.request import ByHand, Request
 from risorius.face.posture import Balance, Posture
@@ -58,3 +59,24 @@ def test_contractions_by_hand_come_part_of_the_way(face: Face) -> None:
     assert before > 0.3
     assert after == pytest.approx(0.1)
     assert midway == pytest.approx((before + after) / 2.0)
+
+
+def test_several_moments_together_are_those_of_each_alone(face: Face) -> None:
+    """Whatever the others are at: lips pressed, lids shut under a turned eye, an open jaw, nothing at all."""
+    blink, opened, nothing = (np.full(68, np.nan) for _ in range(3))
+    blink[18:20], blink[22:24], opened[2] = 1024.0, 9000.0, 400.0
+    requests = [Request(faps, Drive.NATURAL) for faps in (ANGER, RAISED, nothing, blink, opened)]
+    balance, assembly = Balance(face.anatomy), Assembly(face.anatomy)
+    efforts = [balance.effort(DRIVES[Drive.NATURAL].plan(request)) for request in requests]
+    pulled = np.array([face.anatomy.actuators.low_strain(effort.amounts) for effort in efforts])
+    together = balance.reached_each(efforts, pulled)
+    jaws = np.asarray(together.surroundings.jaw)
+    shown = assembly.positions_each(together.displacements, jaws, requests)
+    for number, (effort, request, positions) in enumerate(zip(efforts, requests, shown, strict=True)):
+        alone = balance.reached(effort, pulled[number])
+        np.testing.assert_allclose(together.displacements[number], alone.displacement, atol=1e-9)
+        jaw = alone.amounts.jaw
+        np.testing.assert_allclose(positions, assembly.positions(alone.displacement, jaw, request), atol=1e-9)
+    assert np.abs(together.pushed[1]).max() > 1e-3
+    assert np.abs(together.carried[3]).max() > 5e-3
+    assert np.abs(together.displacements[2]).max() == 0.0
