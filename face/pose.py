@@ -29,8 +29,8 @@ from .requests import checked_request
 from .response.recollection import Recollection
 from .unmet import unmet
 
-#: Activations of the archetypes that are explored.
-EXPLORED = (7.0, 4.0)
+#: Activations of the archetypes that are explored; and directions of the wheel, in degrees, at one activation.
+EXPLORED, ROUND, AT = (7.0, 4.0), range(0, 360, 30), 5.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +75,7 @@ class Poser:
         self.anatomy = anatomy
         self.balance = Balance(anatomy)
         self.assembly = Assembly(anatomy, folds=folds)
-        self.known = Recollection()
+        self.known, self.is_explored = Recollection(), False
 
     def plan(self, request: Request) -> Plan:
         """What the face is to do for a request."""
@@ -138,9 +138,12 @@ class Sketcher:
         return self._poser.sketch(request)
 
     def explore(self) -> Work[None]:
-        """Sketch the archetypes, strong and less so, bit by bit: what is found foretells whatever lies between."""
-        words = [(name, level) for level in EXPLORED for name in ARCHETYPES]
-        for number, (name, level) in enumerate(words):
-            yield Progress(number / len(words), "Exploring expressions")
-            found = expression(name, activation=level)
+        """Sketch archetypes and the wheel once, bit by bit: what is found foretells whatever lies between."""
+        if self._poser.is_explored:
+            return
+        some = [expression(name, activation=level) for level in EXPLORED for name in ARCHETYPES]
+        some += [expression(angle=float(angle), activation=AT) for angle in ROUND]
+        for number, found in enumerate(some):
+            yield Progress(number / len(some), "Exploring expressions")
             self.sketch(found.frame(), emotion=found.weights)
+        self._poser.is_explored = True

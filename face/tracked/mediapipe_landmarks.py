@@ -52,7 +52,6 @@ def stable_points() -> Sequence[str]:
     return _preset().texts("stable")
 
 
-
 @lru_cache(maxsize=1)
 def landmark_numbers() -> Mapping[str, int]:
     """Feature point -> MediaPipe's landmark."""

@@ -61,7 +61,7 @@ class LiveFace:
         self._apexes: OrderedDict[str, Floats] = OrderedDict()
         self._played: tuple[str, PlayedMotion] | None = None
         self._motion: Work[None] | None = None
-        self._keeping: Work[bool] | None = keep_steps(self._face)
+        self._keeping: Work[None] | None = self._explored_and_kept()
 
     def is_of(self, target: Target) -> bool:
         """Whether the face is still as it was read."""
@@ -75,6 +75,12 @@ class LiveFace:
     def has_more(self) -> bool:
         """Whether there is something to be done for it once nothing else is due."""
         return self._motion is not None or self._keeping is not None
+
+    def _explored_and_kept(self) -> Work[None]:
+        """Find out what is near, for quick sketches, and keep all that was worked out for the next time."""
+        yield from self._face.prepare()
+        yield from self._sketcher.explore()
+        yield from keep_steps(self._face)
 
     def go_on(self) -> None:
         """A share of that: the motion that is played first, then what is kept for the next time.
