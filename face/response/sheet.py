@@ -90,5 +90,5 @@ def _solve_fields(factor: Factor, forces: Floats) -> Floats:
     k, n, _ = forces.shape
     if k == 0:
         return forces
-    columns = forces.transpose(1, 0, 2).reshape(n, 3 * k)
-    return factor.solve(np.ascontiguousarray(columns)).reshape(n, k, 3).transpose(1, 0, 2)
+    columns = forces.transpose(0, 2, 1).reshape(3 * k, n).T  # each in one piece, as the factor takes them
+    return factor.solve(columns).T.reshape(k, 3, n).transpose(0, 2, 1)

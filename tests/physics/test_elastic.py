@@ -128,6 +128,17 @@ def test_factor_solves_many_columns() -> None:
     assert matrix @ elastic.Factor(matrix).solve(right) == pytest.approx(right, abs=1e-9)
 
 
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_many_columns_are_solved_as_each_alone(order: Any) -> None:
+    vertices, quads = squares(5, 0.2)
+    matrix = elastic.elastic_matrix(elastic.laplacian(vertices, quads), mesh.vertex_areas(vertices, quads), 0.1, 2.0)
+    right = np.array(np.random.default_rng(3).normal(size=(len(vertices), 61)), order=order)
+    for factor, scale in ((elastic.Factor(matrix), 1.0), (elastic.Factor(matrix).times(4.0), 4.0)):
+        alone = np.stack([factor.solve(column) for column in right.T], axis=1)
+        assert factor.solve(right) == pytest.approx(alone, abs=1e-12)
+        assert scale * (matrix @ factor.solve(right)) == pytest.approx(right, abs=1e-9)
+
+
 def test_vertices_without_area_stay_at_rest() -> None:
     vertices, polygons = squares(3, 0.01)
     vertices = np.concatenate([vertices, [[9.0, 9.0, 9.0]]])
