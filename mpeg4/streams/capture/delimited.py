@@ -23,6 +23,7 @@ TRIED = 20
 
 SEPARATOR_LINE = re.compile(r"(\"?)sep=(.)\1[\s,;]*", re.IGNORECASE)
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
+THOUSANDS = re.compile(r"[1-9]\d{0,2}(?:\.\d{3})+")
 DECIMAL_POINT = re.compile(r"[+-]?\d*\.\d+(?:[eE][+-]?\d+)?")
 
 Line = tuple[int, str]
@@ -30,8 +31,10 @@ Line = tuple[int, str]
 
 def decoded(data: bytes) -> str | None:
     """Text in UTF-8 or UTF-16, with or without a byte order mark; None where it is neither."""
+    marked = data[:2] in (b"\xff\xfe", b"\xfe\xff")
+    unmarked = len(data) > 3 and data[0] > 0 and data[2] > 0 and data[1] == data[3] == 0  # plain letters
     try:
-        return data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+        return data.decode("utf-16" if marked else "utf-16-le" if unmarked else "utf-8-sig")
     except UnicodeDecodeError:
         return None
 
@@ -118,7 +121,7 @@ def _ends_empty(row: Sequence[str], count: int) -> bool:
 
 
 def has_decimal_commas(rows: Sequence[Sequence[str]]) -> bool:
-    """Whether cells have commas before their decimals: some do, and none has a point there."""
+    """Whether cells have commas before their decimals: some do, and none has a point there, but after thousands."""
     cells = [cell for row in rows[: 10 * TRIED] for cell in row]
     commas = any(DECIMAL_COMMA.fullmatch(cell) for cell in cells)
-    return commas and not any(DECIMAL_POINT.fullmatch(cell) for cell in cells)
+    return commas and not any(DECIMAL_POINT.fullmatch(cell) and not THOUSANDS.fullmatch(cell) for cell in cells)

@@ -72,8 +72,8 @@ class JsonFrame:
         return FormatError(self.path, problem, key=f"frame {self.number}, {what}")
 
     def number_at(self, what: str, value: Any) -> float:
-        """A finite number, also as a text; NaN for null."""
-        if value is None:
+        """A finite number, also as a text; NaN for null and NaN."""
+        if value is None or value != value:
             return math.nan
         value = parsed_number(value) if isinstance(value, str) and parsed_number(value) is not None else value
         if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):

@@ -51,6 +51,9 @@ SEEN = ("blendshapes", "faceblendshapes", "landmarks", "facelandmarks", "keypoin
 #: Faces that an image shows at most.
 MOST_FACES = 16
 
+#: Names of what is said of a whole recording.
+ABOUT = ("meta", "metadata", "info", "header", "heading", "video", "camera", "capture", "settings", "config", "source")
+
 #: How deep objects are looked into.
 DEEPEST = 4
 
@@ -63,6 +66,9 @@ def laid_out(document: Any) -> list[tuple[float | None, Any]] | None:
         return _of_object(document, DEEPEST)
     if not isinstance(document, list) or not document:
         return None
+    if len(document) == 1 and isinstance(document[0], dict):
+        return _of_object(document[0], DEEPEST)
+    document = document[1:] if _is_heading(document[0]) and len(document) > 1 else document
     if all(category(entry) is not None for entry in document):
         return [(None, {"blendshapes": document})]
     return [(None, entry) for entry in document]
@@ -70,6 +76,8 @@ def laid_out(document: Any) -> list[tuple[float | None, Any]] | None:
 
 def rate_stated(document: Any) -> float | None:
     """The frame rate that an object states beside its frames; None where it states none."""
+    if isinstance(document, list) and document and (len(document) == 1 or _is_heading(document[0])):
+        document = document[0]
     if not isinstance(document, dict):
         return None
     name = first_named(document, RATE_NAMES)
@@ -77,10 +85,16 @@ def rate_stated(document: Any) -> float | None:
     rate = parsed_number(rate) if isinstance(rate, str) else rate
     if isinstance(rate, int | float) and not isinstance(rate, bool) and 0.0 < rate < float("inf"):
         return float(rate)
-    inner = (
-        document[name] for name in document if plain_name(name) in (*WRAPPERS, "meta", "metadata", "info", "header")
-    )
+    inner = (document[name] for name in document if plain_name(name) in (*WRAPPERS, *ABOUT))
     return next((found for value in inner if (found := rate_stated(value)) is not None), None)
+
+
+def _is_heading(entry: Any) -> bool:
+    """Whether the first of several entries is no frame: it states the rate, and nothing that was seen or when."""
+    if not isinstance(entry, dict) or rate_stated(entry) is None:
+        return False
+    telling = (*SEEN, *WRAPPERS, *HEADINGS, *LISTS)
+    return not any(shape_named(name) or plain_name(name) in telling or time_name(name) for name in entry)
 
 
 def _of_object(document: Entries, depth: int) -> list[tuple[float | None, Any]] | None:
@@ -104,7 +118,7 @@ def _of_object(document: Entries, depth: int) -> list[tuple[float | None, Any]] 
     frames_there = isinstance(inside, list) and all(isinstance(entry, dict | list) or entry is None for entry in inside)
     if isinstance(inside, list) and frames_there and (_are_frames(str(name), inside) or not _holds_faces(inside)):
         return [(None, entry) for entry in inside] or None
-    if isinstance(inside, dict) and depth > 0 and inside and all(key.isdigit() for key in inside):
+    if isinstance(inside, dict) and depth > 0 and inside and _numbered(inside) is not None:
         return _of_object(inside, depth - 1)
     wrapped = [name for name in document if plain_name(name) in WRAPPERS and isinstance(document[name], dict)]
     inner = _of_object(document[wrapped[0]], depth - 1) if depth > 0 and len(wrapped) == 1 else None

@@ -16,6 +16,7 @@ import numpy as np
 
 from ....arrays import Floats
 from ....errors import FormatError, ParameterError
+from .table_file import UNKNOWN
 from .times import Stamps
 
 TIMECODE = re.compile(r"(?:(\d+)[:;])?(\d{1,2})[:;](\d{1,2})(?:([:;.,])(\d+(?:[.,]\d+)?))?")
@@ -62,7 +63,7 @@ def timecode_stamps(texts: Sequence[str], rate: float | None, refuse: Callable[[
     fields, marks = np.full((len(texts), 4), np.nan), set()
     widths = set()
     for row, text in enumerate(texts):
-        if not text.strip():
+        if text.strip().lower() in UNKNOWN:
             continue
         match = _parts(text)
         if match is None:

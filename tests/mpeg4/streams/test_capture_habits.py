@@ -143,6 +143,29 @@ def test_names_that_differ_in_case_alone_are_different_columns(shared: Path) -> 
     assert not any(said.startswith("not read") for said in recording.assumed)
 
 
+def test_points_after_thousands_are_no_decimals(tmp_path: Path) -> None:
+    cells = [f"{40 * n:,}".replace(",", ".") for n in range(COUNT)]
+    rows = [
+        f"{cell};{n / 1000}".replace(f";{n / 1000}", f";{n / 1000:.3f}".replace(".", ","))
+        for n, cell in enumerate(cells)
+    ]
+    recording = read(tmp_path / "a.csv", "timestamp;jawOpen\n" + "\n".join(rows))
+    assert (recording.stream.fps, shown(recording)) == (25.0, list(range(COUNT)))
+
+
+def test_utf_16_without_a_mark(tmp_path: Path) -> None:
+    assert shown(read(tmp_path / "a.csv", table("frame", range(COUNT)).encode("utf-16-le"))) == list(range(COUNT))
+
+
+def test_words_for_nothing_in_place_of_a_timecode_and_of_a_score(tmp_path: Path) -> None:
+    codes = ["N/A", *(f"00:00:{n // 25:02d}:{n % 25:02d}" for n in range(COUNT))]
+    recording = read(tmp_path / "a.csv", table("Timecode", codes))
+    assert (recording.stream.fps, len(recording.stream.frames)) == (25.0, COUNT)
+    assert "1 row states no time: left out" in recording.assumed
+    frames = [{"t": n / 25, "jawOpen": float("nan") if n == 7 else n / 1000} for n in range(COUNT)]
+    assert np.flatnonzero(np.isnan(shown(read(tmp_path / "a.json", json.dumps(frames))))).tolist() == [7]
+
+
 # ---- names -------------------------------------------------------------------------------------------
 
 
@@ -177,6 +200,12 @@ LAYOUTS: dict[str, Any] = {
     "texts": [{"t": f"{n / 25}", "jawOpen": f"{n / 1000}"} for n in range(COUNT)],
     "name and value": [{"t": n / 25, "shapes": [{"name": "jawOpen", "value": n / 1000}]} for n in range(COUNT)],
     "key and weight": [{"t": n / 25, "shapes": [{"key": "jawOpen", "weight": n / 1000}]} for n in range(COUNT)],
+    "a video's rate": {"video": {"fps": 25}, "frames": [{"jawOpen": n / 1000} for n in range(COUNT)]},
+    "a line above": [{"type": "header", "fps": 25}, *({"jawOpen": n / 1000} for n in range(COUNT))],
+    "times as keys": {"frames": {f"{n / 25:.2f}": {"jawOpen": n / 1000} for n in range(COUNT)}},
+    "one export in a list": [
+        {"exportFps": 25, "facsNames": ["jawOpen"], "weightMat": [[n / 1000] for n in range(COUNT)]}
+    ],
     "pairs": [{"t": n / 25, "blendshapes": [["jawOpen", n / 1000], ["eyeBlinkLeft", 0]]} for n in range(COUNT)],
 }
 
