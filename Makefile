@@ -35,7 +35,7 @@ docs-faps: ## docs/faps.md: what moves each FAP, measured on the faces
 	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/fap_table.py $(ARGS)
 
 evidence: ## docs/evidence.md: how well emotions are recognised; ARGS="--part page" writes it anew from out/evidence/
-	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/evidence.py $(ARGS)
+	@$(SETUP) dev bpy-4.5 track && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/evidence_seen.py render && OMP_NUM_THREADS=1 .venv-track/bin/python tools/evidence_seen.py read && OMP_NUM_THREADS=1 .venv/bin/python tools/evidence.py $(ARGS)
 
 fit-report: ## docs/fit.md: how well feature points are found on any head; ARGS="--help" for parts of it
 	@$(SETUP) dev && OMP_NUM_THREADS=1 .venv/bin/python tools/fit_report.py $(ARGS)

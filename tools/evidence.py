@@ -4,12 +4,13 @@
 
 Poses and scans leave what was measured in out/evidence/, face by face, so that parts can be run one at a time and a
 broken run goes on where it was; delete the folder after a change of faces or drives. The shared heads and samples are
-found by $RISORIUS_SHARED, else in `../shared`.
+found by $RISORIUS_SHARED, else in `../shared`. What `tools/evidence_seen.py` left of pictures is written, too.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import time
 
 from places import DOCS, OUT, ROOT, shared_folder
@@ -43,7 +44,9 @@ def main() -> None:
         else:
             posed = {each: gather(each, build, CACHE, draws=draws) for each in Series}
             words = posed.pop(Series.WORDS)
-            _write(Figures(posed, words, gather_scans(heads, build, CACHE), read_samples(samples)))
+            seen = CACHE / "seen.json"
+            pictures = json.loads(seen.read_text(encoding="utf-8")) if seen.is_file() else []
+            _write(Figures(posed, words, gather_scans(heads, build, CACHE), read_samples(samples), pictures))
         print(f"{part}: {time.perf_counter() - begun:.0f} s", flush=True)
 
 

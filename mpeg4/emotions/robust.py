@@ -14,7 +14,7 @@ broad smile; there is no neutral face. So here
 - where the neutral face is doubtful, each profile may have the neutral face that suits it best, at a price: so much
   as the doubt makes it unlikely.
 
-Source: own choice; figures of the constants: chosen on posed faces, docs/evidence.md.
+Source: own choice; figures of the constants: chosen on the posed faces and photographs of docs/evidence.md.
 """
 
 from __future__ import annotations

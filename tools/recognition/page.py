@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import risorius.api as api
@@ -16,6 +17,7 @@ from .faces import FACES
 from .poses import SHARES, Measured, Series
 from .samples import Sample
 from .scans import STRENGTHS, combinations, shown, units
+from .seen_page import seen_section
 from .shapes import CHOICES, Choice, Shape, best_of, held_out, own, score
 from .verdicts import EMOTIONS, NOTHING, OTHERS, Way, all_verdicts, confusion, correct
 from .words import kind, meanings, rankings
@@ -139,12 +141,14 @@ class Figures:
     words : poses of words.
     scans : combinations of scans; see `gather_scans`.
     samples : sample files.
+    seen : pictures and films; empty where none were read.
     """
 
     posed: Mapping[Series, Measured]
     words: Measured
     scans: Measured
     samples: Sequence[Sample]
+    seen: Sequence[Mapping[str, Any]] = ()
 
 
 def page(figures: Figures) -> str:
@@ -157,6 +161,7 @@ def page(figures: Figures) -> str:
         *_words(figures.words),
         *_scans(figures.scans),
         *_neutral(),
+        *seen_section(figures.seen),
         *_samples(figures.samples),
     ]
     return re.sub("\n{3,}", "\n\n", "\n".join(parts)) + "\n"

@@ -13,6 +13,7 @@ from faithful.heads import HEADS, heads_folder, lash_vertices, load_face
 from risorius.api import Face
 from risorius.arrays import Floats, Ints
 from risorius.scene import mesh as meshes
+from risorius.scene.blender_types import Object
 from risorius.scene.jobs.painting import paint_parts
 from risorius.scene.pictures.framing import framing_of
 from risorius.scene.points.stored import store_points
@@ -33,10 +34,11 @@ def picture_neutral_heads(out: Path) -> Path:
         face = load_face(name)
         _picture(Filmed.of_head(name, face, width=SIZE, height=SIZE), face.vertices, out / name)
     for name, face in _variants():
-        _picture(Filmed([_painted(name, face)], width=SIZE, height=SIZE), face.vertices, out / name)
+        _picture(Filmed([painted_object(name, face)], width=SIZE, height=SIZE), face.vertices, out / name)
     for name, file in OTHERS.items():
-        mesh = _read(heads_folder() / "others" / file)
-        _picture(_bare(name, mesh), mesh.vertices, out / name)
+        mesh = read_mesh(heads_folder() / "others" / file)
+        obj = bare_object(name, mesh)
+        _picture(Filmed([obj], framing=framing_of(obj), width=SIZE, height=SIZE), mesh.vertices, out / name)
     return out
 
 
@@ -66,7 +68,7 @@ def _variants() -> Iterator[tuple[str, Face]]:
             yield f"makehuman-{name}", Face.from_arrays(vertices, base.polygons, bound, base.parts)
 
 
-def _painted(name: str, face: Face) -> object:
+def painted_object(name: str, face: Face) -> Object:
     """A head on MakeHuman's mesh as the one object of a file, without its lashes."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     lashes = lash_vertices("makehuman")
@@ -81,31 +83,31 @@ def _painted(name: str, face: Face) -> object:
 
 
 @dataclass(frozen=True, eq=False)
-class _Mesh:
+class PlainMesh:
     """A head as a file has it: vertices (V, 3) looking along -Y, polygons."""
 
     vertices: Floats
     polygons: Sequence[Ints]
 
 
-def _bare(name: str, mesh: _Mesh) -> Filmed:
-    """A head without points or materials."""
+def bare_object(name: str, mesh: PlainMesh) -> Object:
+    """A head without points or materials as the one object of a file."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     data = meshes.new_mesh(name, mesh.vertices, *meshes.flatten_polygons(mesh.polygons))
     obj = bpy.data.objects.new(name, data)
     bpy.context.collection.objects.link(obj)
-    return Filmed([obj], framing=framing_of(obj), width=SIZE, height=SIZE)
+    return obj  # type: ignore[no-any-return]
 
 
-def _read(path: Path) -> _Mesh:
+def read_mesh(path: Path) -> PlainMesh:
     """A head of `heads/others`, whose up is Y."""
     if path.suffix == ".npz":
         data = np.load(path)
-        return _Mesh(_upright(data["positions"].astype(np.float64)), list(data["triangles"].astype(np.int64)))
+        return PlainMesh(_upright(data["positions"].astype(np.float64)), list(data["triangles"].astype(np.int64)))
     lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines()]
     vertices = np.array([[float(number) for number in line[1:4]] for line in lines if line[:1] == ["v"]])
     corners = [[int(corner.split("/")[0]) - 1 for corner in line[1:]] for line in lines if line[:1] == ["f"]]
-    return _Mesh(_upright(vertices), [np.array(each, dtype=np.int64) for each in corners])
+    return PlainMesh(_upright(vertices), [np.array(each, dtype=np.int64) for each in corners])
 
 
 def _upright(vertices: Floats) -> Floats:

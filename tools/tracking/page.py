@@ -92,10 +92,12 @@ def _photograph(track: Track) -> list[str]:
     told = (4, 6, 7, 12, 13, 19, 20, 33, 34, 41, 42, 51, 59, 60)
     rows = ["| FAP | value |", "|---|---|"]
     rows += [f"| {n} {api.fap(n).name} | {_number(frame[n - 1], 0)} |" for n in told]
-    rows += ["", "| rule | " + " | ".join(str(name) for name in api.recognise(frame)) + " |", "|---|" + "---|" * 6]
-    for rule in ("robust", "paper"):
-        beliefs = api.recognise(frame, rule=rule)
-        rows.append(f"| {rule} | " + " | ".join(f"{belief:.3f}" for belief in beliefs.values()) + " |")
+    names = [*map(str, api.ARCHETYPES), api.NEUTRAL]
+    rows += ["", "| rule | " + " | ".join(names) + " |", "|---|" + "---|" * 7]
+    robust = api.recognise(frame, rule="robust", confidence=track.confidence[0], doubt=track.doubt)
+    for rule, beliefs in (("robust", robust), ("paper", api.recognise(frame))):
+        cells = [f"{belief:.3f}" for belief in beliefs.values()]
+        rows.append(f"| {rule} | {' | '.join([*cells, _number(beliefs.neutral or np.nan, 3)])} |")
     return rows
 
 
