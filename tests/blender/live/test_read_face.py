@@ -348,3 +348,26 @@ def test_what_is_no_face_cannot_be_read(cube: Any) -> None:
     assert not bpy.ops.risorius.read_animation.poll()
     live.refresh(cube)
     assert "no feature points" in live.shown(cube)[1]
+
+
+def test_by_the_robust_rule_a_resting_face_is_neutral_in_the_panel_and_in_curves(smiling: Any) -> None:
+    scene = bpy.context.scene
+    scene.risorius.read.rule = "robust"
+    scene.frame_set(1)
+    live.refresh(smiling)
+    seen = drawn(panel.RISORIUS_PT_read)
+    assert ("label", "Neutral", 0.0) in seen
+    assert ("progress", "1.000", pytest.approx(1.0, abs=1e-3)) in seen
+    scene.frame_set(11)
+    live.refresh(smiling)
+    assert "Joy" in labels(panel.RISORIUS_PT_read)
+    track = run(read_animation(smiling, scene, start=1, end=11, rule="robust"))
+    belief_curves.write_curves(smiling, track)
+    scene.frame_set(1)
+    assert smiling["risorius_neutral"] == pytest.approx(1.0, abs=1e-3)
+    scene.frame_set(11)
+    assert smiling["risorius_neutral"] < 0.2
+    belief_curves.remove_curves(smiling)
+    assert "risorius_neutral" not in smiling
+    belief_curves.write_curves(smiling, run(read_animation(smiling, scene, start=1, end=2)))
+    assert "risorius_neutral" not in smiling  # the paper's rule has none
