@@ -113,8 +113,8 @@ Sources: *FACS table* is Ekman and Friesen 1978 as quoted by mpr-online 4, 3; *E
 *prototype* is the Investigator's Guide as quoted in slides; *library* is Greta's facelibrary. The table gives the
 correct results out of {people}, and the most frequent other result of the paper's and the robust rule.
 
-The robust rule takes weak sadness for neutral: the profile of Table 5 asks for little, and nothing of the mouth, so that
-corners of the mouth that fall count against it. In a weak smile they rise too little to contradict disgust.
+The robust rule takes weak sadness for neutral: the profile of Table 5 asks for little, and nothing of the mouth, so
+that corners of the mouth that fall count against it. In a weak smile they rise too little to contradict disgust.
 
 | emotion | source | AUs | no scan for | {ways} | paper, other | robust, other |
 |---|---|---|---|{dashes}|---|---|
