@@ -16,7 +16,7 @@ from importlib import import_module
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy is imported
 
-PARTS = ("solvers", "preview", "redraw")
+PARTS = ("solvers", "preview", "redraw", "growth")
 
 
 def main(argv: list[str]) -> int:

@@ -12,7 +12,7 @@ from ...arrays import AnyFloats, Floats, Singles
 from ...progress import Progress, Work
 
 #: Figures that are worked through in one step, and how many frames are taken in at once at least and at most.
-BLOCK, FEWEST, MOST = 8_000_000, 8, 64
+BLOCK, FEWEST, MOST = 4_000_000, 4, 64
 #: What is said meanwhile.
 TEXT = "Compressing the motion to shape keys"
 #: Of what is new in some frames, a field whose part is smaller than this share of the largest is what rounding left.
@@ -25,7 +25,7 @@ class Gathered:
     def __init__(self, vertex_count: int, *, within: float) -> None:
         """Begin without frames."""
         self.within = within
-        self._fields: Singles = np.zeros((0, 3 * vertex_count), dtype=np.float32)
+        self._fields: list[Singles] = [np.zeros((0, 3 * vertex_count), dtype=np.float32)]
         self._taken: list[Floats] = []
         self._waiting: list[Singles] = []
         self._batch = int(np.clip(BLOCK // max(3 * vertex_count, 1), FEWEST, MOST))
@@ -50,13 +50,14 @@ class Gathered:
     def fields(self) -> Singles:
         """(r, 3 V) orthonormal, in single precision: what is written in the end is, too."""
         self._take_in()
-        return self._fields
+        self._fields = [np.concatenate(self._fields)]
+        return self._fields[0]
 
     @property
     def loadings(self) -> Floats:
         """(T, r) how much of each field shows in every frame; exactly zero in a frame without displacement."""
         self._take_in()
-        padded = np.zeros((len(self._taken), len(self._fields)))
+        padded = np.zeros((len(self._taken), sum(map(len, self._fields))))
         for row, taken in zip(padded, self._taken, strict=True):
             row[: len(taken)] = taken
         return padded
@@ -66,8 +67,9 @@ class Gathered:
         if not self._waiting:
             return
         frames = np.array(self._waiting)
-        shown = frames @ self._fields.T
-        frames -= shown @ self._fields
+        shown = [frames @ fields.T for fields in self._fields]
+        for share, fields in zip(shown, self._fields, strict=True):
+            frames -= share @ fields
         # In double precision: a field ten thousand times smaller than the largest is at right angles to it, too.
         left = frames.astype(np.float64)
         values, vectors = np.linalg.eigh(left @ left.T)
@@ -83,8 +85,8 @@ class Gathered:
                 few = count + 1
             else:
                 many = count
-        self._fields = np.concatenate([self._fields, new[:few].astype(np.float32)])
-        self._taken += list(np.concatenate([shown, parts[:, :few]], axis=1).astype(np.float64))
+        self._fields.append(new[:few].astype(np.float32))
+        self._taken += list(np.concatenate([*shown, parts[:, :few]], axis=1).astype(np.float64))
         self._waiting = []
 
 
