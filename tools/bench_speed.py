@@ -16,7 +16,7 @@ from importlib import import_module
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy is imported
 
-PARTS = ("solvers", "preview", "redraw", "growth")
+PARTS = ("solvers", "preview", "redraw", "growth", "motion")
 
 
 def main(argv: list[str]) -> int:

@@ -21,6 +21,8 @@ from risorius.physics.implicit import ImplicitSolver
 from risorius.physics.skin import Skin, State
 from risorius.physics.tissue import tissue
 
+from .xpbd import PINS, frame_seconds, sheet
+
 FPS = 25.0
 
 
@@ -92,30 +94,17 @@ def measure(name: str, vertices: Any, polygons: Any, bending: float | None, fram
 
 
 def blender_frame(kind: str, vertices: Any, polygons: Any, frames: int) -> float:
-    """Seconds per frame of Blender's cloth or soft body with its default settings on the same mesh."""
+    """Processor seconds per frame of Blender's cloth or soft body with its default settings on the same mesh."""
     import bpy
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    data = bpy.data.meshes.new("sheet")
-    data.from_pydata(vertices.tolist(), [], polygons)
-    thing = bpy.data.objects.new("sheet", data)
-    bpy.context.scene.collection.objects.link(thing)
-    group = thing.vertex_groups.new(name="held")
-    group.add(list(range(len(vertices))), 0.5, "REPLACE")
+    thing = sheet(vertices, polygons)
     modifier = thing.modifiers.new("physics", kind)
     if kind == "CLOTH":
-        modifier.settings.vertex_group_mass = "held"
+        modifier.settings.vertex_group_mass = PINS
     else:
-        modifier.settings.vertex_group_goal = "held"
-    scene = bpy.context.scene
-    scene.frame_set(1)
-    times = []
-    for frame in range(2, frames + 2):
-        begin = time.perf_counter()
-        scene.frame_set(frame)
-        thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
-        times.append(time.perf_counter() - begin)
-    return statistics.median(times)
+        modifier.settings.vertex_group_goal = PINS
+    return frame_seconds(thing, frames)
 
 
 def main(argv: list[str]) -> None:
