@@ -22,8 +22,9 @@ lint: ## style, types and layers
 build: ## what users install, in dist/; ARGS="--platform linux-x64 --blender 5.1" builds one zip
 	@$(SETUP) dev blender && .venv/bin/python tools/build.py $(ARGS)
 
-bench: ## speed and accuracy figures
-	@$(SETUP) bpy-4.5 && .venv-bpy-4.5/bin/python tools/bench_speed.py $(ARGS)
+bench: ## speed and accuracy figures, out/bench/*.json and docs/performance.md; ARGS="motion --head ict.npz" for parts
+	@$(SETUP) dev bpy-4.5 && .venv-bpy-4.5/bin/python tools/bench_speed.py $(ARGS)
+	@test -n "$(ARGS)" || .venv/bin/python tools/bench_speed.py page
 
 bench-faithful: ## how faithful the faces are: tables and contact sheets in out/faithful/; ARGS="--help" for parts of it
 	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/bench_faithful.py $(ARGS)

@@ -4,8 +4,11 @@
     python tools/bench_speed.py solvers [--mesh HEAD.npz | --mesh grid] [--frames 50]
     python tools/bench_speed.py preview [--mesh HEAD.npz --points HEAD.fp.json] [--steps 40]
     python tools/bench_speed.py redraw [--objects 5000]
+    python tools/bench_speed.py growth [--most 6]                              1,000 to 500,000 vertices
+    python tools/bench_speed.py motion [--head ict.npz]                        every head, and how far it is off
+    python tools/bench_speed.py page                                           docs/performance.md from the last two
 
-The preview and the sidebar need a Python that has bpy. Everything runs on one core.
+All but the solvers and the page need a Python that has bpy. Everything runs on one core.
 """
 
 from __future__ import annotations
@@ -17,11 +20,13 @@ from importlib import import_module
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy is imported
 
 PARTS = ("solvers", "preview", "redraw", "growth", "motion")
+#: Written from what those measured, by a Python that has matplotlib.
+PAGE = "page"
 
 
 def main(argv: list[str]) -> int:
     """Measure one part with its options, or all."""
-    if argv and argv[0] not in PARTS:
+    if argv and argv[0] not in (*PARTS, PAGE):
         print(__doc__)
         return 0 if argv[0] in ("-h", "--help") else 2
     for part in argv[:1] or PARTS:

@@ -147,8 +147,7 @@ def find_points_steps(
         start = Start(_located_by_clicks(surface, clicked, template), None)
     else:
         located = yield from part_of(locate(surface), 0.02, 0.55)
-        yield Progress(0.55, "Checking for a crooked face")
-        start = better_start(located)
+        start = yield from part_of(better_start(located), 0.55, 0.6)
     return (yield from part_of(_fitted_points(start, clicked, paint, beside), 0.6, 1.0))
 
 
@@ -174,7 +173,7 @@ def locate_points(vertices: ArrayLike, polygons: Polygons, *, refuse: bool = Tru
     """
     places = checked_vertices(vertices)
     surface = run(_welded(places, _checked_faces(polygons, len(places))))
-    located = better_start(run(locate(surface, refuse=refuse))).place
+    located = run(better_start(run(locate(surface, refuse=refuse)))).place
     template = located.template
     positions = located.pose.to_mesh(template.read(template.skin.vertices))
     named = dict(zip(template.names, positions, strict=True))

@@ -28,6 +28,8 @@ from risorius.scene.bake.compress import TOLERANCE, gathering, squeeze
 SIZES = ((1000, 0), (3000, 0), (0, 0), (5208, 1), (0, 1), (5208, 2), (0, 2), (5208, 3))
 #: Frames per second of the motion, and updates of the live preview.
 FPS, PREVIEWS = 25.0, 5
+#: So many sizes, the largest, tell how a phase grows.
+LARGEST = 3
 #: Which phases come once, and which for every frame.
 ONCE = ("find the face", "read the mesh", "prepare", "first pose", "motion, once")
 EACH = ("live preview", "motion, each frame", "compress")
@@ -175,7 +177,8 @@ def exponent(sizes: Any, figures: Any) -> float:
 
 
 def fitted(rows: list[dict[str, Any]]) -> dict[str, dict[str, float]]:
-    """Phase -> exponents of its time and its memory, over the sizes that were measured."""
+    """Phase -> exponents of its time and its memory, over the largest sizes that were measured."""
+    rows = rows[-LARGEST:]
     sizes = [row["vertices"] for row in rows]
     found = {}
     for name in rows[0]["phases"]:

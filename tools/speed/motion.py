@@ -37,7 +37,7 @@ HEADS = (
     *("others/mhr/subject3_head.obj", "others/menpo_james/james.obj"),
 )
 #: Steps per frame of the reference, and frames of Blender's solvers.
-SUBSTEPS, BLENDER_FRAMES = 8, 10
+SUBSTEPS, BLENDER_FRAMES = 8, 6
 WORDS = ("joy", "anger", "surprise", "sadness")
 
 
@@ -50,9 +50,9 @@ def film() -> list[api.Cue]:
 
 
 def cues() -> list[api.Cue]:
-    """The same in less than four seconds, which is harder to follow: how far it is off."""
+    """The same in less than two seconds, which is harder to follow: how far it is off."""
     return [
-        api.Cue(api.expression(word), start=0.1 + 0.7 * number, onset=0.4, apex=0.3, offset=0.5)
+        api.Cue(api.expression(word), start=0.1 + 0.35 * number, onset=0.3, apex=0.1, offset=0.3)
         for number, word in enumerate(WORDS)
     ]
 

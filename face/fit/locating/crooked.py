@@ -9,6 +9,7 @@ from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from ....arrays import Floats
+from ....progress import Progress, Work
 from ..template.picture import picture
 from ..template.template import FitTemplate
 from .boxes import Box, box_cloud
@@ -27,6 +28,8 @@ FAR, ROUNDS, NEAR = (Pass(8, 2, 0.0), Pass(5, 1, 6.0)), 2, (Pass(5, 1, 8.0), Pas
 STRIDE = 8
 #: Distance from which a pose's misses count less, metres; how firmly its axes keep one scale.
 HALF, ALIKE = 4e-3, 20e-3
+#: What is said meanwhile.
+TEXT = "Checking for a crooked face"
 
 
 @dataclass(frozen=True)
@@ -37,17 +40,20 @@ class Start:
     flow: Flow | None
 
 
-def better_start(place: Located) -> Start:
+def better_start(place: Located) -> Work[Start]:
     """Where a face lies, looked at again where it is unlike the template."""
+    yield Progress(0.0, TEXT)
     if place.score.value < CROOKED_SCORE:
         return Start(place, None)
     template = place.template
     chosen = np.flatnonzero(template.front)[::STRIDE]
     model = template.surface.vertices[chosen]
     pose = place.pose
-    for _ in range(ROUNDS):
+    for number in range(ROUNDS):
         flow = _flow(place, pose, FAR)
+        yield Progress((number + 0.5) / (ROUNDS + 1), TEXT)
         pose = pose_of(model, pose.to_mesh(model + flow.at(model)), pose)
+        yield Progress((number + 1) / (ROUNDS + 1), TEXT)
     return Start(replace(place, pose=pose), _flow(place, pose, NEAR))
 
 

@@ -1,0 +1,158 @@
+"""docs/performance.md and its picture, from the figures in out/bench.
+
+Needs matplotlib, which the Pythons that have bpy may lack: `.venv/bin/python tools/bench_speed.py page`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from places import DOCS, OUT
+
+from .growth import EACH, ONCE
+
+PAGE, PICTURE = DOCS / "performance.md", DOCS / "pictures" / "performance.png"
+
+HEADING = """# How fast, and how it grows
+
+Written by `make bench`. All figures are processor time on one core of the machine on which it ran last, which others
+used at the same time: **ratios count, milliseconds are a hint**. Blender's own solvers ran in the same process as the
+head beside them, with their default settings (cloth: quality 5), each vertex of the same outer skin held half.
+"""
+
+MOTION = """## A motion of four overlapping emotions
+
+Ten seconds of joy, anger, surprise and sadness at 25 frames per second, with all that surrounds the skin: what is once
+for the clip is shared out among its frames. *× cloth*: how many times as long Blender's cloth takes for a frame of the
+skin alone; *per vertex*: with each divided by its own vertices. *XPBD*: Blender's experimental cloth on its XPBD solver
+node. The error is that of the same four emotions in less than two seconds, against the implicit integrator with eight
+steps per frame, as a share of the largest motion: at the worst vertex and frame, and in the mean square of the worst
+frame.
+"""
+
+PHASES = """## Phases
+
+Processor time of each phase, and how near it is to what this machine's memory can do (a triad of three arrays of 160
+MB). A frame must at least read what it is made of and write what it is; its share of the bandwidth is those bytes over
+its time. What is far below has work to do in the processor, not in memory.
+"""
+
+GROWTH = """## From 1,000 to 500,000 vertices
+
+![Time against size](pictures/performance.png)
+
+The default head, thinned out or split to every size. *Solved* are the nodes of the skin that is solved: only skin that
+can move, and above 20,000 of its vertices a coarser skin, whose motion the others carry with their detail. *Grows* is
+the slope of a straight line through the logarithms of the three largest sizes, where what is constant no longer
+flatters: 1 is in proportion to the vertices. *Longest step* is the longest time at the largest size between two
+moments at which a window draws its progress and sees Esc.
+"""
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table of Markdown, numbers to the right."""
+    lines = [list(head), ["---", *["---:"] * (len(head) - 1)], *map(list, rows)]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+
+
+def ms(seconds: float) -> str:
+    """Milliseconds with two digits that count."""
+    figure = 1e3 * seconds
+    return f"{figure:,.0f}" if figure >= 10.0 else f"{figure:.1f}"
+
+
+def times(seconds: object, own: float) -> str:
+    """How many times as long, or nothing."""
+    return f"{seconds / own:.1f}" if isinstance(seconds, float) else "-"
+
+
+def motion_table(heads: Sequence[dict[str, Any]]) -> str:
+    """A row for each head."""
+    rows = []
+    for row in heads:
+        own, blender, error = row["seconds_per_frame"], row["blender"], row["error"]
+        share = row["vertices"] / blender["vertices"]
+        rows.append(
+            [
+                row["head"].removesuffix(".npz").removesuffix(".obj"),
+                f"{row['vertices']:,}",
+                ms(own),
+                times(blender["cloth"], own),
+                times(blender["cloth"] * share, own),
+                times(blender["soft body"], own),
+                times(blender["XPBD cloth"], own),
+                f"{100 * error['worst']:.2f} %",
+                f"{100 * error['rms']:.2f} %",
+            ]
+        )
+    titles = ("head", "vertices", "ms per frame", "× cloth", "per vertex", "× soft body", "× XPBD")
+    return table((*titles, "error, worst", "rms"), rows)
+
+
+def why_not(heads: Sequence[dict[str, Any]]) -> str:
+    """Why solvers of Blender's were not measured, and in which Blender the others were."""
+    versions = sorted({row["blender"]["version"] for row in heads})
+    reasons = {f"{key}: {value}." for row in heads for key, value in row["blender"].items() if isinstance(value, str)}
+    told = sorted(reason for reason in reasons if not reason.startswith("version"))
+    return "\n".join([f"Measured in Blender {', '.join(versions)}.", *told]) + "\n"
+
+
+def phase_table(heads: Sequence[dict[str, Any]]) -> str:
+    """A row for each phase, of the default head and of the largest."""
+    chosen = [heads[0], max(heads, key=lambda row: float(row["vertices"]))]
+    rows = []
+    for name in heads[0]["phases"]:
+        line = [name]
+        for row in chosen:
+            seconds, moved = row["phases"][name]["seconds"], row["bytes"].get(name)
+            line += [ms(seconds), "-" if moved is None else f"{100 * moved / seconds / row['bandwidth']:.1f} %"]
+        rows.append(line)
+    names = [row["head"].removesuffix(".npz") for row in chosen]
+    titles = [f"{name}, {what}" for name in names for what in ("ms", "of bandwidth")]
+    return table(("phase", *titles), rows) + f"\nThe memory of this machine: {heads[0]['bandwidth'] / 1e9:.0f} GB/s.\n"
+
+
+def growth_table(sizes: Sequence[dict[str, Any]], powers: dict[str, dict[str, float]]) -> str:
+    """A row for each phase, a column for each size."""
+    rows = [["solved", *(f"{row['solved']:,}" for row in sizes), "", ""]]
+    for name in sizes[0]["phases"]:
+        phases = [row["phases"][name] for row in sizes]
+        grown, last = f"n^{powers[name]['seconds']:.2f}", f"{phases[-1]['longest']:.1f} s"
+        rows.append([f"{name}, ms", *(ms(phase["seconds"]) for phase in phases), grown, last])
+    peaks = [max(phase["memory"] for phase in row["phases"].values()) for row in sizes]
+    rows.append(["memory at most, MB", *(f"{peak:,.0f}" for peak in peaks), "", ""])
+    return table(("vertices", *(f"{row['vertices']:,}" for row in sizes), "grows", "longest step"), rows)
+
+
+def draw(sizes: Sequence[dict[str, Any]], path: Path) -> None:
+    """Time against size, both on scales of powers."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(9.0, 3.8), layout="constrained")
+    counts = [row["vertices"] for row in sizes]
+    titles = ("once, seconds", "each frame, seconds")
+    for axes, names, title in zip(figure.subplots(1, 2), (ONCE, EACH), titles, strict=True):
+        for name in names:
+            axes.plot(counts, [row["phases"][name]["seconds"] for row in sizes], "o-", label=name, markersize=3)
+        axes.set(xscale="log", yscale="log", xlabel="vertices", title=title)
+        axes.grid(visible=True, which="major", alpha=0.3)
+        axes.legend(fontsize=8)
+    figure.savefig(path, dpi=90)
+
+
+def main(argv: list[str]) -> None:
+    """Write the page from the figures of the last runs of `growth` and `motion`."""
+    parser = argparse.ArgumentParser(prog="bench_speed.py page", description=__doc__)
+    parser.add_argument("--figures", type=Path, default=OUT / "bench", help="the folder that those wrote to")
+    folder = parser.parse_args(argv).figures
+    heads = json.loads((folder / "motion.json").read_text())["heads"]
+    growth = json.loads((folder / "growth.json").read_text())
+    draw(growth["sizes"], PICTURE)
+    parts = [HEADING, MOTION, motion_table(heads), why_not(heads), PHASES, phase_table(heads), GROWTH]
+    parts += [growth_table(growth["sizes"], growth["exponents"]), (DOCS.parent / "tools/speed/kept.md").read_text()]
+    PAGE.write_text("\n".join(parts))
+    print(f"wrote {PAGE} and {PICTURE}")
