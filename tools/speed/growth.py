@@ -8,6 +8,7 @@ is what runs between two moments at which a window could draw itself and see Esc
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import resource
 import subprocess
@@ -79,10 +80,8 @@ class Watch:
 
 def _forget_peak() -> None:
     """Let the kernel begin anew with the largest resident set, where it can (Linux)."""
-    try:
+    with contextlib.suppress(OSError):
         Path("/proc/self/clear_refs").write_text("5")
-    except OSError:
-        pass
 
 
 def _peak() -> float:

@@ -146,7 +146,8 @@ def tell(row: dict[str, Any]) -> None:
         print(f"  {name:<20}{phase['seconds'] * 1e3:10.1f} ms")
     for name, seconds in row["blender"].items():
         if isinstance(seconds, float):
-            print(f"  {name}: {seconds * 1e3:.1f} ms, {seconds / row['seconds_per_frame']:.1f} times as long as a frame")
+            longer = seconds / row["seconds_per_frame"]
+            print(f"  {name}: {seconds * 1e3:.1f} ms, {longer:.1f} times as long as a frame")
     print(f"  off by {row['error']['worst']:.2%} at worst, {row['error']['rms']:.2%} rms", flush=True)
 
 

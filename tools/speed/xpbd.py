@@ -1,4 +1,4 @@
-"""Blender's cloth by position-based dynamics: the node group that uses its XPBD solver node, in Blender 5.2 and later."""
+"""Blender's cloth by position-based dynamics: the node group on its XPBD solver node, in Blender 5.2 and later."""
 
 from __future__ import annotations
 
