@@ -14,7 +14,7 @@ import resource
 import subprocess
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -170,6 +170,30 @@ def measured(thinned: int, splits: int) -> dict[str, Any]:
     }
 
 
+def thinning(splits: int = 1, words: Sequence[str] = ("joy", "surprise", "anger")) -> dict[str, Any]:
+    """How far poses on a coarser skin are from those on all of it, as shares of the largest displacement.
+
+    The default head, split, is posed both ways: its skin solved whole as it is, and thinned out as if it were denser.
+    """
+    from risorius.face import anatomy
+
+    vertices, polygons, points = head_of(0, splits)
+    usual, solved, poses = anatomy.MOST, [], []
+    for most in (10**9, 1000):
+        anatomy.MOST = most
+        face = api.Face.from_arrays(vertices, polygons, points)
+        profiles = [api.expression(word) for word in words]
+        poses.append([face.pose(each.frame(), emotion=each.weights).positions for each in profiles])
+        solved.append(face.anatomy.skin.vertex_count)
+    anatomy.MOST = usual
+    found: dict[str, Any] = {"vertices": len(vertices), "whole": solved[0], "coarse": solved[1], "words": {}}
+    for word, whole, coarse in zip(words, *poses, strict=True):
+        off = np.linalg.norm(coarse - whole, axis=1) / np.linalg.norm(whole - vertices, axis=1).max()
+        rms = float(np.sqrt((off**2).mean()))
+        found["words"][word] = {"worst": float(off.max()), "99 %": float(np.percentile(off, 99)), "rms": rms}
+    return found
+
+
 def exponent(sizes: Any, figures: Any) -> float:
     """Slope of a straight line through the logarithms: figures grow as sizes to this power."""
     return float(np.polyfit(np.log(sizes), np.log(np.maximum(figures, 1e-6)), 1)[0])
@@ -203,7 +227,8 @@ def main(argv: list[str]) -> None:
         rows.append(json.loads(made.stdout.splitlines()[-1]))
         tell(rows[-1])
     arguments.out.mkdir(parents=True, exist_ok=True)
-    (arguments.out / "growth.json").write_text(json.dumps({"sizes": rows, "exponents": fitted(rows)}, indent=1))
+    figures = {"sizes": rows, "exponents": fitted(rows), "thinning": thinning()}
+    (arguments.out / "growth.json").write_text(json.dumps(figures, indent=1))
     for name, powers in fitted(rows).items():
         print(f"  {name:<20} time n^{powers['seconds']:.2f}, memory n^{powers['memory']:.2f}")
 

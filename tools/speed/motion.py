@@ -82,7 +82,7 @@ def error(face: api.Face) -> dict[str, float]:
     largest = float(np.linalg.norm(reference - face.vertices, axis=2).max())
     apart = np.linalg.norm(shown - reference, axis=2)
     worst_frame = float(np.sqrt((apart**2).mean(axis=1)).max())
-    return {"worst": float(apart.max()) / largest, "rms": worst_frame / largest, "largest_mm": 1e3 * largest}
+    return {"worst": float(apart.max()) / largest, "rms": worst_frame / largest}
 
 
 def traffic(face: api.Face, frames: int, keys: int) -> dict[str, float]:
@@ -103,9 +103,10 @@ def measured(name: str) -> dict[str, Any]:
     watch.run("live preview", previews(face, PREVIEWS), PREVIEWS)
     frames, count = face.performance(film(), FPS), len(api.sequence(film(), fps=FPS))
     watch.run("motion, once", frames.prepare())
-    gathered = gathering(len(face.vertices))
+    tolerance = TOLERANCE * face.scale
+    gathered = gathering(len(face.vertices), tolerance=tolerance)
     watch.run("motion, each frame", gather(face, frames, gathered), count)
-    packed = watch.run("compress", squeeze(gathered, tolerance=TOLERANCE), count)
+    packed = watch.run("compress", squeeze(gathered, tolerance=tolerance), count)
     phases = {key: asdict(phase) for key, phase in watch.phases.items()}
     frame = phases["motion, once"]["seconds"] / count + phases["motion, each frame"]["seconds"]
     return {
