@@ -23,7 +23,6 @@ import numpy as np
 import risorius.api as api
 from places import OUT
 from risorius.physics.split import split
-from risorius.scene.bake.compress import TOLERANCE, gathering, squeeze
 
 #: Vertices to which the default head is thinned out first (0: not at all), and how often it is split then.
 SIZES = ((1000, 0), (3000, 0), (0, 0), (5208, 1), (0, 1), (5208, 2), (0, 2), (5208, 3))
@@ -147,6 +146,8 @@ def gather(face: Any, frames: Iterable[Any], gathered: Any) -> Iterator[None]:
 
 def measured(thinned: int, splits: int) -> dict[str, Any]:
     """All phases of one size."""
+    from risorius.scene.bake.compress import TOLERANCE, gathering, squeeze  # Blender's
+
     vertices, polygons, points = head_of(thinned, splits)
     watch = Watch()
     watch.run("find the face", api.find_points_steps(vertices, polygons))
