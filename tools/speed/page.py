@@ -31,14 +31,15 @@ for the clip is shared out among its frames. *× cloth*: how many times as long 
 skin alone; *per vertex*: with each divided by its own vertices. *XPBD*: Blender's experimental cloth on its XPBD solver
 node. The error is that of the same four emotions in less than two seconds, against the implicit integrator with eight
 steps per frame, as a share of the largest motion: at the worst vertex and frame, and in the mean square of the worst
-frame.
+frame. Below 1,000 vertices most of the time goes to skin that is split finer to be solved; `jeeliz_boy` is a cartoon's
+head, whose skin is, too.
 """
 
 PHASES = """## Phases
 
 Processor time of each phase, and how near it is to what this machine's memory can do (a triad of three arrays of 160
 MB). A frame must at least read what it is made of and write what it is; its share of the bandwidth is those bytes over
-its time. What is far below has work to do in the processor, not in memory.
+its time. What is far below has work to do in the processor, not in memory. The live preview is of the first updates of a drag.
 """
 
 GROWTH = """## From 1,000 to 500,000 vertices
@@ -55,8 +56,8 @@ moments at which a window draws its progress and sees Esc.
 THINNING = """### What the coarser skin changes
 
 Poses of the default head with {vertices:,} vertices, solved on {coarse:,} nodes as a denser head would be, against
-those solved on all {whole:,}, as shares of the largest displacement. Most of it is what any two meshes of these
-densities differ by, in the folds beside nose and mouth above all.
+those solved on all {whole:,}, as shares of the largest displacement. It falls with the distance between nodes: on twice
+as many (9,888), measured once, joy is off by 6.4 % at the worst vertex, 3.0 % at 99 % of them and 0.7 % rms.
 """
 
 FILES = """## Smaller results
