@@ -39,7 +39,8 @@ PHASES = """## Phases
 
 Processor time of each phase, and how near it is to what this machine's memory can do (a triad of three arrays of 160
 MB). A frame must at least read what it is made of and write what it is; its share of the bandwidth is those bytes over
-its time. What is far below has work to do in the processor, not in memory. The live preview is of the first updates of a drag.
+its time. What is far below has work to do in the processor, not in memory. The live preview is of the first
+updates of a drag.
 """
 
 GROWTH = """## From 1,000 to 500,000 vertices
