@@ -361,7 +361,9 @@ class Face:
         simulation = Simulation(self._poser, fps=fps, integrator=integrator, substeps=substeps, tissue=tissue)
         return simulation.run(stream_plans(checked, checked_drive(drive), weights, planned=planned))
 
-    def long_motion(self, frames: ArrayLike, *, drive: str | Drive = Drive.NATURAL) -> Work[LongMotion]:
+    def long_motion(
+        self, frames: ArrayLike, *, drive: str | Drive = Drive.NATURAL, planned: bool = False
+    ) -> Work[LongMotion]:
         """A long stream of FAPs (T, 68) in balance, bit by bit: some hundred of its frames are posed, and the others
         lie between those; see `LongMotion`. The skin has no inertia: a recording has that of its own.
 
@@ -373,7 +375,7 @@ class Face:
         >>> next(work).text
         '0 of 35 frames posed'
         """
-        return long_motion(self._poser, checked_stream(frames), checked_drive(drive))
+        return long_motion(self._poser, checked_stream(frames), checked_drive(drive), planned=planned)
 
     def performance(
         self,
@@ -423,7 +425,7 @@ class Face:
         frames : (T, 68) FAP units; NaN = silent.
         fps : frames per second.
         emotions : (T, 6) strength of each archetype over time (`emotion_weights`), where the words are known.
-        planned : the frames show all that their emotions show (`say`); the natural drive adds nothing of these.
+        planned : the frames show all that is to be seen (`say`); the natural drive adds nothing of emotions.
         integrator : "reduced" (default); "balance" for motion that has inertia of its own, as speech; for reference
             "implicit", or "rk2", the paper's.
         substeps : steps per frame, after each of which contact is seen to; rk2 cuts them as it needs.

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from ..arrays import Bools, Floats, Ints
-from ..mpeg4 import ANGLE_UNIT, FAP_COUNT, FAPS
+from ..mpeg4 import ANGLE_UNIT, FAP_COUNT, FAPS, Feeling
 from ..progress import Progress, Work
 from .anatomy import Anatomy
 from .drive.request import Drive, Request
@@ -87,8 +87,8 @@ class LongMotion:
         return mesh.head_frame.to_face(np.array(turned))
 
 
-def long_motion(poser: Poser, frames: Floats, drive: Drive) -> Work[LongMotion]:
-    """A motion (T, 68), NaN where silent, bit by bit."""
+def long_motion(poser: Poser, frames: Floats, drive: Drive, *, planned: bool = False) -> Work[LongMotion]:
+    """A motion (T, 68), NaN where silent, bit by bit; `planned` as for `stream_plans`."""
     anatomy = poser.anatomy
     asked = frames.copy()
     asked[:, TURN] = np.nan
@@ -100,16 +100,16 @@ def long_motion(poser: Poser, frames: Floats, drive: Drive) -> Work[LongMotion]:
     shapes = np.empty((len(posed), *anatomy.mesh.positions.shape))
     for number, step in enumerate(posed):
         yield Progress.counted(number, len(posed), "frames posed")
-        shapes[number] = _shape(poser, asked[step], drive)
+        shapes[number] = _shape(poser, Request(asked[step], drive, Feeling({}) if planned else None))
     between = _weights(places[looked_at], places[chosen]) @ shapes[: len(chosen)].reshape(len(chosen), -1)
     apart = shapes[len(chosen) :] - between.reshape(len(looked_at), *shapes.shape[1:])
     off = np.linalg.norm(apart, axis=2).max(axis=1, initial=0.0) * anatomy.mesh.head_frame.scale
     return LongMotion(anatomy, frames, posed, shapes, _weights(places, places[posed]), off)
 
 
-def _shape(poser: Poser, faps: Floats, drive: Drive) -> Floats:
+def _shape(poser: Poser, request: Request) -> Floats:
     """(V, 3) what a face is moved by, head space, metres."""
-    request, mesh = Request(faps, drive), poser.anatomy.mesh
+    mesh = poser.anatomy.mesh
     posture = poser.balance.posture(poser.plan(request))
     shown = poser.assembly.positions(posture.displacement, posture.amounts.jaw, request)
     return mesh.head_frame.to_head(shown) - mesh.positions

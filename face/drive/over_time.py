@@ -11,7 +11,6 @@ from ...arrays import Floats
 from ...errors import ParameterError
 from ...mpeg4 import (
     ARCHETYPES,
-    AS_PRINTED,
     FAP_COUNT,
     Cue,
     Drawn,
@@ -35,10 +34,9 @@ def stream_plans(stream: Floats, drive: Drive, weights: Floats | None, *, planne
     """
     for step, faps in enumerate(stream):
         emotion = Feeling({}) if planned else None
-        if weights is not None and (total := float(weights[step].sum())) > 0.0:
+        if not planned and weights is not None and (total := float(weights[step].sum())) > 0.0:
             shares = {a: float(w) / total for a, w in zip(ARCHETYPES, weights[step], strict=True)}
-            ways = dict.fromkeys(shares, AS_PRINTED) if planned else None
-            emotion = Feeling(shares, strength=min(total, 1.0), prototypes=ways)
+            emotion = Feeling(shares, strength=min(total, 1.0))
         yield DRIVES[drive].plan(Request(faps, drive, emotion))
 
 

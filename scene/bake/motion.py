@@ -109,9 +109,9 @@ class FapMotion:
 
     def between(self, face: Face, drive: str) -> Work[LongMotion] | None:
         """A long stream is a recording, as a rule, and its skin has had its inertia; see `Face.long_motion`."""
-        if len(self.stream) <= SIMULATED or self.emotions is not None or self.planned:
+        if len(self.stream) <= SIMULATED or (self.emotions is not None and not self.planned):
             return None
-        return face.long_motion(self.stream, drive=drive)
+        return face.long_motion(self.stream, drive=drive, planned=self.planned)
 
     @property
     def asked(self) -> Floats:

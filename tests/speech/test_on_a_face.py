@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius.arrays import Floats
+from risorius.face import long_motion
+from risorius.progress import run
 from risorius.speech.phonemes import phonemes
 
 FPS = 25.0
@@ -52,6 +54,19 @@ def test_lips_meet_on_the_mesh(face: api.Face, word: str | None, length: float) 
         if sound.phoneme.viseme == 1:
             assert gap(face, positions[round(sound.middle * FPS)]) < CLOSED
     assert opened > 10 * CLOSED
+
+
+@pytest.mark.slow
+def test_lips_meet_in_minutes_of_speech_too(face: api.Face, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(long_motion, "POSED", 60)
+    said = uttered("ɑ p u m ɪ b ɛ n ɒ s " * 12, 0.1)
+    saying = api.say(said, emotion=api.expression("joy"), fps=FPS)
+    motion = run(face.long_motion(saying.stream.frames, planned=True))
+    assert len(motion.posed) < len(motion) / 3
+    positions = list(motion)
+    for sound in said.sounds:
+        if sound.phoneme.viseme == 1:
+            assert gap(face, positions[round(sound.middle * FPS)]) < CLOSED
 
 
 @pytest.mark.slow
