@@ -25,6 +25,11 @@ ROUNDS, SHARPNESS, LEAST = 14, 0.7, 0.02
 VERTICES, FRAMES, JOINING = 3000, 120, 500
 #: How often vertices may join for one number of shapes.
 JOINED = 4
+#: After so many rounds, an error so many times the tolerance will not come down to it; nor will one that has not fallen
+#: for so many rounds.
+PATIENCE, HOPELESS, STILL = 3, 1.25, 4
+#: Where a number of shapes does not do, the next is greater by 1 and by this share.
+FURTHER = 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +59,7 @@ class Search:
 
         self.fields, self.loadings = motion.fields, motion.loadings
         self._orthonormal, self._scale = np.linalg.qr(self.loadings)
+        self._scale32 = self._scale.astype(np.float32)
         _, order = qr(self.loadings.T, mode="r", pivoting=True)
         evenly = np.linspace(0, len(self.loadings) - 1, FRAMES).astype(np.int64)
         self._frames = np.union1d(order[:FRAMES], evenly)
@@ -65,6 +71,7 @@ class Search:
         self._vertices = vertices
         columns = (3 * vertices[:, None] + np.arange(3)).ravel()
         self._some = np.ascontiguousarray(self.fields[:, columns], dtype=np.float64)
+        self._some32 = self._some.astype(np.float32)  # what is best in the mean needs no more
         self._count = np.ones(len(vertices))
 
     def fewest(self, tolerance: float, *, most: int | None = None) -> Work[tuple[Few, Floats]]:
@@ -76,30 +83,35 @@ class Search:
         while low < high:
             yield Progress(0.5, TEXT)
             middle = (low + high) // 2
-            if self._best(middle, tolerance)[1] <= tolerance:
+            if self._best(middle, tolerance, hopeless=HOPELESS * tolerance)[1] <= tolerance:
                 high = middle
             else:
                 low = middle + 1
         last = len(self.fields) if most is None else min(most, len(self.fields))
-        for count in range(min(low, last), last + 1):
-            few, off = yield from self.best(count, tolerance)
-            if off.max(initial=0.0) <= tolerance:
-                break
-        return few, off
+        count = min(low, last)
+        while True:
+            hopeless = HOPELESS * tolerance if count < last else np.inf
+            few, off = yield from self.best(count, tolerance, hopeless=hopeless)
+            if off.max(initial=0.0) <= tolerance or count == last:
+                return few, off
+            count = min(count + 1 + int(FURTHER * count), last)
 
-    def best(self, count: int, tolerance: float) -> Work[tuple[Few, Floats]]:
-        """So many that come nearest, or within a tolerance, and how far (V,) each vertex is off at most."""
+    def best(self, count: int, tolerance: float, *, hopeless: float = np.inf) -> Work[tuple[Few, Floats]]:
+        """So many that come nearest, or within a tolerance, and how far (V,) each vertex is off at most.
+
+        `hopeless` : an error of the first rounds with which there is no looking further.
+        """
         found: tuple[Few, Floats] | None = None
         for _ in range(JOINED):
-            few, sampled = self._best(count, tolerance)
+            few, sampled = self._best(count, tolerance, hopeless=hopeless)
             off = yield from self.off(few)
             if found is None or off.max(initial=0.0) < found[1].max():
                 found = few, off
             worst = np.argsort(off)[::-1][:JOINING]
-            worst = worst[off[worst] > max(tolerance, sampled)]
-            if not len(worst):
+            joined = np.union1d(self._vertices, worst[off[worst] > max(tolerance, sampled)])
+            if sampled > hopeless or len(joined) == len(self._vertices):
                 break
-            self._sampled(np.union1d(self._vertices, worst))
+            self._sampled(joined)
         assert found is not None
         return found
 
@@ -108,17 +120,19 @@ class Search:
         left = (self.loadings - few.weights @ few.parts).astype(np.float32)
         return (yield from farthest(left, self.fields))
 
-    def _best(self, count: int, tolerance: float) -> tuple[Few, float]:
+    def _best(self, count: int, tolerance: float, *, hopeless: float) -> tuple[Few, float]:
         """So many shapes, and how far the sampled vertices are off at most in the sampled frames."""
-        found, least, counts = None, np.inf, np.ones(len(self._vertices))
-        for _ in range(ROUNDS):
+        found, least, fell, counts = None, np.inf, 0, np.ones(len(self._vertices))
+        for number in range(ROUNDS):
             few = self._weighted(count, counts)
             left = self.loadings[self._frames] - few.weights[self._frames] @ few.parts
             off = np.sqrt(squares(left @ self._some).max(axis=0))
             largest = float(off.max(initial=0.0))
             if found is None or largest < least:
-                found, least = few, largest
-            if least <= tolerance or largest == 0.0:
+                found, least, fell = few, largest, number
+            if least <= tolerance or largest == 0.0 or number - fell >= STILL:
+                break
+            if number >= PATIENCE and least > hopeless:
                 break
             counts = counts * np.maximum(off / largest, LEAST) ** SHARPNESS
             counts /= counts.max()
@@ -127,8 +141,8 @@ class Search:
 
     def _weighted(self, count: int, counts: Floats) -> Few:
         """So many shapes that are best in the mean, each sampled vertex counting so much."""
-        scaled = self._scale @ (self._some * np.repeat(counts, 3))
-        _, vectors = np.linalg.eigh(scaled @ scaled.T)
+        scaled = self._scale32 @ (self._some32 * np.repeat(counts, 3).astype(np.float32))
+        _, vectors = np.linalg.eigh((scaled @ scaled.T).astype(np.float64))
         chosen = np.ascontiguousarray(vectors[:, ::-1][:, :count])
         return Few(self._orthonormal @ chosen, chosen.T @ self._scale)
 
