@@ -40,8 +40,10 @@ def add_speech_verb(verbs: Verbs) -> None:
     say.add_argument("text", nargs="?", metavar="TEXT", help="what is said, by a voice of eSpeak NG")
     about = "instead: what is said when, by a Praat TextGrid, Rhubarb's JSON, TSV or XML, or a table or JSON of sounds"
     say.add_argument("--timings", type=Path, metavar="FILE", help=about)
-    about = "the sound, from the same beginning; for .blend and .mp4. With TEXT: where the voice is written, as WAV "
-    say.add_argument("--sound", type=Path, metavar="FILE", help=f"{about}(default: beside a .blend)")
+    about = (
+        "the sound, from the same beginning; alone: the mouth opens as loud as it is. With TEXT: where the voice is "
+    )
+    say.add_argument("--sound", type=Path, metavar="FILE", help=f"{about}written, as WAV (default: beside a .blend)")
     about = "language of TEXT, as en, de, fr, with a variant: en+f3 (default: en)"
     say.add_argument("--voice", metavar="CODE", help=about)
     say.add_argument("--speed", type=float, help="words per minute of TEXT, 80 to 450 (default: 175)")
@@ -100,14 +102,18 @@ def _heard(arguments: argparse.Namespace) -> Iterator[tuple[Utterance, Path | No
     """What is said when, and its sound where there is one; the sound of a text may last only as long as this."""
     from .. import api
 
-    if (arguments.text is None) == (arguments.timings is None):
+    if arguments.text is not None and arguments.timings is not None:
         raise UsageError("give either a text, or --timings with what is said when")
+    if arguments.text is None and arguments.timings is None:
+        if arguments.sound is None:
+            raise UsageError("give a text, or --timings with what is said when, or at least a --sound")
+        arguments.timings = arguments.sound
     suffix = arguments.out.suffix.lower()
     if arguments.timings is not None:
         for name in ("voice", "speed", "pitch"):
             if getattr(arguments, name) is not None:
                 raise UsageError(f"--{name} needs a text, not --timings")
-        if arguments.sound is not None and suffix not in BLENDER:
+        if arguments.sound not in (None, arguments.timings) and suffix not in BLENDER:
             raise UsageError("--sound needs --out to end in .blend or .mp4: a stream holds no sound")
         yield api.read_timings(arguments.timings, tier=arguments.tier, alphabet=arguments.alphabet), arguments.sound
         return

@@ -8,17 +8,21 @@ from ...errors import FormatError, ParameterError
 from ...files import read_bytes
 from ...mpeg4.streams.capture import read_json_document
 from ...mpeg4.streams.capture.delimited import decoded
+from ...mpeg4.streams.fap_file import looks_like_fap
+from ...mpeg4.streams.fba.decoder import begins_as_fba
 from ...tables import numbered_lines
 from ..phonemes import Alphabet
 from ..utterance import Utterance
 from .documents import json_timings
 from .labels import Timings, utterance_of
+from .loudness import is_wav, loudness_utterance
 from .rhubarb import is_rhubarb_tsv, rhubarb_from_tsv, rhubarb_from_xml
 from .tabular import has_no_heading, label_file, table_timings
 from .textgrid import textgrid_timings
+from .visemes import viseme_timings
 
 #: What a file may be, for messages.
-READABLE = "a TextGrid of Praat, Rhubarb's JSON, TSV or XML, or a table or JSON of sounds with start and end"
+READABLE = "a TextGrid of Praat, Rhubarb's JSON, TSV or XML, or a table or JSON of sounds with start and end, or WAV"
 
 
 def read_timings(path: str | Path, *, tier: str | None = None, alphabet: str | Alphabet | None = None) -> Utterance:
@@ -27,7 +31,8 @@ def read_timings(path: str | Path, *, tier: str | None = None, alphabet: str | A
     Parameters
     ----------
     path : a TextGrid, Rhubarb's JSON, TSV or XML, the JSON of the Montreal Forced Aligner, Gentle or Amazon Polly, a
-        label file, or a table or JSON of sounds or visemes with their times.
+        label file, a table or JSON of sounds or visemes with their times, or a stream with visemes (.fap, .fba). A
+        sound (.wav) opens the mouth as loud as it is, which is said.
     tier : which tier of a TextGrid holds the sounds; found if not given.
     alphabet : how sounds are written: ipa, arpabet or xsampa; found if not given.
 
@@ -46,13 +51,18 @@ def read_timings(path: str | Path, *, tier: str | None = None, alphabet: str | A
     file = Path(path)
     if alphabet is not None and alphabet not in list(Alphabet):
         raise ParameterError("alphabet", f"must be one of {', '.join(Alphabet)}", str(alphabet))
+    if is_wav(read_bytes(file)):
+        return loudness_utterance(file)
     timings = _opened(file, tier)
     return utterance_of(timings, None if alphabet is None else Alphabet(alphabet))
 
 
 def _opened(path: Path, tier: str | None) -> Timings:
     """The marks of a file of any kind."""
-    text = decoded(read_bytes(path))
+    data = read_bytes(path)
+    text = decoded(data)
+    if begins_as_fba(data) or (text is not None and looks_like_fap(text)):
+        return viseme_timings(path, data)
     if text is None:
         raise FormatError(path, f"is no text: it must be {READABLE}")
     begins, lines = text.lstrip()[:200], numbered_lines(text)

@@ -61,7 +61,7 @@ def test_a_text_becomes_a_stream_and_a_sound(tmp_path: Path, capsys: pytest.Capt
 @pytest.mark.parametrize(
     ("arguments", "problem"),
     [
-        ([], "give either a text, or --timings"),
+        ([], "give a text, or --timings with what is said when, or at least a --sound"),
         (["Hello", "--timings", "a.txt"], "give either a text, or --timings"),
         (["--timings", "a.txt", "--voice", "de"], "--voice needs a text"),
         (["Hello", "--tier", "phones"], "--tier needs --timings"),

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+import wave
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from risorius.errors import FormatError, ParameterError
+from risorius.mpeg4 import FapStream, VisemeField, write_fap, write_fba
 from risorius.speech.timings import read_timings
 from risorius.speech.utterance import Utterance
 
@@ -221,9 +224,66 @@ def test_bad_files_are_refused_with_the_place_and_the_remedy(tmp_path: Path, nam
 
 
 def test_binary_files_are_refused(tmp_path: Path) -> None:
-    (tmp_path / "a.wav").write_bytes(b"RIFF\x00\xff\xfe\x90WAVE")
+    (tmp_path / "a.mp3").write_bytes(b"ID3\x04\xff\xfe\x90")
     with pytest.raises(FormatError, match="is no text: it must be a TextGrid"):
-        read_timings(tmp_path / "a.wav")
+        read_timings(tmp_path / "a.mp3")
+
+
+def test_a_stream_with_visemes_says_when_they_are(tmp_path: Path) -> None:
+    fields = {
+        5: VisemeField(1),
+        10: VisemeField(10),
+        12: VisemeField(10, 14, 50),
+        14: VisemeField(10, 14, 10),
+        20: VisemeField(0),
+    }
+    stream = FapStream(np.full((25, 68), np.nan), fps=25.0, visemes=fields)
+    write_fap(tmp_path / "a.fap", stream)
+    write_fba(tmp_path / "a.fba", stream)
+    for name in ("a.fap", "a.fba"):
+        utterance = read_timings(tmp_path / name)
+        assert times(utterance) == [(0.2, 0.4), (0.4, 0.56), (0.56, 0.8)]
+        assert [sound.phoneme.viseme for sound in utterance.sounds] == [1, 10, 14]
+        assert utterance.duration == 1.0
+    write_fap(tmp_path / "b.fap", FapStream(np.zeros((5, 68))))
+    with pytest.raises(FormatError, match=r"states no viseme \(FAP 1\)"):
+        read_timings(tmp_path / "b.fap")
+
+
+def write_wav(path: Path, samples: np.ndarray, rate: int = 8000) -> None:
+    """Samples of 16 bits as WAV."""
+    with wave.open(str(path), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(rate)
+        file.writeframes(samples.astype("<i2").tobytes())
+
+
+def test_a_sound_alone_opens_the_mouth_as_loud_as_it_is_and_says_so(tmp_path: Path) -> None:
+    seconds = np.arange(16000) / 8000.0
+    loud = sum(
+        height * np.exp(-(((seconds - at) / 0.06) ** 2)) for at, height in ((0.4, 8000), (0.9, 16000), (1.5, 4000))
+    )
+    write_wav(tmp_path / "a.wav", loud * np.sin(1000.0 * seconds))
+    utterance = read_timings(tmp_path / "a.wav")
+    np.testing.assert_allclose([sound.middle for sound in utterance.sounds], [0.4, 0.9, 1.5], atol=0.02)
+    jaws = [sound.phoneme.jaw for sound in utterance.sounds]
+    assert jaws[1] > jaws[0] > jaws[2]
+    assert "the mouth follows loudness alone" in utterance.assumed[0]
+    write_wav(tmp_path / "b.wav", np.zeros(8000))
+    with pytest.raises(FormatError, match="is silent"):
+        read_timings(tmp_path / "b.wav")
+    (tmp_path / "c.wav").write_bytes((tmp_path / "a.wav").read_bytes()[:30])
+    with pytest.raises(FormatError, match="is no WAV file of whole samples"):
+        read_timings(tmp_path / "c.wav")
+
+
+def test_speech_of_people_has_a_syllable_about_where_its_vowels_are(speech: Path) -> None:
+    heard = read_timings(speech / "textgrid" / "bobby.wav")
+    vowels = [s.middle for s in read_timings(speech / "textgrid" / "bobby_phones.TextGrid").sounds if s.phoneme.vowel]
+    nearest = [min(abs(sound.middle - vowel) for sound in heard.sounds) for vowel in vowels]
+    assert len(heard.sounds) <= len(vowels) + 2
+    assert np.median(nearest) < 0.06
 
 
 def test_a_wrong_alphabet_is_refused(tmp_path: Path) -> None:
