@@ -5,6 +5,7 @@ utterance     sounds and words in time
 voice         text becomes sound and timed phonemes
 timings       files of aligners and lip-sync tools
 articulation  sounds in time become FAPs of mouth, jaw and tongue
+accompaniment what lids, brows and head do with speech
 feeling       speech and emotion share a face
 saying        the whole: what is said, with feeling, as a stream
 """

@@ -13,6 +13,7 @@ from ..errors import ParameterError
 from ..face.drive.over_time import cue_plans
 from ..face.drive.request import Drive
 from ..mpeg4 import ARCHETYPES, FAP_COUNT, Cue, FapStream, Liveliness, Profile, emotion_weights, load_timings, strengths
+from .accompaniment import accompanying
 from .articulation import articulate
 from .feeling import mixed
 from .phonemes import Alphabet
@@ -66,7 +67,8 @@ def say(
     fps : frames per second.
     articulation : how distinctly lips and tongue move, 0 to 2. jaw : how far the jaw opens, 0 to 2.
     lean : how far the mouth leans to the emotion while speaking, 0 to 2.
-    liveliness : blinks and small motions of head and eyes.
+    liveliness : blinks, at pauses where there are some, small motions of head and eyes, and beats of brows and head on
+        stressed words, as large as the head's motions.
     seed : draws the way in which the emotion is shown.
 
     Raises
@@ -96,7 +98,8 @@ def say(
     felt = _shifted(_planned(felt_cues, fps), ahead, count, np.nan)
     if liveliness is not None:
         shares = strengths(felt_cues, fps=fps) if felt_cues else np.zeros((0, 0))
-        felt = _alive(felt, felt_cues, _shifted(shares, ahead, count, 0.0), liveliness, fps)
+        felt = _borne(felt, felt_cues, _shifted(shares, ahead, count, 0.0), liveliness)
+        felt = accompanying(utterance, liveliness, count, fps).upon_all(felt)
     frames = mixed(spoken, felt, utterance, fps, lean=lean)
     stream = FapStream(frames, fps=fps, name="speech", assumed=utterance.assumed)
     return Saying(utterance, stream, emotions, utterance.assumed)
@@ -128,10 +131,7 @@ def _shifted(rows: Floats, ahead: int, count: int, otherwise: float) -> Floats:
     return result
 
 
-def _alive(felt: Floats, cues: Sequence[Cue], shares: Floats, liveliness: Liveliness, fps: float) -> Floats:
-    """(T, 68) with blinks, small motions, and what words do with head and eyes; shares (T, C) of the cues."""
-    overlay = liveliness.over(len(felt), fps)
-    borne = [
-        liveliness.borne(faps, zip(cues, row.tolist(), strict=True)) for faps, row in zip(felt, shares, strict=True)
-    ]
-    return overlay.upon_all(np.array(borne))
+def _borne(felt: Floats, cues: Sequence[Cue], shares: Floats, liveliness: Liveliness) -> Floats:
+    """(T, 68) with what words do with head and eyes; shares (T, C) of the cues."""
+    rows = zip(felt, shares, strict=True)
+    return np.array([liveliness.borne(faps, zip(cues, row.tolist(), strict=True)) for faps, row in rows])

@@ -1,0 +1,108 @@
+"""What lids, brows and head do with speech: blinks at pauses, beats on stressed words."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+
+from ..arrays import Floats
+from ..mpeg4 import ANGLE_UNIT, FAP_COUNT, Liveliness, Overlay, Ramp
+from ..tables import read_toml
+from .phonemes import FOLDER
+from .utterance import Utterance
+
+#: Brows, inner, middle and outer of both sides; the head, down.
+BROWS, HEAD_DOWN = ((31, 32), (33, 34), (35, 36)), 48
+#: Seconds of the shortest pause in which a blink may fall.
+PAUSE = 0.12
+
+
+@dataclass(frozen=True)
+class Accompaniment:
+    """The figures of accompaniment.toml: seconds, shares, FAP units, degrees."""
+
+    reach: float
+    share: float
+    rise: float
+    fall: float
+    least: float
+    brows: tuple[float, ...]
+    nod: float
+
+
+@cache
+def figures() -> Accompaniment:
+    """The figures, read once."""
+    table = read_toml(FOLDER / "accompaniment.toml")
+    blink, beat = table.table("blink"), table.table("beat")
+    seconds = {name: beat.number(name, above=0.0) for name in ("rise", "fall", "least")}
+    return Accompaniment(
+        blink.number("reach", least=0.0),
+        beat.number("share", least=0.0, most=1.0),
+        brows=tuple(beat.numbers("brows", len(BROWS)).tolist()),
+        nod=beat.number("nod", least=0.0),
+        **seconds,
+    )
+
+
+def accompanying(utterance: Utterance, liveliness: Liveliness, count: int, fps: float) -> Overlay:
+    """What is laid over `count` frames of speech: blinks, small motions of head and eyes, beats.
+
+    Beats are as large as the head's motions (`Liveliness.head`), and drawn by its seed.
+    """
+    overlay = liveliness.over(count, fps)
+    beats = _beats(utterance, liveliness, np.arange(count) / fps)
+    added = np.where(np.isnan(beats), overlay.added, np.nan_to_num(overlay.added) + np.nan_to_num(beats))
+    return replace(overlay, added=added, closure=_in_pauses(overlay.closure, utterance, fps))
+
+
+def _beats(utterance: Utterance, liveliness: Liveliness, times: Floats) -> Floats:
+    """(T, 68) brows that rise and a head that nods on some stressed vowels; NaN elsewhere."""
+    frames, how, amount = np.full((len(times), FAP_COUNT), np.nan), figures(), liveliness.head.amount
+    if amount == 0.0:
+        return frames
+    rng, last = np.random.default_rng((liveliness.head.seed, len(utterance.sounds))), -math.inf
+    size = np.zeros(len(times))
+    for sound in utterance.sounds:
+        if sound.stress < 1.0 or not sound.phoneme.vowel:
+            continue
+        chance, strength = rng.random(), rng.uniform(0.6, 1.2)
+        if chance < how.share and sound.middle - last >= how.least:
+            last = sound.middle
+            up = Ramp.MINIMUM_JERK.at(times - sound.middle + how.rise, how.rise)
+            down = Ramp.MINIMUM_JERK.at(times - sound.middle, how.fall)
+            size = np.maximum(size, strength * (up - down))
+    if size.any():
+        for numbers, units in zip(BROWS, how.brows, strict=True):
+            frames[:, [number - 1 for number in numbers]] = amount * units * size[:, None]
+        frames[:, HEAD_DOWN - 1] = amount * math.radians(how.nod) / ANGLE_UNIT * size
+    return frames
+
+
+def _in_pauses(closure: Floats, utterance: Utterance, fps: float) -> Floats:
+    """(T,) closures of blinks, each moved into the nearest pause in reach, where one is; two do not fall together."""
+    moved, taken = np.zeros(len(closure)), list[float]()
+    pauses = _pauses(utterance, len(closure) / fps)
+    shut = np.concatenate([[False], closure > 0.0, [False]])
+    starts, ends = np.flatnonzero(~shut[:-1] & shut[1:]), np.flatnonzero(shut[:-1] & ~shut[1:])
+    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
+        middle = 0.5 * (start + end) / fps
+        near = [pause for pause in pauses if abs(pause - middle) <= figures().reach and pause not in taken]
+        shift = 0
+        if near:
+            taken.append(min(near, key=lambda pause: abs(pause - middle)))
+            shift = round((taken[-1] - middle) * fps)
+        first = min(max(start + shift, 0), len(closure) - (end - start))
+        place = slice(first, first + end - start)
+        moved[place] = np.maximum(moved[place], closure[start:end])
+    return moved
+
+
+def _pauses(utterance: Utterance, end: float) -> list[float]:
+    """Where in a pause a blink falls: soon after the sound before it, and not later than its middle."""
+    starts = [sound.start for sound in utterance.sounds[1:]] + [end]
+    gaps = [(sound.end, start) for sound, start in zip(utterance.sounds, starts, strict=True)]
+    return [min(before + 0.15, 0.5 * (before + after)) for before, after in gaps if after - before >= PAUSE]
