@@ -1,11 +1,11 @@
 """What is said becomes motion of a mouth: sounds in time, visemes, and what feeling adds.
 
-phonemes      speech sounds, their visemes, and the alphabets that write them
-utterance     sounds and words in time
-voice         text becomes sound and timed phonemes
-timings       files of aligners and lip-sync tools
-articulation  sounds in time become FAPs of mouth, jaw and tongue
-accompaniment what lids, brows and head do with speech
-feeling       speech and emotion share a face
-saying        the whole: what is said, with feeling, as a stream
+phonemes       speech sounds, their visemes, and the alphabets that write them
+utterance      sounds and words in time
+voice          text becomes sound and timed phonemes
+timings        files of aligners and lip-sync tools
+articulation   sounds in time become FAPs of mouth, jaw and tongue
+accompaniment  what lids, brows and head do with speech
+feeling        speech and emotion share a face
+saying         the whole: what is said, with feeling, as a stream
 """

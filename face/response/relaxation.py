@@ -31,7 +31,7 @@ TOLERANCE = 1e-7
 UNSEEN = 5e-6
 
 #: The same for a face that is only sketched; and how far off what is foretold may be, metres.
-SKETCHED, FORETOLD = 2e-5, 7e-5
+SKETCHED, FORETOLD = 2e-5, 5e-5
 
 #: The same for one of the balances that stand for a whole clip, metres.
 SAMPLED = 5e-6

@@ -144,7 +144,7 @@ def test_wrong_positions_are_not_measured(face: Face, change: Callable[[np.ndarr
         (np.zeros((2, 68)), {"fps": 0.0}, "fps must be above 0"),
         (np.zeros((2, 68)), {"fps": np.nan}, "fps must be above 0"),
         (np.zeros((2, 68)), {"substeps": 0}, "substeps must be 1 or more"),
-        (np.zeros((2, 68)), {"integrator": "euler"}, "reduced, implicit, rk2"),
+        (np.zeros((2, 68)), {"integrator": "euler"}, "reduced, balance, implicit, rk2"),
         (np.zeros((2, 68)), {"tissue": "rubber"}, "tissue"),
         (np.zeros((2, 68)), {"drive": "strict"}, "drive"),
         (np.zeros((2, 68)), {"emotions": np.zeros((3, 6))}, r"shape \(2, 6\)"),

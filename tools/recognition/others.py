@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from faithful.heads import heads_folder, load_face
@@ -60,12 +61,12 @@ def _picture(obj: object, vertices: Floats, poses: Mapping[str, Floats], folder:
                 write_picture(shot, path)
 
 
-def _lit_by(light: str) -> object:
+def _lit_by(light: str) -> Callable[[Any, object], None]:
     """What sets the studio light of a scene."""
 
-    def relight(scene: object, _framing: object) -> None:
+    def relight(scene: Any, _framing: object) -> None:
         if light != LIGHTS[0]:
-            scene.display.shading.studio_light = light  # type: ignore[attr-defined]
+            scene.display.shading.studio_light = light
 
     return relight
 

@@ -81,8 +81,8 @@ def read_films(folder: Path) -> Iterator[Seen]:
         paper = api.recognise_over_time(track.stream.frames, fps=fps)
         for word in EMOTIONS:
             part = np.flatnonzero(shown == word)
-            runs = [_runs([courses[index] for index in part]) for courses in (paper.best, found.best)]
-            yield Seen("film", film.name, word, "own", *runs, {})
+            by_paper, by_robust = (_runs([best[index] for index in part]) for best in (paper.best, found.best))
+            yield Seen("film", film.name, word, "own", by_paper, by_robust, {})
 
 
 def _landmarks(path: Path) -> Landmarks | None:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from places import DOCS
+from risorius.arrays import Floats
 from risorius.mpeg4 import FAP_COUNT, FAPS
 
 from .played import SHUT, Played
@@ -52,9 +53,9 @@ def _recordings(takes: Sequence[Take], played: Mapping[str, Sequence[Played]]) -
     return rows
 
 
-def _percent(shares: Sequence[float]) -> str:
+def _percent(shares: Floats) -> str:
     """Median and largest share; lids that lie on each other are not open."""
-    median, most = (max(0.0, 100.0 * share) for share in shares)
+    median, most = (max(0.0, 100.0 * share) for share in shares.tolist())
     return f"{median:.0f} %, at most {most:.0f} %"
 
 

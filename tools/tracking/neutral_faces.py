@@ -75,7 +75,7 @@ def painted_object(name: str, face: Face) -> Object:
     drawn = [polygon for polygon in face.polygons if not lashes[polygon[0]]]
     mesh = meshes.new_mesh(name, face.vertices, *meshes.flatten_polygons(drawn))
     meshes.write_parts(mesh, face.parts)
-    obj = bpy.data.objects.new(name, mesh)
+    obj: Object = bpy.data.objects.new(name, mesh)
     bpy.context.collection.objects.link(obj)
     store_points(obj, {n: tuple(point.position.tolist()) for n, point in face.points.items()})
     paint_parts(obj)

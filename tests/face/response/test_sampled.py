@@ -24,7 +24,7 @@ def clip(face: api.Face) -> list[Amounts]:
         api.Cue(api.expression(word), start=0.6 * i, onset=0.5, apex=0.2, offset=0.5)
         for i, word in enumerate(("joy", "anger"))
     ]
-    return [face._poser.balance.effort(plan).amounts for plan in cue_plans(cues, 25.0, api.Drive.NATURAL)]
+    return [face._poser.balance.effort(plan).amounts for plan in cue_plans(cues, 50.0, api.Drive.NATURAL)]
 
 
 @pytest.mark.slow
