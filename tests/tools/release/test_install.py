@@ -96,11 +96,12 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
     return said
 
 
-def test_zip_brings_scipy_and_never_numpy(installed: dict[str, object]) -> None:
+def test_zip_brings_scipy_and_what_speech_needs_and_never_numpy(installed: dict[str, object]) -> None:
     assert str(installed["scipy"]).startswith(str(installed["settings"]))
     wheels = installed["wheels"]
     assert isinstance(wheels, list)
-    assert {name.split("/")[-1].split("-")[0] for name in wheels} == {"scipy"}
+    brought = {name.split("/")[-1].split("-")[0] for name in wheels}
+    assert brought == {"scipy", "praatio", "typing_extensions", "espeakng_loader"}
 
 
 def test_installed_extension_bakes(installed: dict[str, object]) -> None:
