@@ -2,7 +2,7 @@
 
     make strangers                                          three heads, the six at their own activation, two sides
     make strangers ARGS="--heads all --activations own 7"   the six identities too, and as strong as it gets
-    make strangers ARGS="--activations own 1 2 3 4 5 6 7"   growth
+    make strangers ARGS="--growth 1 2 3 4 5 6 7"            growth, from the front
     make strangers ARGS="--words all"                       all words
     make strangers ARGS="--whole"                           all that docs/strangers.md tells, and the page anew
 
@@ -71,12 +71,15 @@ def _asked(given: argparse.Namespace) -> list[Sitting]:
         return [sitting for sitting in whole_evening() if sitting.head in (heads or HEADS)]
     words = list(api.WORDS) if given.words == ["all"] else given.words
     control = not given.no_control and scans_are_there()
-    return sittings(heads or DEFAULT_HEADS, words, given.activations, given.turned, control=control)
+    asked = sittings(heads or DEFAULT_HEADS, words, given.activations, given.turned, control=control)
+    growing = sittings(heads or DEFAULT_HEADS, words, given.growth, [0], control=False) if given.growth else []
+    return list(dict.fromkeys([*asked, *growing]))
 
 
 def _write_page(path: Path, by_judge: Mapping[str, Judged], files: Mapping[Sitting, Path]) -> None:
     """The page; its sheets and its chart beside it, or in docs/pictures for the documentation's."""
-    folder = DOCS / "pictures" if path.parent == DOCS else path.parent
+    path = path.resolve()
+    folder = DOCS / "pictures" if path.parent == DOCS.resolve() else path.parent
     folder.mkdir(parents=True, exist_ok=True)
     heads = list(by_head(sitting for sitting in files if sitting.how != SCAN))
     sheets = write_sheets(by_judge[MEAN], files, heads, folder)
@@ -96,6 +99,8 @@ def _given(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--heads", nargs="+", choices=(*HEADS, "all"), default=[])
     parser.add_argument("--words", nargs="+", choices=(*api.WORDS, "all"), default=list(EMOTIONS), metavar="WORD")
     parser.add_argument("--activations", nargs="+", choices=strengths, default=[OWN])
+    about = "activations that are pictured from the front alone"
+    parser.add_argument("--growth", nargs="+", choices=strengths, default=[], help=about)
     parser.add_argument("--turned", nargs="+", type=int, default=[0, ASIDE], help="degrees to the subject's left")
     parser.add_argument("--no-control", action="store_true", help="leave the scanned actions out")
     parser.add_argument("--whole", action="store_true", help="all that docs/strangers.md tells (of --heads)")
