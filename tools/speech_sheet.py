@@ -12,11 +12,12 @@ from pathlib import Path
 import numpy as np
 import risorius.api as api
 from faithful.heads import load_face
-from faithful.sheet import Cell, write_grid
+from faithful.sheet import Cell
 from places import DOCS
 from risorius.arrays import Floats
 from risorius.speech.phonemes import phonemes
 from strangers.portraits import sitter_of
+from strangers.sheets import write_jpeg
 
 SHEET = DOCS / "pictures" / "visemes.jpg"
 #: A sound for each of the fourteen visemes of the standard.
@@ -58,9 +59,11 @@ def main(argv: list[str] | None = None) -> int:
         shots = sitter_of(head, face).shots([spoken(face, symbol, emotion) for symbol in SOUNDS], 0.0)
         rows.append([cut(shot) for shot in shots])
     cells = [
-        Cell(f"{number} {symbol}", "", [row[number - 1] for row in rows]) for number, symbol in enumerate(SOUNDS, 1)
+        Cell(f"{number} {' '.join(api.VISEMES[number].phonemes)}", "", [row[number - 1] for row in rows])
+        for number in range(1, len(SOUNDS) + 1)
     ]
-    print(write_grid(cells, arguments.out, columns=5, heading="Visemes 1 to 14 on " + ", ".join(arguments.heads)))
+    write_jpeg(cells, arguments.out, "Visemes 1 to 14 on " + ", ".join(arguments.heads), columns=5)
+    print(f"wrote {arguments.out}")
     return 0
 
 

@@ -59,7 +59,7 @@ def _write(
 ) -> Sheet:
     """One sheet, a row of pictures per line."""
     cells = [Cell(name, _caption(row, judged), [_small(files[s]) for s in row]) for name, row in rows.items()]
-    _write_jpeg(cells, path, title, columns=1)
+    write_jpeg(cells, path, title, columns=1)
     return Sheet(title, path.name, told)
 
 
@@ -71,11 +71,11 @@ def _write_words(
     for sitting in words:
         taken = likeliest(judged[sitting], 1)
         cells.append(Cell(sitting.word, taken[0][0] if taken else NO_FACE, [read_picture(files[sitting])]))
-    _write_jpeg(cells, path, title, columns=WORDS_A_ROW)
+    write_jpeg(cells, path, title, columns=WORDS_A_ROW)
     return Sheet(title, path.name, WORDS)
 
 
-def _write_jpeg(cells: Sequence[Cell], path: Path, heading: str, *, columns: int) -> None:
+def write_jpeg(cells: Sequence[Cell], path: Path, heading: str, *, columns: int) -> None:
     """Cells in a grid."""
     grid = write_grid(cells, path.with_suffix(".png"), columns=columns, heading=heading)
     image = bpy.data.images.load(str(grid))
