@@ -14,7 +14,7 @@ from ..mpeg4 import FAP_COUNT
 from ..tables import KeyedTable, read_toml
 from .articulation.blending import Aim
 from .articulation.closures import closing
-from .articulation.parts import FAPS_OF, Manner, MouthPart, manner
+from .articulation.parts import FAPS_OF, Manner, MouthPart, beside_jaw, carried_by_jaw, manner
 from .phonemes import FOLDER
 from .utterance import Utterance
 
@@ -83,16 +83,18 @@ def mixed(spoken: Floats, felt: Floats, utterance: Utterance, fps: float, *, lea
         0.0,
         1.0,
     )
-    frames = np.where(np.isnan(spoken), felt, spoken)
+    frames, kept = np.where(np.isnan(spoken), felt, spoken), beside_jaw(np.nan_to_num(felt))
     for part in MouthPart:
         share = np.full(len(times), lean * figures.speaking[part])
         if part is MouthPart.WIDTH:
             share = share * (1.0 - rounding * (1.0 - figures.rounded_width))
         share = np.minimum(share * (1.0 - closure * (1.0 - figures.closed[part])), 1.0)
-        kept = 1.0 - speaking * (1.0 - share)
-        columns = [number - 1 for number in FAPS_OF[part]]
-        both = spoken[:, columns] + kept[:, None] * np.nan_to_num(felt[:, columns])
-        frames[:, columns] = np.where(np.isnan(spoken[:, columns]) & np.isnan(felt[:, columns]), np.nan, both)
+        kept[:, [number - 1 for number in FAPS_OF[part]]] *= (1.0 - speaking * (1.0 - share))[:, None]
+    # A jaw that opens less takes less of the lower lip along.
+    both = np.nan_to_num(spoken) + carried_by_jaw(kept)
+    shared = [number - 1 for part in MouthPart for number in FAPS_OF[part]]
+    asked = ~(np.isnan(spoken[:, shared]) & np.isnan(felt[:, shared]))
+    frames[:, shared] = np.where(asked, both[:, shared], np.nan)
     return frames
 
 

@@ -110,17 +110,21 @@ def target(phoneme: Phoneme, *, jaw: float = 1.0) -> Floats:
     jaw : share of the jaw's opening, for stress.
     """
     shape = np.nan_to_num(VISEME_SHAPES[phoneme.viseme]) if phoneme.viseme else np.zeros(FAP_COUNT)
-    own = shape.copy()
-    opened = shape[JAW - 1]
-    for number, share in CARRIED.items():
-        own[number - 1] += share * opened
-    own *= phoneme.lips
-    own[JAW - 1] = opened * phoneme.jaw * jaw
+    own = beside_jaw(shape[None])[0] * phoneme.lips
+    own[JAW - 1] = shape[JAW - 1] * phoneme.jaw * jaw
     return own
 
 
+def beside_jaw(frames: Floats) -> Floats:
+    """(T, 68) frames whose lower lip is told beside what the jaw carries of it."""
+    moved = frames.copy()
+    for number, share in CARRIED.items():
+        moved[:, number - 1] += share * frames[:, JAW - 1]
+    return moved
+
+
 def carried_by_jaw(frames: Floats) -> Floats:
-    """(T, 68) frames with what the jaw carries of the lower lip put back."""
+    """(T, 68) frames with what the jaw carries of the lower lip put back; undoes `beside_jaw`."""
     moved = frames.copy()
     for number, share in CARRIED.items():
         moved[:, number - 1] -= share * frames[:, JAW - 1]

@@ -77,6 +77,21 @@ def test_vowels_keep_a_smile_and_rounding_holds_it_back() -> None:
     assert 0.2 * spread < rounded < 0.75 * spread
 
 
+@pytest.mark.parametrize("word", ["anger", "surprise"])
+def test_an_open_mouth_of_a_feeling_does_not_stay_open_while_speaking(word: str) -> None:
+    """Both drop the jaw; speech has it, so the lower lip that it carried comes up with it."""
+    said = uttered("s s s s")
+    plain, felt = (api.say(said, emotion=emotion, fps=FPS) for emotion in (None, api.expression(word, activation=7)))
+    alone, shouted, spoken = felt.stream.frames[0], plain.stream.frames, felt.stream.frames
+    middle_of_it = middle(plain, 2)
+    dropped = alone[LOWER] + alone[JAW]  # the lip's own, beside what the jaw carries
+    assert alone[JAW] > 250.0
+    added_jaw = spoken[middle_of_it, JAW] - shouted[middle_of_it, JAW]
+    added_lip = spoken[middle_of_it, LOWER] - shouted[middle_of_it, LOWER]
+    assert 0.0 < added_jaw < 0.25 * alone[JAW]
+    assert added_lip == pytest.approx(0.3 * dropped - added_jaw, abs=5.0)
+
+
 def test_lean_says_how_far_the_mouth_leans() -> None:
     said, joy = uttered("i i i"), api.expression("joy")
     gained = [
