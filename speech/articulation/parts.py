@@ -112,7 +112,7 @@ def target(phoneme: Phoneme, *, jaw: float = 1.0) -> Floats:
     shape = np.nan_to_num(VISEME_SHAPES[phoneme.viseme]) if phoneme.viseme else np.zeros(FAP_COUNT)
     own = beside_jaw(shape[None])[0] * phoneme.lips
     own[JAW - 1] = shape[JAW - 1] * phoneme.jaw * jaw
-    return own
+    return np.asarray(own)
 
 
 def beside_jaw(frames: Floats) -> Floats:
