@@ -41,6 +41,7 @@ from .face.products.animation_table_files import read_animation_tables, write_an
 from .face.products.animation_tables import AnimationTable, AnimationTables, TableError
 from .face.products.blendshapes import arkit_shapes
 from .face.products.creases import Creases
+from .face.products.playing import play
 from .face.retarget.controls import Controls
 from .face.retarget.retargeting import Retargeted, Retargeting, Take, retarget
 from .face.retarget.shortfall import Shortfall
@@ -214,6 +215,7 @@ __all__ = [
     "load_shapes",
     "load_timings",
     "load_topologies",
+    "play",
     "read_animation_tables",
     "read_capture",
     "read_fap",

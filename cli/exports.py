@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import FormatError
 from .films import needing_blender, silent_blender
-from .options import Verbs, add_scene, face_of, scene_options, verb
+from .options import Verbs, add_inertia, add_scene, face_of, motion_line, scene_options, verb
 from .progress import ShowProgress
 from .recordings import add_recording, read_as_told, whole_frames
 from .result import Result, UsageError
@@ -51,6 +51,7 @@ def add_export_verb(verbs: Verbs) -> None:
     exporting.add_argument("--shapes", type=Path, help=about)
     about = "weights: left and right get the same value"
     exporting.add_argument("--symmetric", action="store_true", help=about)
+    add_inertia(exporting, only="weights: ")
 
 
 def _export(arguments: argparse.Namespace) -> Result:
@@ -157,7 +158,7 @@ def _export_weights(arguments: argparse.Namespace) -> Result:
     stream = recording.stream
     face = face_of(arguments)
     controls, (frames, said) = _controls_of(arguments.shapes, face), whole_frames(recording)
-    motion = face.simulation(frames, stream.fps)
+    motion = api.play(face, api.FapStream(frames, fps=stream.fps), inertia=arguments.inertia)
     found = api.retarget(face, controls, motion, fps=stream.fps, requested=frames, symmetric=arguments.symmetric)
     values = np.zeros((len(found.values), len(controls)))
     values[:, [controls.names.index(name) for name in found.names]] = found.values
@@ -175,12 +176,14 @@ def _export_weights(arguments: argparse.Namespace) -> Result:
         "unmet": {api.fap(number).name: why for number, why in found.unmet.items()},
         "still": list(found.still),
         "same": dict(found.same),
+        "inertia": arguments.inertia,
         "assumed": [*recording.assumed, *said],
         "out": arguments.out,
     }
     lines = [
         f"wrote {arguments.out}: {len(values)} frames at {stream.fps:g} per second of {len(controls)} shape keys",
         f"they show {found.explained:.0%} of the motion, {off_mm:.1f} mm off at its peak",
+        f"motion: {motion_line(arguments.inertia)}",
         *(f"note: too little of {short.line}" for short in found.missing),
         *(f"note: {line}" for line in api.unmet_lines(found.unmet)),
     ]

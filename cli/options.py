@@ -135,6 +135,18 @@ def onto_options(arguments: argparse.Namespace, *, moves: bool = True) -> dict[s
     return {"onto": arguments.onto, **given}
 
 
+def add_inertia(parser: argparse.ArgumentParser, *, only: str = "") -> None:
+    """Whether a stream that is played gets the inertia of skin and jaw."""
+    about = f"{only}add the inertia of skin and jaw, for streams that were computed without it (default: each frame as "
+    about += "it is: a recorded face has moved with its own)"
+    parser.add_argument("--inertia", action=argparse.BooleanOptionalAction, default=False, help=about)
+
+
+def motion_line(inertia: bool) -> str:
+    """What was done with a stream that was played."""
+    return "with the inertia of skin and jaw" if inertia else "each frame as it is, without added inertia"
+
+
 def add_engine(parser: argparse.ArgumentParser) -> None:
     choices = ("WORKBENCH", "CYCLES", "EEVEE")
     parser.add_argument("--engine", choices=choices, type=str.upper, default=choices[0], help="default: WORKBENCH")

@@ -15,10 +15,12 @@ from .options import (
     add_creases,
     add_engine,
     add_fps,
+    add_inertia,
     add_onto,
     add_scene,
     add_strength,
     expression_of,
+    motion_line,
     onto_options,
     scene_options,
     verb,
@@ -57,6 +59,7 @@ def add_stream_verb(verbs: Verbs) -> None:
     play.add_argument("--out", type=Path, help="the same as OUT")
     add_scene(play)
     add_onto(play)
+    add_inertia(play)
     add_engine(play)
     add_creases(play)
 
@@ -122,10 +125,12 @@ def _play(arguments: argparse.Namespace) -> Result:
     onto, shared = onto_options(arguments), scene_options(arguments)
     with needing_blender():
         from ..scene.jobs import playing
-    shared |= {"creases": arguments.creases, "engine": arguments.engine, "destination": destination_of(onto)}
+    shared |= {name: getattr(arguments, name) for name in ("creases", "engine", "inertia")}
+    shared["destination"] = destination_of(onto)
     with silent_blender():
         made = dict(playing.play_stream(out, stream, **shared, progress=ShowProgress()))
-    return Result({**made, "assumed": [*recording.assumed, *said]}, lines_of(made))
+    data = {**made, "inertia": arguments.inertia, "assumed": [*recording.assumed, *said]}
+    return Result(data, [*lines_of(made), f"motion: {motion_line(arguments.inertia)}"])
 
 
 def _of(arguments: argparse.Namespace) -> Result:

@@ -6,4 +6,5 @@ blendshapes                                   shape keys that engines and tracke
 creases, crease_places, crease_table          where squeezed skin wrinkles, for renderers
 lip_seam, mouth_room                          where sewn lips are to be cut open; mouths without an inside
 muscle_lines, trajectories                    muscles as lines; paths of the skin
+playing                                       a recording on a face as it is
 """

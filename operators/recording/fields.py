@@ -98,6 +98,17 @@ class RecordingFields:
         ),
     ]
 
+    inertia: Annotated[
+        bool,
+        BoolProperty(
+            name="Inertia",
+            description="Add the inertia of skin and jaw, for streams that were computed without any. Turn off for "
+            "recordings: a recorded face has moved with its own, and lips and lids would come late",
+            default=False,
+            options={"SKIP_SAVE"},
+        ),
+    ]
+
     def told(self) -> Told:
         """What is set, for `api.read_recording`."""
         return {
@@ -118,6 +129,7 @@ class RecordingFields:
             return
         if obj.risorius.timeline.clips:
             layout.prop(self, "with_timeline")
+        layout.prop(self, "inertia")
         layout.prop(obj.risorius.bake, "onto")
 
 

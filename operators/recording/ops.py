@@ -56,6 +56,7 @@ class RecordingImport(RecordingFields, BakeOperator):
         if not isinstance(result, Finding):
             for line in self._said:
                 self.report({"WARNING"}, f"{self.path.name}: {line}")
+            self.report({"INFO"}, f"{self.path.name}: {_motion_line(self.inertia)}")
             kept = active_object(context).risorius.recording
             kept.clip, kept.said = result.clip, "\n".join(self._said)
         return super().finish(context, result)
@@ -73,7 +74,7 @@ class RecordingImport(RecordingFields, BakeOperator):
         under = self._under(obj, scene, np.arange(count) / fps)
         frames, bridged = recording.played(under)
         self._said = (*recording.assumed, *bridged, *_from_timeline(recording.stream.frames, under))
-        motion = FapMotion(at_rate(frames, fps, scene_fps(scene)))
+        motion = FapMotion(at_rate(frames, fps, scene_fps(scene)), inertia=self.inertia)
         work = stream_work(obj, scene, motion, clip=path.stem, start=float(scene.frame_current))
         return (yield from part_of(work, READING, 1.0))
 
@@ -87,6 +88,11 @@ class RecordingImport(RecordingFields, BakeOperator):
         return sequence_at(
             performance.cues, seconds + (scene.frame_current - performance.first_frame) / performance.fps
         )
+
+
+def _motion_line(inertia: bool) -> str:
+    """How a recording was shown."""
+    return "skin and jaw follow with inertia" if inertia else "each frame is shown as it is, without added inertia"
 
 
 def _from_timeline(frames: Floats, under: Floats | None) -> list[str]:
@@ -146,7 +152,7 @@ of a tracker (Live Link Face, OpenFace, MediaPipe, Audio2Face ...)"""
         """Run straight through; where the user was asked, between events like any bake, which is undone in one step."""
         if not self._was_asked_for:
             return super().run(context)
-        fields = {name: getattr(self, name) for name in (*OF_TRACKERS, "with_timeline")}
+        fields = {name: getattr(self, name) for name in (*OF_TRACKERS, "with_timeline", "inertia")}
         bpy.ops.risorius.bake_recording("INVOKE_DEFAULT", filepath=self.filepath, **fields)
         return f"Importing {self.path.name}"
 

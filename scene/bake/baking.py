@@ -201,7 +201,7 @@ def long_remark(clip: str, long: LongMotion) -> str:
     usual, most = (1000.0 * np.percentile(off, share) for share in (50, 100))
     return (
         f"{clip}: {len(long.posed)} of {len(long)} frames were posed and the others are between these, as a rule within"
-        f" {usual:.1f} mm, at most {most:.1f} mm; the skin adds no inertia of its own"
+        f" {usual:.1f} mm, at most {most:.1f} mm"
     )
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ...face.long_motion import LongMotion
     from ...physics.tissue import Tissue
 
-#: Frames of the longest stream that is simulated frame by frame, which takes half a minute and all of them in memory.
+#: Frames of the longest stream that is posed frame by frame, which takes half a minute.
 SIMULATED = 1000
 
 
@@ -85,12 +85,15 @@ class CueMotion:
 class FapMotion:
     """A stream of FAPs (T, 68), NaN where silent, and the emotions (T, 6) behind it where they are known.
 
-    `planned`: it shows all that its emotions show, as it is to be seen, inertia included: speech.
+    Each frame is shown as it is: a face that was recorded has moved with its own inertia, and speech is laid out for
+    the moment in which it is seen. `planned`: the stream shows all that its emotions show (speech). `inertia`: skin and
+    jaw follow it with theirs, which suits a stream that was computed without any.
     """
 
     stream: Floats
     emotions: Floats | None = None
     planned: bool = False
+    inertia: bool = False
 
     def __post_init__(self) -> None:
         if len(self.stream) == 0:
@@ -102,14 +105,14 @@ class FapMotion:
 
     def positions(self, face: Face, fps: float, drive: str) -> Prepared[Floats]:
         """The stream, each frame planned by itself; see `Face.simulation`."""
-        integrator = "balance" if self.planned else "reduced"
+        integrator = "reduced" if self.inertia else "balance"
         return face.simulation(
             self.stream, fps, drive=drive, emotions=self.emotions, planned=self.planned, integrator=integrator
         )
 
     def between(self, face: Face, drive: str) -> Work[LongMotion] | None:
-        """A long stream is a recording, as a rule, and its skin has had its inertia; see `Face.long_motion`."""
-        if len(self.stream) <= SIMULATED or (self.emotions is not None and not self.planned):
+        """A long stream without inertia lies between some of its frames; see `Face.long_motion`."""
+        if len(self.stream) <= SIMULATED or self.inertia or (self.emotions is not None and not self.planned):
             return None
         return face.long_motion(self.stream, drive=drive, planned=self.planned)
 

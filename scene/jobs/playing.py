@@ -36,13 +36,15 @@ def play_stream(
     destination: Destination = NEW_KEYS,
     engine: str = "WORKBENCH",
     creases: bool | None = None,
+    inertia: bool = False,
     progress: Report | None = None,
 ) -> Made:
     """Bake a stream by a face's muscles and save the .blend or the film (.mp4).
 
     It plays at the stream's rate; in a user's .blend, at that file's. Visemes and expressions are expanded; FAPs that
     no frame states are left to anatomy, and unknown frames are bridged, which is remarked. Fill the stream first
-    (`FapStream.filled`) where it states FAPs now and then only. Other parameters as for `words.bake_file`.
+    (`FapStream.filled`) where it states FAPs now and then only. Each frame is shown as it is, or with `inertia` skin
+    and jaw follow it with theirs. Other parameters as for `words.bake_file`.
 
     Raises
     ------
@@ -52,18 +54,25 @@ def play_stream(
         raise ParameterError("engine", f"must be one of {', '.join(Engine)}", engine)
     is_blend = mesh is not None and Path(mesh).suffix.lower() == BLEND
     asked = Input.of(mesh, points, object_name, None if is_blend else stream.fps)
-    return run(_play(Path(out), stream, asked, destination, Look(engine=Engine(engine.upper())), creases), progress)
+    look = Look(engine=Engine(engine.upper()))
+    return run(_play(Path(out), stream, asked, destination, look, creases, inertia), progress)
 
 
 def _play(
-    out: Path, stream: FapStream, asked: Input, destination: Destination, look: Look, creases: bool | None
+    out: Path,
+    stream: FapStream,
+    asked: Input,
+    destination: Destination,
+    look: Look,
+    creases: bool | None,
+    inertia: bool,
 ) -> Work[Made]:
     """See `play_stream`."""
     film.refuse_unwritable_output(out)
     played = bridged(stream.expanded(), stream.fps)
     FapMotion(played.frames)  # refuses a stream without frames before anything is loaded
     face = yield from part_of(subject(asked, creases=bool(creases)), 0.0, 0.05)
-    motion = FapMotion(at_rate(played.frames, stream.fps, bake.scene_fps()))
+    motion = FapMotion(at_rate(played.frames, stream.fps, bake.scene_fps()), inertia=inertia)
     face = replace(face, remarks=face.remarks + played.said)
     saves = out.suffix.lower() == BLEND
     clip = stream.name.split("\\")[-1].strip() or "stream"

@@ -11,6 +11,7 @@ import pytest
 import risorius.api as api
 from risorius import cli
 from risorius.errors import SceneError
+from risorius.scene.bake.motion import SIMULATED, FapMotion
 from risorius.scene.jobs.playing import play_stream
 from risorius.scene.mesh import evaluated_vertices
 
@@ -25,13 +26,17 @@ def stream() -> api.FapStream:
 
 
 @pytest.mark.slow
-def test_a_stream_is_baked_as_the_api_simulates_it(stream: api.FapStream, tmp_path: Path) -> None:
-    made = play_stream(tmp_path / "face.blend", stream)
+@pytest.mark.parametrize("inertia", [False, True])
+def test_a_stream_is_baked_as_the_api_plays_it(inertia: bool, stream: api.FapStream, tmp_path: Path) -> None:
+    made = play_stream(tmp_path / "face.blend", stream, inertia=inertia)
     bpy.ops.wm.open_mainfile(filepath=str(made.blend))
     scene = bpy.context.scene
     assert scene.render.fps / scene.render.fps_base == pytest.approx(12.0)
     assert scene.frame_end - scene.frame_start == 5
-    clip = api.default_face().simulate(stream.expanded(), fps=12.0)
+    face = api.default_face()
+    shown = list(api.play(face, stream, inertia=inertia))
+    clip = face.simulate(stream.expanded(), fps=12.0, integrator="reduced" if inertia else "balance")
+    np.testing.assert_allclose(shown, clip.positions, atol=1e-12)
     obj = bpy.data.objects["Risorius Head"]
     for index in (0, 2, 5):
         scene.frame_set(scene.frame_start + index)
@@ -71,3 +76,24 @@ def test_the_verb_plays_a_bitstream(stream: api.FapStream, tmp_path: Path, capsy
 def test_an_unwritable_place_is_refused_before_the_work(stream: api.FapStream, tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="cannot be written"):
         play_stream(tmp_path, stream)
+
+
+def test_inertia_is_simulated_however_long_it_takes() -> None:
+    face, frames = api.default_face(), np.zeros((SIMULATED + 1, 68))
+    assert FapMotion(frames[:-1]).between(face, "natural") is None
+    assert FapMotion(frames).between(face, "natural") is not None
+    assert FapMotion(frames, inertia=True).between(face, "natural") is None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("options", "done"), [([], "each frame as it is"), (["--inertia"], "with the inertia")])
+def test_the_verb_says_how_it_was_played(
+    options: list[str], done: str, stream: api.FapStream, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    api.write_fap(tmp_path / "a.fap", stream)
+    call = ["fap", "play", str(tmp_path / "a.fap"), str(tmp_path / "a.blend"), *options]
+    assert cli.main(call) == 0
+    assert f"motion: {done}" in capsys.readouterr().out
+    assert cli.main([*call, "--json"]) == 0
+    said = capsys.readouterr().out
+    assert json.loads(said[said.index("{") :])["inertia"] is bool(options)

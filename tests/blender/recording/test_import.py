@@ -104,6 +104,23 @@ def test_fields_overrule_the_file(head: Any, played: list[FapMotion], tmp_path: 
     np.testing.assert_allclose(played[-1].stream[:, 48], plain[:, 48] - plain[1, 48])
 
 
+@pytest.mark.parametrize(("fields", "inertia"), [({}, False), ({"inertia": True}, True)])
+def test_inertia_is_added_to_what_was_computed_alone(
+    fields: dict[str, bool],
+    inertia: bool,
+    head: Any,
+    played: list[FapMotion],
+    tmp_path: Path,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    (tmp_path / "take.csv").write_text(ARKIT)
+    imported(tmp_path / "take.csv", **fields)
+    assert played[0].inertia is inertia
+    output = capfd.readouterr()
+    done = "skin and jaw follow with inertia" if inertia else "each frame is shown as it is, without added inertia"
+    assert f"Info: take.csv: {done}" in output.out + output.err
+
+
 def test_what_a_stream_states_cannot_be_overruled(head: Any, played: list[FapMotion], tmp_path: Path) -> None:
     api.write_stream(tmp_path / "a.fap", api.FapStream(np.zeros((3, 68)), fps=25.0))
     for fields in ({"rate": 30.0}, {"neutral": 1}, {"flip": {"yaw"}}):
@@ -192,13 +209,13 @@ def test_fields_show_where_they_apply(head: Any, tmp_path: Path) -> None:
     tracked.write_text(ARKIT)
     for stream in (own, tmp_path / "own.fba", tmp_path / "own.json"):
         api.write_stream(stream, api.FapStream(np.zeros((3, 68)), fps=25.0))
-        assert drawn(head, stream) == ["onto"]
-    assert drawn(head, tracked) == [*OF_TRACKERS, "onto"]
-    assert drawn(head, tmp_path / "gone.csv") == drawn(head, tmp_path) == ["onto"]
+        assert drawn(head, stream) == ["inertia", "onto"]
+    assert drawn(head, tracked) == [*OF_TRACKERS, "inertia", "onto"]
+    assert drawn(head, tmp_path / "gone.csv") == drawn(head, tmp_path) == ["inertia", "onto"]
     head.risorius.timeline.clips.add()
-    assert drawn(head, own) == ["with_timeline", "onto"]
+    assert drawn(head, own) == ["with_timeline", "inertia", "onto"]
     tracked.write_text(own.read_text())  # the content counts, as it is now
-    assert drawn(head, tracked) == ["with_timeline", "onto"]
+    assert drawn(head, tracked) == ["with_timeline", "inertia", "onto"]
 
 
 @pytest.mark.slow
