@@ -64,8 +64,16 @@ from .shapes.ops import RISORIUS_OT_make_shapes
 from .shapes.props import RISORIUS_PG_shapes
 from .show.props import RISORIUS_PG_show
 from .speech.ops import RISORIUS_OT_speak
-from .speech.panel import RISORIUS_PT_speech
+from .speech.panel import RISORIUS_PT_speech, RISORIUS_UL_speech
 from .speech.props import RISORIUS_PG_speech
+from .speech.strip_ops import (
+    RISORIUS_OT_add_speech,
+    RISORIUS_OT_fit_speech_sound,
+    RISORIUS_OT_paste_speech,
+    RISORIUS_OT_remove_speech,
+    RISORIUS_OT_stretch_speech,
+)
+from .speech.strip_props import RISORIUS_PG_said_sound, RISORIUS_PG_said_word, RISORIUS_PG_speech_strip
 from .timeline.drag import RISORIUS_OT_drag_clip
 from .timeline.ops import (
     RISORIUS_MT_clips,
@@ -104,6 +112,9 @@ PROPERTIES = (
     RISORIUS_PG_timeline,
     RISORIUS_PG_bake,
     RISORIUS_PG_recording,
+    RISORIUS_PG_said_sound,
+    RISORIUS_PG_said_word,
+    RISORIUS_PG_speech_strip,
     RISORIUS_PG_speech,
     RISORIUS_PG_film,
     RISORIUS_PG_shapes,
@@ -175,6 +186,11 @@ OPERATORS = (
     RISORIUS_OT_bake_recording,
     RISORIUS_OT_import_fap,
     RISORIUS_OT_speak,
+    RISORIUS_OT_add_speech,
+    RISORIUS_OT_paste_speech,
+    RISORIUS_OT_remove_speech,
+    RISORIUS_OT_fit_speech_sound,
+    RISORIUS_OT_stretch_speech,
     RISORIUS_OT_render_film,
     RISORIUS_OT_export_gltf,
     RISORIUS_OT_make_shapes,
@@ -205,6 +221,7 @@ PANELS = (
     RISORIUS_MT_library,
     RISORIUS_FH_preset,
     RISORIUS_FH_fap,
+    RISORIUS_UL_speech,
     RISORIUS_PT_speech,
     RISORIUS_PT_bake,
     RISORIUS_PT_read,

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import tempfile
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+import bpy
+
 from ..errors import FormatError
-from .blender_types import Scene
+from .blender_types import Scene, SequencerStrip, SequenceStrips, Sound
 
 #: The channel of the sequencer that sound goes to where it is free.
 CHANNEL = 2
+#: What marks a strip of the sequencer as the sound of something said.
+TAG = "risorius_speech"
 
 
-def add_sound(scene: Scene, path: str | Path, *, frame: int, packed: bool = False) -> None:
+def add_sound(scene: Scene, path: str | Path, *, frame: int, packed: bool = False, tag: str = "") -> SequencerStrip:
     """Put a sound file on a scene's timeline, from a frame on, on the first channel that is free there.
 
-    `packed`: into the .blend, so that it needs the file no more.
+    `packed`: into the .blend, so that it needs the file no more. `tag`: by which the strip is found again.
 
     Raises
     ------
@@ -23,8 +29,7 @@ def add_sound(scene: Scene, path: str | Path, *, frame: int, packed: bool = Fals
     file = Path(path)
     if not file.is_file():
         raise FormatError(file, "does not exist: check the path of the sound")
-    editor = scene.sequence_editor or scene.sequence_editor_create()
-    strips = editor.strips if hasattr(editor, "strips") else editor.sequences
+    strips = _strips(scene)
     used = {strip.channel for strip in strips}
     channel = next(number for number in range(CHANNEL, CHANNEL + len(used) + 1) if number not in used)
     try:
@@ -36,3 +41,86 @@ def add_sound(scene: Scene, path: str | Path, *, frame: int, packed: bool = Fals
         raise FormatError(file, "is no sound that this Blender can play: convert it to WAV")
     if packed:
         strip.sound.pack()
+    if tag:
+        strip[TAG] = tag
+    return strip
+
+
+def add_wav(scene: Scene, wav: bytes, name: str, *, frame: int, tag: str = "") -> SequencerStrip:
+    """The same of a WAV file's bytes, which go into the .blend."""
+    safe = "".join(letter if letter.isalnum() or letter in " -.'" else "_" for letter in name).strip() or "speech"
+    with tempfile.TemporaryDirectory(prefix="risorius-", ignore_cleanup_errors=True) as folder:
+        path = Path(folder) / f"{safe}.wav"
+        path.write_bytes(wav)
+        return add_sound(scene, path, frame=frame, packed=True, tag=tag)
+
+
+def add_again(scene: Scene, sound: Sound, *, frame: int, tag: str = "") -> SequencerStrip:
+    """The same of a sound that the .blend knows already.
+
+    Raises
+    ------
+    FormatError : its file is missing.
+    """
+    if sound.packed_file is None:
+        strip = add_sound(scene, bpy.path.abspath(sound.filepath), frame=frame, tag=tag)
+    else:
+        strip = add_wav(scene, bytes(sound.packed_file.data), sound.name.removesuffix(".wav"), frame=frame, tag=tag)
+    made, strip.sound = strip.sound, sound
+    if made != sound and not made.users:
+        bpy.data.sounds.remove(made)
+    return strip
+
+
+def is_missing(sound: Sound | None) -> bool:
+    """Whether a sound's file is neither in the .blend nor where it was."""
+    return sound is not None and sound.packed_file is None and not Path(bpy.path.abspath(sound.filepath)).is_file()
+
+
+def move_sound(scenes: Iterable[Scene], tag: str, frame: int) -> None:
+    """Let the strips of a tag start at another frame."""
+    for _, strip in tagged(scenes, tag):
+        strip.frame_start = frame
+
+
+def mute_sound(scenes: Iterable[Scene], tag: str, *, mute: bool) -> None:
+    """Let the strips of a tag be heard or not."""
+    for _, strip in tagged(scenes, tag):
+        strip.mute = mute
+
+
+def remove_sound(scenes: Iterable[Scene], tag: str) -> None:
+    """Take the strips of a tag away, and sounds that nobody uses then."""
+    for strips, strip in list(tagged(scenes, tag)):
+        sound = strip.sound
+        strips.remove(strip)
+        if sound is not None and not sound.users:
+            bpy.data.sounds.remove(sound)
+
+
+def tagged(scenes: Iterable[Scene], tag: str) -> Iterator[tuple[SequenceStrips, SequencerStrip]]:
+    """The strips of a tag, with the sequencer's strips that they are among."""
+    for scene in scenes:
+        if tag and scene.sequence_editor is not None:
+            strips = _strips(scene)
+            for strip in strips:
+                if strip.type == "SOUND" and strip.get(TAG) == tag:
+                    yield strips, strip
+
+
+def scrub_along(scene: Scene) -> tuple[str, ...]:
+    """Let sound be heard while the timeline is scrubbed and played; what was changed for that, in words."""
+    said = []
+    if not scene.use_audio_scrub:
+        scene.use_audio_scrub = True
+        said.append("Turned on Audio Scrubbing, to hear the sound at each frame")
+    if scene.sync_mode != "AUDIO_SYNC":
+        scene.sync_mode = "AUDIO_SYNC"
+        said.append("Set Sync to Sync to Audio, to play in time with it")
+    return tuple(said)
+
+
+def _strips(scene: Scene) -> SequenceStrips:
+    """The strips of a scene's sequencer, which is made if need be."""
+    editor = scene.sequence_editor or scene.sequence_editor_create()
+    return editor.strips if hasattr(editor, "strips") else editor.sequences

@@ -2,7 +2,10 @@
 
 phonemes       speech sounds, their visemes, and the alphabets that write them
 utterance      sounds and words in time
+line           the same as words to be changed one by one
 voice          text becomes sound and timed phonemes
+waves          WAV files
+stretching     a sound that lasts longer or shorter at the same pitch
 timings        files of aligners and lip-sync tools
 articulation   sounds in time become FAPs of mouth, jaw and tongue
 accompaniment  what lids, brows and head do with speech

@@ -124,6 +124,6 @@ def _closure(utterance: Utterance, times: Floats, how: Manner) -> Floats:
     share = np.zeros(len(times))
     for sound in utterance.sounds:
         if sound.phoneme.own and (closure := how.closures.get(sound.phoneme.viseme)) is not None:
-            aim = Aim(sound.start, sound.end, sound.phoneme.viseme, np.empty(0))
+            aim = Aim(sound.start, sound.end, sound.phoneme.viseme, np.empty(0), min(sound.strength, 1.0))
             share = np.maximum(share, closing(aim, closure, times, step))
     return share

@@ -8,6 +8,9 @@ from dataclasses import dataclass, field
 from ..errors import ParameterError
 from .phonemes import Phoneme
 
+#: How distinctly a sound may be said at most: twice.
+STRONGEST = 2.0
+
 
 @dataclass(frozen=True)
 class Sound:
@@ -18,6 +21,7 @@ class Sound:
     start, end : seconds from the beginning.
     phoneme : what is said. symbol : how the source writes it.
     stress : 1 for the main stress of a word, 0.5 for a secondary one, else 0.
+    strength : how far the mouth goes for it, 0 (it stays at rest) to 2.
     """
 
     start: float
@@ -25,6 +29,7 @@ class Sound:
     phoneme: Phoneme
     symbol: str = ""
     stress: float = 0.0
+    strength: float = 1.0
 
     @property
     def middle(self) -> float:
@@ -61,7 +66,7 @@ class Utterance:
     Raises
     ------
     ParameterError
-        When sounds overlap or run backwards, or a time is no number.
+        When sounds overlap or run backwards, a time is no number, or a strength is outside its range.
     """
 
     sounds: tuple[Sound, ...]
@@ -76,6 +81,8 @@ class Utterance:
             if not (math.isfinite(sound.start) and math.isfinite(sound.end) and last <= sound.start < sound.end):
                 rule = f"must end after they start, and start after the sound before them has ended ({last:g} s)"
                 raise ParameterError("sounds", rule, (sound.symbol, sound.start, sound.end))
+            if not 0.0 <= sound.strength <= STRONGEST:
+                raise ParameterError("strength", f"must be from 0 to {STRONGEST:g}", (sound.symbol, sound.strength))
             last = sound.end
         if not (math.isfinite(self.duration) and self.duration >= last):
             raise ParameterError("duration", f"must be a number of seconds, at least {last:g}", self.duration)

@@ -11,11 +11,9 @@ import contextlib
 import ctypes
 import ctypes.util
 import difflib
-import io
 import shutil
 import sys
 import tempfile
-import wave
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,6 +26,7 @@ from ..files import write_whole
 from .phonemes import Alphabet, is_mark
 from .timings.labels import Label, Timings, utterance_of
 from .utterance import Utterance
+from .waves import LOUDEST, wav_of
 
 #: From speak_lib.h: the sound is handed over; phonemes are events, in IPA; errors do not end the process.
 RETRIEVAL, PHONEME_EVENTS, PHONEME_IPA, NO_EXIT = 1, 0x0001, 0x0002, 0x8000
@@ -58,13 +57,7 @@ class Voiced:
 
     def wav(self) -> bytes:
         """The sound as a WAV file holds it."""
-        held = io.BytesIO()
-        with wave.open(held, "wb") as file:
-            file.setnchannels(1)
-            file.setsampwidth(2)
-            file.setframerate(self.rate)
-            file.writeframes(self.sound.astype("<i2").tobytes())
-        return held.getvalue()
+        return wav_of(self.sound[:, None] / LOUDEST, self.rate)
 
 
 class _Id(ctypes.Union):

@@ -11,6 +11,7 @@ from ...scene.bake import shape_keys
 from ...scene.bake.action import Curve
 from ...scene.bake.motion import CueMotion
 from ...scene.bake.notes import BakeKind, Note, read_notes
+from ...scene.bake.speech_motion import SpeechMotion
 from ...scene.bake.timing import ClipTiming, scene_fps
 from ...scene.rig.destinations import BakeTo
 from ...scene.rig.kept import kept_clips
@@ -19,6 +20,7 @@ from ..active import target_of
 from ..blender_types import Object, Scene
 from ..emotion.performance import Performance, performance_of
 from ..emotion.profile import Wanted, title_of, wanted_of
+from ..speech.strips import playing_strips
 from ..tissue.props import tissue_of
 from .destination import Destination, destination_again
 
@@ -30,7 +32,7 @@ TIMELINE = "timeline"
 def clip_name(obj: Object, *, motion: bool = False) -> str:
     """The name the user gave, or the emotion's; a motion through several expressions is the timeline's."""
     title = title_of(obj.risorius.emotion)
-    if motion and obj.risorius.timeline.clips:
+    if motion and (obj.risorius.timeline.clips or playing_strips(obj)):
         title = TIMELINE
     chosen = str(obj.risorius.bake.clip).strip() or title
     return chosen + MOTION_SUFFIX if motion else chosen
@@ -59,10 +61,33 @@ def most_keys(obj: Object) -> int | None:
     return int(obj.risorius.bake.max_keys) or None
 
 
-def motion_of(obj: Object, performance: Performance) -> CueMotion:
+def motion_of(obj: Object, performance: Performance) -> CueMotion | SpeechMotion:
     """What a motion bake of a performance simulates."""
-    hands = [wanted.contractions for wanted in performance.wanted]
-    return CueMotion(performance.cues, hands, tissue_of(obj), performance.liveliness)
+    if performance.speech is None:
+        hands = [wanted.contractions for wanted in performance.wanted]
+        return CueMotion(performance.cues, hands, tissue_of(obj), performance.liveliness)
+    return SpeechMotion(
+        performance.speech.utterance,
+        performance.cues,
+        performance.fps,
+        liveliness=performance.liveliness,
+        **_manner(obj),
+    )
+
+
+def _manner(obj: Object) -> dict[str, float]:
+    """How a face speaks."""
+    chosen = obj.risorius.speech
+    return {name: round(getattr(chosen, name), 6) for name in ("articulation", "jaw", "lean")}
+
+
+def _moved_by(obj: Object, performance: Performance) -> tuple[object, ...]:
+    """All that a motion depends on but the face and when it begins."""
+    if performance.speech is not None:
+        manner = sorted(_manner(obj).items())
+        return performance.cues, performance.speech.digest, manner, performance.liveliness
+    motion = CueMotion(performance.cues, [wanted.contractions for wanted in performance.wanted], tissue_of(obj))
+    return motion.cues, motion.contractions, motion.tissue, performance.liveliness
 
 
 def expression_settings(obj: Object, scene: Scene, where: Destination) -> str:
@@ -80,21 +105,18 @@ def _besides(obj: Object, where: Destination, *, moving: bool = False) -> object
 
 def motion_settings(obj: Object, performance: Performance, where: Destination) -> str:
     """Digest of what a motion bake is made of."""
-    motion = motion_of(obj, performance)
+    said = () if performance.speech is None else performance.speech.titles
     return _digest(
-        (performance.first_frame, performance.fps, performance.titles),
-        *(motion.cues, motion.contractions, motion.tissue, motion.liveliness),
+        (performance.first_frame, performance.fps, performance.titles + said),
+        *_moved_by(obj, performance),
         *(obj.risorius.emotion.drive, _besides(obj, where, moving=True), *_resting(obj)),
     )
 
 
 def played_settings(obj: Object, performance: Performance) -> str:
     """Digest of all that a motion depends on but the face itself."""
-    motion = motion_of(obj, performance)
-    return _digest(
-        (performance.first_frame, performance.fps, obj.risorius.emotion.drive),
-        *(motion.cues, motion.contractions, motion.tissue, motion.liveliness),
-    )
+    when = performance.first_frame, performance.fps, obj.risorius.emotion.drive
+    return _digest(when, *_moved_by(obj, performance))
 
 
 def strip_curve(performance: Performance, number: int) -> Curve:
@@ -147,7 +169,7 @@ def _settings_now(
 ) -> Mapping[BakeKind, Mapping[str, str]]:
     """Kind of bake -> clip -> digest, of all that a bake now makes of what it would key."""
     where = destination_again(obj, onto)
-    motion = {clip_name(obj, motion=True): motion_settings(obj, performance, where)} if performance.cues else {}
+    motion = {clip_name(obj, motion=True): motion_settings(obj, performance, where)} if performance.moves else {}
     strips = enumerate(performance.titles)
     return {
         BakeKind.EXPRESSION: {clip_name(obj): expression_settings(obj, scene, where)},

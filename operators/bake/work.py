@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ...progress import Work
 from ...scene import bake
 from ...scene.bake.motion import Motion
@@ -12,8 +14,9 @@ from ...scene.rig.destinations import BakeTo, find_rig
 from ...scene.rig.strips import bake_strips_onto
 from ..active import target_of
 from ..blender_types import Object, Scene
-from ..emotion.performance import performance_of
+from ..emotion.performance import Performance, performance_of
 from ..emotion.profile import wanted_of
+from ..speech.strips import playing_strips
 from .destination import Destination, destination_of
 from .settings import (
     clip_name,
@@ -31,7 +34,7 @@ from .settings import (
 def silent_reason(obj: Object) -> str | None:
     """Why there is no motion to bake, or None."""
     timeline = obj.risorius.timeline
-    if timeline.clips and all(clip.mute and not clip.solo for clip in timeline.clips):
+    if not playing_strips(obj) and timeline.clips and all(clip.mute and not clip.solo for clip in timeline.clips):
         return "All clips are muted: unmute one"
     return None
 
@@ -70,10 +73,24 @@ def expression_work(obj: Object, scene: Scene, where: Destination | None = None)
 def motion_work(obj: Object, scene: Scene, where: Destination | None = None) -> Work[bake.BakeResult]:
     """Simulate what is laid out on the face and write its motion, with a marker where each expression begins."""
     where, performance = where or destination_of(obj), performance_of(obj, scene)
-    markers = [(title, performance.span(number)[0]) for number, title in enumerate(performance.titles)]
-    note = Note(BakeKind.MOTION, motion_settings(obj, performance, where), tuple(markers), where.noted)
+    note = Note(BakeKind.MOTION, motion_settings(obj, performance, where), tuple(performance.markers), where.noted)
     clip, motion = clip_name(obj, motion=True), motion_of(obj, performance)
-    return stream_work(obj, scene, motion, clip=clip, start=performance.first_frame, where=where, note=note)
+    work = stream_work(obj, scene, motion, clip=clip, start=performance.first_frame, where=where, note=note)
+    return work if performance.speech is None else _spoken(work, performance)
+
+
+def _spoken(work: Work[bake.BakeResult], performance: Performance) -> Work[bake.BakeResult]:
+    """A bake with what is to be said of its speech."""
+    result = yield from work
+    said = () if performance.speech is None else performance.speech.remarks
+    return replace(result, remarks=(*result.remarks, *said, *unshown(performance)))
+
+
+def unshown(performance: Performance) -> tuple[str, ...]:
+    """What of the feelings speech does not show."""
+    if any(wanted.contractions for wanted in performance.wanted):
+        return ("Muscles set by hand do not show while the face speaks",)
+    return ()
 
 
 def stream_work(

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ...arrays import Floats
-from ...mpeg4 import Cue, Drawn, Liveliness, Ramp, drawn_within
+from ...mpeg4 import Cue, Drawn, Liveliness, Ramp, drawn_within, load_timings
 from ...scene.bake.timing import scene_fps
 from ..blender_types import Object, Scene
+from ..speech.strip_props import RISORIUS_PG_speech_strip
+from ..speech.strips import Speech, length_of, playing_strips, speech_of
 from ..timeline.bars import Timed
 from ..timeline.props import RISORIUS_PG_variation, playing_clips
 from ..timeline.titles import clip_title
@@ -30,6 +32,7 @@ class Performance:
     first_frame : the frame at which the cues' time is 0. fps : frames per second.
     cues : when and how strongly each expression shows. wanted : what each shows at its apex.
     titles : what each is called, no two alike. liveliness : what the face does besides.
+    speech : what is said beside them, or None.
     """
 
     first_frame: float
@@ -38,6 +41,18 @@ class Performance:
     wanted: tuple[Wanted, ...] = field(default=())
     titles: tuple[str, ...] = ()
     liveliness: Liveliness = field(default_factory=Liveliness)
+    speech: Speech | None = None
+
+    @property
+    def moves(self) -> bool:
+        """Whether anything happens in it."""
+        return bool(self.cues) or self.speech is not None
+
+    @property
+    def markers(self) -> list[tuple[str, float]]:
+        """Where expressions and speech begin, by their titles."""
+        felt = [(title, self.span(number)[0]) for number, title in enumerate(self.titles)]
+        return felt + ([] if self.speech is None else list(zip(self.speech.titles, self.speech.starts, strict=True)))
 
     def shares(self, frame: float) -> Floats:
         """(C,) how much of each expression shows at a frame of the scene; together at most 1."""
@@ -56,7 +71,9 @@ class Performance:
         return start, start + cue.duration * self.fps
 
     def apex(self, number: int = 0) -> float:
-        """The frame at which an expression is full."""
+        """The frame at which an expression is full; the first of all where there is none."""
+        if not self.cues:
+            return self.first_frame
         return self.span(number)[0] + self.cues[number].onset * self.fps
 
 
@@ -85,20 +102,43 @@ class _Choice:
         )
 
 
+@dataclass(frozen=True)
+class _Throughout:
+    """The times of an emotion that is there as long as something is said, and goes then."""
+
+    start: int
+    onset: float
+    apex: float
+    offset: float
+
+    @classmethod
+    def of(cls, strips: Sequence[RISORIUS_PG_speech_strip], fps: float) -> _Throughout:
+        """From the first frame of strips to their last one."""
+        start = min(strip.start for strip in strips)
+        end = max(strip.start / fps + length_of(strip) for strip in strips)
+        return cls(start, 0.0, end - start / fps, load_timings()["natural"].offset)
+
+
 def performance_of(obj: Object, scene: Scene) -> Performance:
-    """What is laid out for `obj`: the clips of its timeline, or without any the chosen emotion with its timing."""
-    timeline, fps = obj.risorius.timeline, scene_fps(scene)
+    """What is laid out for `obj`: the clips of its timeline and its speech; without clips, the chosen emotion.
+
+    That has its own timing, or lasts as long as something is said.
+    """
+    timeline, fps, strips = obj.risorius.timeline, scene_fps(scene), playing_strips(obj)
     if timeline.clips:
         clips = playing_clips(timeline)
         choices = [_Choice(clip.emotion, clip, clip.peak, Ramp(clip.ramp)) for clip in clips]
         titles = [clip_title(clip) for clip in clips]
     else:
-        choices = [_Choice(obj.risorius.emotion, obj.risorius.bake)]
-        titles = [title_of(obj.risorius.emotion)]
-    first = min((choice.times.start for choice in choices), default=0)
+        times = _Throughout.of(strips, fps) if strips else obj.risorius.bake
+        choices = [_Choice(obj.risorius.emotion, times)] if not strips or obj.risorius.speech.with_feeling else []
+        titles = [title_of(obj.risorius.emotion)] * len(choices)
+    starts = [choice.times.start for choice in choices] + [strip.start for strip in strips]
+    first = min(starts, default=0)
     wanted = tuple(_drawn(obj, choice.emotion, number) for number, choice in enumerate(choices))
     cues = tuple(choice.cue(shown, first, fps) for choice, shown in zip(choices, wanted, strict=True))
-    return Performance(float(first), fps, cues, wanted, _told_apart(titles), liveliness_of(timeline.variation))
+    lively, speech = liveliness_of(timeline.variation), speech_of(obj, float(first), fps)
+    return Performance(float(first), fps, cues, wanted, _told_apart(titles), lively, speech)
 
 
 def liveliness_of(variation: RISORIUS_PG_variation) -> Liveliness:

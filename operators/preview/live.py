@@ -13,9 +13,12 @@ from typing import TYPE_CHECKING, TypedDict
 import bpy
 import numpy as np
 
+from ...arrays import Floats
 from ...errors import RisoriusError
 from ...scene.bake import shape_keys
+from ...scene.bake.motion import Motion
 from ...scene.bake.remarks import unmet_remarks
+from ...scene.bake.speech_motion import SpeechMotion
 from ...scene.fingerprint import uid_of
 from ...scene.live import preview
 from ...scene.live.held_faces import REST
@@ -174,30 +177,39 @@ def _asked_of(wanted: Wanted) -> _Besides:
 
 def play(obj: Object, face: LiveFace, scene: Scene) -> None:
     """Show `obj` as it is laid out at the scene's frame: as a bake will, or as long as that is not worked out, out of
-    the apexes of its expressions.
+    the apexes of its expressions, or what the mouth says at that frame.
 
     Raises
     ------
     RisoriusError : an expression cannot be posed.
     """
-    performance = performance_of(obj, scene)
-    known = _worked_out(obj, face, performance).at(scene.frame_current_final) if performance.cues else None
-    if known is not None:
-        if known.any():
-            face.show(target_of(obj), known)
-        else:
-            rest(obj)
-        return
-    shares = performance.shares(scene.frame_current_final)
-    if not shares.any():
+    performance, known = performance_of(obj, scene), None
+    if performance.moves:
+        played = _worked_out(obj, face, performance)
+        known = played.at(scene.frame_current_final)
+        if known is None:
+            known = _sketched(obj, face, performance, played.motion, scene.frame_current_final)
+    if known is not None and known.any():
+        face.show(target_of(obj), known)
+    else:
         rest(obj)
-        return
+
+
+def _sketched(obj: Object, face: LiveFace, performance: Performance, motion: Motion, frame: float) -> Floats | None:
+    """(V, 3) what shows at a frame of the scene, as far as it can be told without what was before; None at rest."""
+    if isinstance(motion, SpeechMotion):
+        step = round(frame - performance.first_frame)
+        said = motion.made.stream
+        return face.spoken(said[step], drive=obj.risorius.emotion.drive) if 0 <= step < len(said) else None
+    shares = performance.shares(frame)
+    if not shares.any():
+        return None
     apexes = [
         share * face.apex(wanted.faps, **_asked_of(wanted))
         for share, wanted in zip(shares, performance.wanted, strict=True)
         if share > 0.0
     ]
-    face.show(target_of(obj), np.sum(apexes, axis=0))
+    return np.asarray(np.sum(apexes, axis=0))
 
 
 def _worked_out(obj: Object, face: LiveFace, performance: Performance) -> PlayedMotion:

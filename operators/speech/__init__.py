@@ -1,6 +1,12 @@
-"""Speech: what is said, how, and the clip that says it.
+"""Speech: what is said, how, and the strips of the timeline that say it.
 
-props    what is said and how
-ops      bake it, with its sound on the sequencer
-panel    Speak
+props          what is said and how, and the strips
+strip_props    strips, their words, the words' sounds
+strips         what strips say, and all of them as one motion of the mouth
+heard          what is chosen, spoken or read
+ops            bake it at once, with its sound on the sequencer
+strip_ops      strips added, pasted, removed, stretched
+bars           strips in a timeline editor, and how they are dragged there
+fitting        a strip's sound as long as the strip
+panel          Speak
 """

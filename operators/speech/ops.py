@@ -2,32 +2,24 @@
 
 from __future__ import annotations
 
-import tempfile
-from pathlib import Path
-
-import bpy
-
-from ...errors import FormatError, RisoriusError
+from ...errors import RisoriusError
 from ...progress import Progress, Work, part_of
 from ...scene.bake.baking import BakeResult
 from ...scene.bake.motion import FapMotion
 from ...scene.bake.timing import scene_fps
 from ...scene.points.found import Finding
-from ...scene.sounds import add_sound
-from ...speech.utterance import Utterance
+from ...scene.sounds import add_sound, add_wav
 from ..active import active_object
 from ..bake.destination import bake_reason
 from ..bake.ops import BakeOperator
-from ..bake.work import stream_work
+from ..bake.work import stream_work, unshown
 from ..blender_classes import Operator
 from ..blender_types import Context, Scene
-from ..emotion.performance import Performance, performance_of
-from .props import RISORIUS_PG_speech
+from ..emotion.performance import performance_of
+from .heard import Heard, heard, nothing_said
 
 #: The share of finding out what is said in the whole.
 READING = 0.1
-#: Letters of a text that name its clip.
-NAMED = 24
 
 
 class RISORIUS_OT_speak(BakeOperator, Operator):
@@ -39,8 +31,7 @@ class RISORIUS_OT_speak(BakeOperator, Operator):
     title = "Baking the speech"
 
     _said: tuple[str, ...] = ()
-    _sound: Path | None = None
-    _voice: bytes | None = None
+    _heard: Heard | None = None
     _start: int = 1
 
     @classmethod
@@ -49,10 +40,7 @@ class RISORIUS_OT_speak(BakeOperator, Operator):
         reason = bake_reason(context.object)
         if reason is not None:
             return reason
-        chosen = active_object(context).risorius.speech
-        if chosen.source == "TEXT":
-            return None if chosen.text.strip() else "Nothing is said yet: write a text"
-        return None if chosen.timings else "Nothing is said yet: choose a file of timings"
+        return nothing_said(active_object(context).risorius.speech)
 
     def show_apex(self, context: Context) -> None:
         """Stay at the frame: it is where the speech begins."""
@@ -64,7 +52,8 @@ class RISORIUS_OT_speak(BakeOperator, Operator):
         obj, scene = active_object(context), context.scene
         chosen, fps = obj.risorius.speech, scene_fps(scene)
         yield Progress(0.0, "Speaking the text" if chosen.source == "TEXT" else "Reading the timings")
-        utterance = self._utterance(chosen)
+        self._heard = heard(chosen)
+        utterance = self._heard.utterance
         performance = performance_of(obj, scene)
         feels, clips = bool(chosen.with_feeling), bool(obj.risorius.timeline.clips)
         saying = api.say(
@@ -79,27 +68,11 @@ class RISORIUS_OT_speak(BakeOperator, Operator):
             liveliness=performance.liveliness,
             seed=performance.cues[0].seed if feels and not clips else None,
         )
-        said = _unshown(performance) if chosen.with_feeling else []
+        said = unshown(performance) if chosen.with_feeling else ()
         self._said, self._start = (*utterance.assumed, *said), int(scene.frame_current)
         motion = FapMotion(saying.stream.frames, saying.emotions, planned=True)
-        work = stream_work(obj, scene, motion, clip=_clip_name(chosen), start=float(self._start))
+        work = stream_work(obj, scene, motion, clip=self._heard.title, start=float(self._start))
         return (yield from part_of(work, READING, 1.0))
-
-    def _utterance(self, chosen: RISORIUS_PG_speech) -> Utterance:
-        """What is said when, and its sound."""
-        from ... import api
-
-        self._sound = self._voice = None
-        if chosen.source == "TEXT":
-            voiced = api.speak(chosen.text, voice=chosen.voice, speed=int(chosen.speed), pitch=int(chosen.pitch))
-            self._voice = voiced.wav()
-            return voiced.utterance
-        if chosen.sound:
-            self._sound = Path(bpy.path.abspath(chosen.sound))
-            if not self._sound.is_file():
-                raise FormatError(self._sound, "does not exist: check the path of the sound")
-        utterance: Utterance = api.read_timings(bpy.path.abspath(chosen.timings), tier=chosen.tier.strip() or None)
-        return utterance
 
     def finish(self, context: Context, result: BakeResult | Finding) -> str:
         """Put the sound where it belongs, and say what was assumed."""
@@ -114,25 +87,7 @@ class RISORIUS_OT_speak(BakeOperator, Operator):
 
     def _add_sound(self, scene: Scene, clip: str) -> None:
         """The file's sound as it is; a voice's packed into the .blend, since it has no file."""
-        if self._sound is not None:
-            add_sound(scene, self._sound, frame=self._start)
-        elif self._voice is not None:
-            with tempfile.TemporaryDirectory(prefix="risorius-", ignore_cleanup_errors=True) as folder:
-                path = Path(folder) / f"{clip}.wav"
-                path.write_bytes(self._voice)
-                add_sound(scene, path, frame=self._start, packed=True)
-
-
-def _unshown(performance: Performance) -> list[str]:
-    """What of the feelings speech does not show."""
-    if any(wanted.contractions for wanted in performance.wanted):
-        return ["Muscles set by hand do not show while the face speaks"]
-    return []
-
-
-def _clip_name(chosen: RISORIUS_PG_speech) -> str:
-    """A name by what is said."""
-    if chosen.source != "TEXT":
-        return Path(bpy.path.abspath(chosen.timings)).stem
-    words = " ".join(chosen.text.split())
-    return words if len(words) <= NAMED else f"{words[: NAMED - 1].rsplit(' ', 1)[0]}..."
+        if self._heard is not None and self._heard.file is not None:
+            add_sound(scene, self._heard.file, frame=self._start)
+        elif self._heard is not None and self._heard.wav is not None:
+            add_wav(scene, self._heard.wav, clip, frame=self._start)

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import lru_cache
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ...errors import RisoriusError
 from ..annotated import Annotated
 from ..blender_classes import PropertyGroup
-from ..blender_types import Context
+from ..blender_types import Context, Entries
+from ..screen import redraw_timelines
+from .strip_props import RISORIUS_PG_speech_strip, edited
 
 
 @lru_cache(maxsize=1)
@@ -78,6 +80,7 @@ class RISORIUS_PG_speech(PropertyGroup):
             name="With Feeling",
             description="Show the clips of the timeline while speaking, or without clips the chosen emotion",
             default=True,
+            update=edited,
         ),
     ]
     lean: Annotated[
@@ -88,6 +91,7 @@ class RISORIUS_PG_speech(PropertyGroup):
             default=1.0,
             min=0.0,
             max=2.0,
+            update=edited,
         ),
     ]
     articulation: Annotated[
@@ -98,6 +102,25 @@ class RISORIUS_PG_speech(PropertyGroup):
             default=1.0,
             min=0.0,
             max=2.0,
+            update=edited,
         ),
     ]
-    jaw: Annotated[float, FloatProperty(name="Jaw", description="How far the jaw opens", default=1.0, min=0.0, max=2.0)]
+    jaw: Annotated[
+        float,
+        FloatProperty(name="Jaw", description="How far the jaw opens", default=1.0, min=0.0, max=2.0, update=edited),
+    ]
+    strips: Annotated[
+        Entries[RISORIUS_PG_speech_strip],
+        CollectionProperty(
+            type=RISORIUS_PG_speech_strip,
+            name="Speech",
+            description="Speech on the timeline. Where two overlap, the later one cuts the other off",
+        ),
+    ]
+    active: Annotated[
+        int,
+        IntProperty(
+            name="Active Speech", description="Speech that is being edited", default=0, min=0, update=redraw_timelines
+        ),
+    ]
+    edited: Annotated[str, StringProperty(options={"HIDDEN"})]

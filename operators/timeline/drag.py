@@ -1,17 +1,22 @@
-"""Clips dragged about in a timeline editor: as a whole, or the end of their onset, apex or offset."""
+"""Clips and speech dragged about in a timeline editor: as a whole, or the end of one of their times."""
 
 from __future__ import annotations
 
 from contextlib import ExitStack
+from dataclasses import dataclass
 
 import bpy
 
+from ...errors import RisoriusError
 from ...scene.bake.timing import scene_fps
 from ...scene.blender_types import Event
 from ..active import active_object
 from ..blender_classes import Operator
-from ..blender_types import Context, WindowManager
+from ..blender_types import Context, Object, Scene, WindowManager
 from ..screen import redraw_timelines
+from ..speech.bars import is_stretched, stretched_by
+from ..speech.fitting import fit_sound
+from ..speech.strips import length_of
 from .bars import TOUCH, Bar, Grip, dragged
 from .drawing import bars_of
 
@@ -29,7 +34,8 @@ def grabbed(context: Context, event: Event) -> tuple[Bar, Grip] | None:
 
 
 class RISORIUS_OT_drag_clip(Operator):
-    """Select a clip and drag it in time. Drag a corner to change its onset, apex or offset. Esc cancels"""
+    """Select a clip or speech and drag it in time. Drag a corner of a clip to change its onset, apex or offset, the \
+end of speech to stretch it. Esc cancels"""
 
     bl_idname = "risorius.drag_clip"
     bl_label = "Drag Clip"
@@ -45,11 +51,8 @@ class RISORIUS_OT_drag_clip(Operator):
         hit, area, region = grabbed(context, event), context.area, context.region
         if hit is None or area is None or region is None:
             return {"PASS_THROUGH"}
-        (bar, self._grip), self._area, self._region = hit, area, region
-        timeline = active_object(context).risorius.timeline
-        self._was_active, self._number = timeline.active, bar.number
-        timeline.active = bar.number
-        self._before = getattr(timeline.clips[bar.number], self._grip.value)
+        (bar, grip), self._area, self._region = hit, area, region
+        self._dragged = _Dragged.of(active_object(context), bar.number, grip)
         self._from = self._frame(event)
         context.window_manager.modal_handler_add(self)
         redraw_timelines()
@@ -57,30 +60,80 @@ class RISORIUS_OT_drag_clip(Operator):
 
     def modal(self, context: Context, event: Event) -> set[str]:
         """Follow the pointer until the button is let go."""
+        obj = active_object(context)
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            self._set(context, self._before)
-            active_object(context).risorius.timeline.active = self._was_active
+            self._dragged.undo(obj)
             self._area.header_text_set(None)
             return {"CANCELLED"}
         if event.type == "MOUSEMOVE":
-            fps = scene_fps(context.scene)
-            value = dragged(self._grip, self._before, self._frame(event) - self._from, fps)
-            self._set(context, value)
-            unit = f"frame {value:g}" if self._grip is Grip.START else f"{value:.2f} s"
-            self._area.header_text_set(f"{self._grip.value.capitalize()}: {unit}   Esc: Cancel")
+            said = self._dragged.by(obj, self._frame(event) - self._from, scene_fps(context.scene))
+            self._area.header_text_set(f"{said}   Esc: Cancel")
         if event.type == "LEFTMOUSE" and event.value == "RELEASE":
             self._area.header_text_set(None)
+            try:
+                self._dragged.finish(obj, context.scene)
+            except RisoriusError as refusal:
+                self.report({"WARNING"}, f"The sound keeps its length: {refusal}")
             return {"FINISHED"}
         return {"RUNNING_MODAL"}
-
-    def _set(self, context: Context, value: float) -> None:
-        """Set what is dragged."""
-        clip = active_object(context).risorius.timeline.clips[self._number]
-        setattr(clip, self._grip.value, int(value) if self._grip is Grip.START else value)
 
     def _frame(self, event: Event) -> float:
         """The frame under the pointer."""
         return float(self._region.view2d.region_to_view(event.mouse_region_x, 0)[0])
+
+
+@dataclass(frozen=True)
+class _Dragged:
+    """What is dragged: which field of the clip or of the speech of a number, its value, and what was selected."""
+
+    number: int
+    grip: Grip
+    field: str
+    before: float
+    was_active: int
+    is_speech: bool
+
+    @classmethod
+    def of(cls, obj: Object, number: int, grip: Grip) -> _Dragged:
+        """A bar's, which is selected with it."""
+        timeline, speech = obj.risorius.timeline, obj.risorius.speech
+        if number < len(timeline.clips):
+            was, timeline.active = timeline.active, number
+            return cls(number, grip, grip.value, getattr(timeline.clips[number], grip.value), was, is_speech=False)
+        number -= len(timeline.clips)
+        field = "stretch" if is_stretched(grip) else "start"
+        was, speech.active = speech.active, number
+        return cls(number, grip, field, getattr(speech.strips[number], field), was, is_speech=True)
+
+    def _owner(self, obj: Object) -> object:
+        """The clip or speech."""
+        return obj.risorius.speech.strips[self.number] if self.is_speech else obj.risorius.timeline.clips[self.number]
+
+    def by(self, obj: Object, frames: float, fps: float) -> str:
+        """Drag it by so many frames; how it is now, in words."""
+        if self.field == "stretch":
+            strip = obj.risorius.speech.strips[self.number]
+            strip.stretch = stretched_by(strip, self.before, frames, fps)
+            return f"Stretch: {strip.stretch:.2f}, {length_of(strip):.2f} s"
+        grip = Grip.START if self.is_speech else self.grip
+        value = dragged(grip, self.before, frames, fps)
+        self._set(obj, value)
+        unit = f"frame {value:g}" if grip is Grip.START else f"{value:.2f} s"
+        return f"{grip.value.capitalize()}: {unit}"
+
+    def finish(self, obj: Object, scene: Scene) -> None:
+        """It stays so; the sound of speech becomes as long."""
+        if self.field == "stretch":
+            fit_sound(scene, obj.risorius.speech.strips[self.number])
+
+    def undo(self, obj: Object) -> None:
+        """As it was."""
+        self._set(obj, self.before)
+        (obj.risorius.speech if self.is_speech else obj.risorius.timeline).active = self.was_active
+
+    def _set(self, obj: Object, value: float) -> None:
+        """Set what is dragged."""
+        setattr(self._owner(obj), self.field, int(value) if self.field == "start" else value)
 
 
 def attach(undo: ExitStack) -> None:

@@ -4,7 +4,7 @@ baking                      the way in: one expression or a motion
 target, timing              where a bake goes, and when it happens
 writing                     shape keys and a clip written on all objects of a face, and taken away
 performance, strips         several expressions; a timeline
-motion                      what a motion bake simulates
+motion, speech_motion       what a motion bake simulates; what is said, as such
 compress, compress_long     a motion as few shapes times weights; one of which some frames were posed
 gathered, fewest, local     its frames as they come; the fewest shapes; shapes that move a part each
 shape_keys, action, notes   Risorius' own keys; clips as actions; what a bake notes on them

@@ -113,20 +113,38 @@ class ImageStrip(Protocol):
     elements: StripElements
 
 
-class Sound(Protocol):
+class PackedFile(Protocol):
+    """What a file held, in the .blend."""
+
+    @property
+    def data(self) -> bytes: ...
+
+
+class Sound(Datablock, Protocol):
     """A sound."""
 
+    filepath: str
+
+    @property
+    def packed_file(self) -> PackedFile | None: ...
     def pack(self) -> None: ...
 
 
 class SequencerStrip(Protocol):
     """A strip of the video sequencer, as one of sound."""
 
+    name: str
     channel: int
     sound: Sound
+    mute: bool
+    frame_start: float
 
     @property
+    def type(self) -> str: ...
+    @property
     def frame_final_duration(self) -> int: ...
+    def get(self, name: str) -> object: ...
+    def __setitem__(self, name: str, value: object) -> None: ...
 
 
 class SequenceStrips(Items[SequencerStrip], Protocol):
@@ -184,6 +202,8 @@ class Scene(Datablock, Protocol):
     frame_preview_start: int
     frame_preview_end: int
     use_preview_range: bool
+    sync_mode: str
+    use_audio_scrub: bool
     render: RenderSettings
     display: Display
     view_settings: ViewSettings

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...arrays import Floats, Ints
 from ...progress import Work
-from ..bake.motion import CueMotion
+from ..bake.motion import Motion
 from ..bake.target import Target
 from ..faces import face_of, keep_steps
 from ..fingerprint import fingerprint, uid_of
@@ -104,7 +104,7 @@ class LiveFace:
                 work.close()
         self._motion = self._keeping = None
 
-    def played(self, settings: str, motion: CueMotion, *, first_frame: float, fps: float, drive: str) -> PlayedMotion:
+    def played(self, settings: str, motion: Motion, *, first_frame: float, fps: float, drive: str) -> PlayedMotion:
         """A motion of this face, of which `go_on` works out more and more; another one where its settings differ."""
         if self._played is None or self._played[0] != settings:
             played = PlayedMotion(self._face, motion, first_frame=first_frame, fps=fps, drive=drive)
@@ -144,6 +144,10 @@ class LiveFace:
         while len(self._apexes) > KEPT_APEXES:
             self._apexes.popitem(last=False)
         return found
+
+    def spoken(self, faps: Floats, *, drive: str) -> Floats:
+        """(V, 3) displacement of a sketch of planned FAPs (68,), metres: they show all that is felt, too."""
+        return self.pose(faps, drive=drive, emotion={}).displacement
 
     def paths_to(
         self,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...arrays import Floats
 from ...progress import Progress, Work
-from ..bake.motion import CueMotion
+from ..bake.motion import Motion
 
 if TYPE_CHECKING:
     from ...api import Face
@@ -25,16 +25,16 @@ MOST = 200_000_000
 class PlayedMotion:
     """One motion of one face."""
 
-    def __init__(self, face: Face, motion: CueMotion, *, first_frame: float, fps: float, drive: str) -> None:
+    def __init__(self, face: Face, motion: Motion, *, first_frame: float, fps: float, drive: str) -> None:
         """Nothing is known of it yet; its time begins at a frame of the scene."""
-        self._face, self._motion, self._fps, self._drive = face, motion, fps, drive
+        self._face, self.motion, self._fps, self._drive = face, motion, fps, drive
         self.first_frame = first_frame
         self.frame_count = motion.frame_count(fps)
         self._frames: list[NDArray[np.float32]] = []
 
     def work(self) -> Work[None]:
         """Work it out, bit by bit, as far as it may be held."""
-        moving = self._motion.positions(self._face, self._fps, self._drive)
+        moving = self.motion.positions(self._face, self._fps, self._drive)
         yield from moving.prepare()
         frames = max(1, MOST // (self._face.vertices.size * np.dtype(np.float32).itemsize))
         for number, positions in enumerate(moving):

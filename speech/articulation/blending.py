@@ -17,12 +17,13 @@ FAR = 4.0
 
 @dataclass(frozen=True, eq=False)
 class Aim:
-    """A sound's claim on the mouth: when, by which viseme, and where to (68,)."""
+    """A sound's claim on the mouth: when, by which viseme, where to (68,), and how much of a closure, 0 to 1."""
 
     start: float
     end: float
     viseme: int
     target: Floats
+    closes: float = 1.0
 
 
 def blended(aims: Sequence[Aim], times: Floats, manner: Manner) -> Floats:

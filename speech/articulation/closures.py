@@ -31,11 +31,11 @@ def closed(frames: Floats, aims: Sequence[Aim], times: Floats, manner: Manner) -
 
 
 def closing(aim: Aim, closure: Closure, times: Floats, step: float) -> Floats:
-    """(T,) how far a closure is reached, 0 to 1: held about the sound's middle, for a frame at least."""
+    """(T,) how far a closure is reached, 0 to as far as is asked: held about the middle, for a frame at least."""
     middle = 0.5 * (aim.start + aim.end)
     held = max(0.5 * closure.hold * (aim.end - aim.start), 0.5 * step)
     away = np.clip((np.abs(times - middle) - held) / closure.ramp, 0.0, 1.0)
-    return np.asarray(0.5 + 0.5 * np.cos(np.pi * away))
+    return np.asarray(aim.closes * (0.5 + 0.5 * np.cos(np.pi * away)))
 
 
 def _drawn(frames: Floats, share: Floats, viseme: int, closure: Closure) -> Floats:

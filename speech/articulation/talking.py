@@ -66,9 +66,15 @@ def _aims(utterance: Utterance, how: Manner) -> list[Aim]:
         at = sound.end
         if sound.phoneme.own:
             opening = _stress(sound, how) if marked else 1.0
-            aims.append(Aim(sound.start, sound.end, sound.phoneme.viseme, target(sound.phoneme, jaw=opening)))
+            aims.append(_aim(sound, opening))
     # The mouth comes to rest after the last sound, whether or not the file lasts so long.
     return [*aims, _rest(at, max(utterance.duration, at + how.pause))]
+
+
+def _aim(sound: Sound, opening: float) -> Aim:
+    """What a sound asks, as strongly as it is said; opening is the share of the jaw's, for stress."""
+    shape = sound.strength * target(sound.phoneme, jaw=opening)
+    return Aim(sound.start, sound.end, sound.phoneme.viseme, shape, min(sound.strength, 1.0))
 
 
 def _rest(start: float, end: float) -> Aim:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import wave
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +10,10 @@ from scipy.signal import find_peaks
 
 from ...arrays import Floats
 from ...errors import FormatError
+from ...files import read_bytes
 from ..phonemes import Phoneme
 from ..utterance import Sound, Utterance
+from ..waves import read_wav
 
 #: Seconds of a window of loudness, and over which it is smoothed: shorter than a syllable, longer than a period.
 WINDOW, SMOOTH = 0.01, 0.025
@@ -64,17 +65,8 @@ def _heard(level: Floats, peak: int) -> tuple[int, int]:
 
 def _loudness(path: Path) -> Floats:
     """(T,) root mean square of each window, smoothed."""
-    try:
-        with wave.open(str(path), "rb") as file:
-            rate, width, channels = file.getframerate(), file.getsampwidth(), file.getnchannels()
-            data = file.readframes(file.getnframes())
-    except (OSError, EOFError, wave.Error) as error:
-        raise FormatError(path, f"is no WAV file of whole samples ({error}): convert it to 16-bit WAV") from error
-    if width not in (1, 2, 4):
-        raise FormatError(path, f"has samples of {8 * width} bits: convert it to 16-bit WAV")
-    kind = np.dtype({1: "u1", 2: "<i2", 4: "<i4"}[width])
-    samples = np.frombuffer(data[: len(data) // (width * channels) * width * channels], kind).astype(np.float64)
-    samples = samples.reshape(-1, channels).mean(axis=1) - (128.0 if width == 1 else 0.0)
+    channels, rate = read_wav(read_bytes(path), path)
+    samples = channels.mean(axis=1)
     size = max(round(WINDOW * rate), 1)
     windows = samples[: len(samples) // size * size].reshape(-1, size)
     if not len(windows):

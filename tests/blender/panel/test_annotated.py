@@ -15,6 +15,8 @@ from risorius.operators.classes import CLASSES
 
 pytestmark = pytest.mark.smoke
 
+#: What a pointer may hold nothing of.
+MAY_LACK = (bpy.types.Object.bl_rna, bpy.types.Sound.bl_rna)
 HELD = {"STRING": "str", "ENUM": "str", "INT": "int", "FLOAT": "float", "BOOLEAN": "bool"}
 
 
@@ -23,7 +25,7 @@ def held_by(prop: bpy.types.Property) -> str:
     if prop.type == "COLLECTION":
         return f"Entries[{prop.fixed_type.identifier}]"
     if prop.type == "POINTER":
-        return prop.fixed_type.identifier + (" | None" if prop.fixed_type == bpy.types.Object.bl_rna else "")
+        return prop.fixed_type.identifier + (" | None" if prop.fixed_type in MAY_LACK else "")
     return HELD[prop.type]
 
 
