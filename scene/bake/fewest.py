@@ -16,13 +16,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Floats, Ints, Singles
-from ...progress import Progress, Work
-from .gathered import BLOCK, TEXT, Gathered, squares
+from ...progress import Progress, Work, run
+from .gathered import NEAR, TEXT, Gathered, squares
 
 #: Rounds for one number of shapes, how sharply the error of a vertex counts in the next, and the least that it counts.
 ROUNDS, SHARPNESS, LEAST = 14, 0.7, 0.02
-#: Vertices and frames that stand for all at first, and how many of the worst join them where others turn out worse.
-VERTICES, FRAMES, JOINING = 3000, 120, 500
+#: Vertices and frames that stand for all at first, how many of the worst join them where others turn out worse, and how
+#: nearly as far off as these they are.
+VERTICES, FRAMES, JOINING, NEARLY = 3000, 120, 500, 0.9
 #: How often vertices may join for one number of shapes.
 JOINED = 4
 #: After so many rounds, an error so many times the tolerance will not come down to it; nor will one that has not fallen
@@ -59,7 +60,6 @@ class Search:
 
         self.fields, self.loadings = motion.fields, motion.loadings
         self._orthonormal, self._scale = np.linalg.qr(self.loadings)
-        self._scale32 = self._scale.astype(np.float32)
         _, order = qr(self.loadings.T, mode="r", pivoting=True)
         evenly = np.linspace(0, len(self.loadings) - 1, FRAMES).astype(np.int64)
         self._frames = np.union1d(order[:FRAMES], evenly)
@@ -68,11 +68,9 @@ class Search:
 
     def _sampled(self, vertices: Ints) -> None:
         """Let some vertices stand for all; each counts alike."""
-        self._vertices = vertices
+        self._vertices, self._counts = vertices, np.ones(len(vertices))
         columns = (3 * vertices[:, None] + np.arange(3)).ravel()
-        self._some = np.ascontiguousarray(self.fields[:, columns], dtype=np.float64)
-        self._some32 = self._some.astype(np.float32)  # what is best in the mean needs no more
-        self._count = np.ones(len(vertices))
+        self._some = np.ascontiguousarray(self.fields[:, columns])
 
     def fewest(self, tolerance: float, *, most: int | None = None) -> Work[tuple[Few, Floats]]:
         """The fewest that stay within a tolerance, metres, and how far (V,) each vertex is off at most.
@@ -108,8 +106,9 @@ class Search:
             if found is None or off.max(initial=0.0) < found[1].max():
                 found = few, off
             worst = np.argsort(off)[::-1][:JOINING]
-            joined = np.union1d(self._vertices, worst[off[worst] > max(tolerance, sampled)])
-            if sampled > hopeless or len(joined) == len(self._vertices):
+            joined = np.union1d(self._vertices, worst[off[worst] > NEARLY * max(tolerance, sampled)])
+            ended = off.max(initial=0.0) <= tolerance or (sampled > tolerance and hopeless < np.inf)
+            if ended or len(joined) == len(self._vertices):
                 break
             self._sampled(joined)
         assert found is not None
@@ -122,11 +121,11 @@ class Search:
 
     def _best(self, count: int, tolerance: float, *, hopeless: float) -> tuple[Few, float]:
         """So many shapes, and how far the sampled vertices are off at most in the sampled frames."""
-        found, least, fell, counts = None, np.inf, 0, np.ones(len(self._vertices))
+        found, least, fell, counts = None, np.inf, 0, self._counts
         for number in range(ROUNDS):
             few = self._weighted(count, counts)
             left = self.loadings[self._frames] - few.weights[self._frames] @ few.parts
-            off = np.sqrt(squares(left @ self._some).max(axis=0))
+            off = run(farthest(left.astype(np.float32), self._some))
             largest = float(off.max(initial=0.0))
             if found is None or largest < least:
                 found, least, fell = few, largest, number
@@ -136,13 +135,14 @@ class Search:
                 break
             counts = counts * np.maximum(off / largest, LEAST) ** SHARPNESS
             counts /= counts.max()
+            self._counts = counts
         assert found is not None
         return found, least
 
     def _weighted(self, count: int, counts: Floats) -> Few:
         """So many shapes that are best in the mean, each sampled vertex counting so much."""
-        scaled = self._scale32 @ (self._some32 * np.repeat(counts, 3).astype(np.float32))
-        _, vectors = np.linalg.eigh((scaled @ scaled.T).astype(np.float64))
+        alike = (self._some * np.repeat(counts**2, 3).astype(np.float32)) @ self._some.T
+        _, vectors = np.linalg.eigh(self._scale @ alike @ self._scale.T)
         chosen = np.ascontiguousarray(vectors[:, ::-1][:, :count])
         return Few(self._orthonormal @ chosen, chosen.T @ self._scale)
 
@@ -150,7 +150,7 @@ class Search:
 def farthest(left: Singles, fields: Singles) -> Work[Floats]:
     """(V,) the longest that any row of loadings (T, r) makes each vertex of some fields (r, 3 V)."""
     longest = np.empty(fields.shape[1] // 3)
-    size = max(BLOCK // (3 * max(len(left), 1)), 1)
+    size = max(NEAR // (3 * max(len(left), 1)), 1)
     for first in range(0, len(longest), size):
         yield Progress(0.5, TEXT)
         apart = left @ fields[:, 3 * first : 3 * (first + size)]

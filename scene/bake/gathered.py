@@ -6,17 +6,21 @@ and over. Frames are taken in some at a time: what the fields so far cannot show
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ...arrays import AnyFloats, Floats, Singles
 from ...progress import Progress, Work
 
-#: Figures that are worked through in one step, and how many frames are taken in at once at least and at most.
-BLOCK, FEWEST, MOST = 4_000_000, 4, 64
+#: Figures that are taken in at once, and how many frames these are at least and at most; figures that the processor
+#: holds near.
+BLOCK, FEWEST, MOST, NEAR = 4_000_000, 4, 64, 250_000
 #: What is said meanwhile.
 TEXT = "Compressing the motion to shape keys"
-#: Of what is new in some frames, a field whose part is smaller than this share of the largest is what rounding left.
-ROUNDING = 1e-6
+#: Of what is new in some frames, fields whose squares are smaller than this share of the largest's may be rounding.
+#: They are found once the others are taken away, which is done at most so often.
+ROUNDING, STAGES = 1e-6, 8
 
 
 class Gathered:
@@ -66,36 +70,63 @@ class Gathered:
         """Show the waiting frames by the fields so far, and by new ones as far as it takes."""
         if not self._waiting:
             return
-        frames = np.array(self._waiting)
-        shown = [frames @ fields.T for fields in self._fields]
-        for share, fields in zip(shown, self._fields, strict=True):
-            frames -= share @ fields
-        # In double precision: a field ten thousand times smaller than the largest is at right angles to it, too.
-        left = frames.astype(np.float64)
-        values, vectors = np.linalg.eigh(left @ left.T)
-        sizes = np.sqrt(np.maximum(values[::-1], 0.0))
-        kept = sizes > ROUNDING * max(float(sizes[0]), np.finfo(float).tiny)
-        new = np.ascontiguousarray(vectors[:, ::-1][:, kept].T) @ left
-        new /= np.linalg.norm(new, axis=1, keepdims=True)
-        parts = left @ new.T
-        few, many = 0, len(new)
-        while few < many:
-            count = (few + many) // 2
-            if _longest(left - parts[:, :count] @ new[:count]) > self.within:
-                few = count + 1
-            else:
-                many = count
-        self._fields.append(new[:few].astype(np.float32))
-        self._taken += list(np.concatenate([*shown, parts[:, :few]], axis=1).astype(np.float64))
+        frames, shown = np.array(self._waiting), list[Singles]()
+        for fields in self._fields:
+            shown.append(frames @ fields.T)
+            _take_away(frames, shown[-1], fields)
+        new = list[Singles]()
+        for _ in range(STAGES):
+            fields, share = _principal(frames, self.within)
+            if not len(fields):
+                break
+            new.append(fields)
+            shown.append(share)
+            _take_away(frames, share, fields)
+        self._fields += [np.concatenate(new)] if new else []
+        self._taken += list(np.concatenate(shown, axis=1).astype(np.float64))
         self._waiting = []
+
+
+def _principal(frames: Singles, within: float) -> tuple[Singles, Singles]:
+    """Orthonormal fields (k, 3 V) that show frames (n, 3 V) within so many metres, or as far as rounding lets them.
+
+    And how much of each there is in every frame (n, k).
+    """
+    values, vectors = np.linalg.eigh((frames @ frames.T).astype(np.float64))
+    many = int((values > max(ROUNDING * values[-1], np.finfo(float).tiny)).sum())
+    fields = np.ascontiguousarray(vectors[:, ::-1][:, :many].T).astype(np.float32) @ frames
+    fields /= np.linalg.norm(fields, axis=1, keepdims=True)
+    share, few = frames @ fields.T, 0
+    while few < many:
+        count = (few + many) // 2
+        if _shows(within, frames, share[:, :count], fields[:count]):
+            many = count
+        else:
+            few = count + 1
+    return fields[:few], share[:, :few]
+
+
+def _shows(within: float, frames: Singles, share: Singles, fields: Singles) -> bool:
+    """Whether shares (n, k) of fields (k, 3 V) show frames (n, 3 V) within so many metres."""
+    for some in _blocks(frames):
+        if squares(frames[:, some] - share @ fields[:, some]).max(initial=0.0) > within**2:
+            return False
+    return True
+
+
+def _take_away(frames: Singles, share: Singles, fields: Singles) -> None:
+    """Leave of frames (n, 3 V), in place, what shares (n, k) of fields (k, 3 V) do not show."""
+    for some in _blocks(frames):
+        frames[:, some] -= share @ fields[:, some]
+
+
+def _blocks(frames: Singles) -> Iterator[slice[int, int, None]]:
+    """Columns of all vertices of frames (n, 3 V), some at a time."""
+    size = 3 * max(NEAR // (3 * len(frames)), 1)
+    return (slice(first, first + size) for first in range(0, frames.shape[1], size))
 
 
 def squares(vectors: AnyFloats) -> AnyFloats:
     """(n, V) squared lengths of the vectors in (n, 3 V)."""
-    apart = vectors.reshape(len(vectors), -1, 3)
-    return np.asarray(np.einsum("nvk,nvk->nv", apart, apart))
-
-
-def _longest(vectors: Floats) -> float:
-    """Length of the longest of the vectors in (n, 3 V)."""
-    return float(np.sqrt(squares(vectors).max(initial=0.0)))
+    apart = (vectors * vectors).reshape(len(vectors), -1, 3)
+    return np.asarray(apart[:, :, 0] + apart[:, :, 1] + apart[:, :, 2])

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...arrays import Bools, Floats, Singles
 from ...progress import Progress, Work
-from .gathered import BLOCK, TEXT
+from .gathered import NEAR, TEXT, squares
 
 #: Vertices that tell how shapes are turned, rounds of turning, and how little a round may still turn.
 VERTICES, ROUNDS, STILL = 3000, 100, 1e-4
@@ -22,11 +22,11 @@ def turning(parts: Floats, fields: Singles) -> Floats:
     count = fields.shape[1] // 3
     vertices = np.unique(np.linspace(0, count - 1, VERTICES).astype(np.int64))
     columns = (3 * vertices[:, None] + np.arange(3)).ravel()
-    flat = parts @ fields[:, columns].astype(np.float64)
+    flat = parts.astype(np.float32) @ fields[:, columns]
     rotation = np.eye(len(parts))
     for _ in range(ROUNDS if len(parts) else 0):
-        turned = (rotation @ flat).reshape(len(parts), -1, 3)
-        lengths = (turned**2).sum(axis=2, keepdims=True)
+        turned = (rotation.astype(np.float32) @ flat).reshape(len(parts), -1, 3)
+        lengths = squares(turned)[:, :, None]
         pull = (lengths - lengths.mean(axis=1, keepdims=True)) * turned
         left, _, right = np.linalg.svd(pull.reshape(len(parts), -1) @ flat.T)
         before, rotation = rotation, left @ right
@@ -45,12 +45,12 @@ def with_zeros(parts: Floats, fields: Singles, room: Floats) -> Work[tuple[Singl
     """
     shapes: Singles = np.empty((len(parts), len(room), 3), dtype=np.float32)
     moved = np.empty(len(room))
-    size = max(BLOCK // (3 * max(len(parts), 1)), 1)
+    parts32, size = parts.astype(np.float32), max(NEAR // (3 * max(len(parts), 1)), 1)
     for first in range(0, len(room), size):
         yield Progress(0.9, TEXT)
         some = slice(first, first + size)
-        block = (parts @ fields[:, 3 * first : 3 * (first + size)]).reshape(len(parts), -1, 3)
-        lengths = np.sqrt((block**2).sum(axis=2))
+        block = (parts32 @ fields[:, 3 * first : 3 * (first + size)]).reshape(len(parts), -1, 3)
+        lengths = np.sqrt(squares(block))
         small = _small(lengths, room[some])
         shapes[:, some] = np.where(small[:, :, None], 0.0, block)
         moved[some] = np.where(small, lengths, 0.0).sum(axis=0)
