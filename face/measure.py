@@ -30,7 +30,9 @@ def measure(anatomy: Anatomy, positions: Floats) -> Floats:
     """
     faps = np.full(FAP_COUNT, np.nan)
     rest = anatomy.mesh.positions
-    head = anatomy.mesh.head_frame.to_head(_checked(anatomy, positions))
+    head, positions = rest.copy(), _checked(anatomy, positions)
+    for read in (anatomy.measured, anatomy.head_turn.skull):
+        head[read] = anatomy.mesh.head_frame.to_head(positions[read])
     head, turn = anatomy.head_turn.undo(head, rest, anatomy.measured)
     for number, value in turn.items():
         faps[number - 1] = value

@@ -74,7 +74,8 @@ class ReducedSkin:
 
     def read(self, balances: Floats) -> Floats:
         """(..., 2k) what the skin feels of balances (..., n, 3), displacements in m: `F'M b` before `F'C b`."""
-        return np.asarray(balances.reshape(*balances.shape[:-2], -1) @ self._felt.T)
+        flat = balances.reshape(-1, self._felt.shape[1])  # one product of matrices, whatever the balances' shape
+        return np.asarray(flat @ self._felt.T).reshape(*balances.shape[:-2], -1)
 
     def at_rest(self) -> Floats:
         """(3k,) the state of a skin that rests in its balance, which has not moved."""

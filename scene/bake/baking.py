@@ -20,6 +20,7 @@ from . import action as actions
 from . import shape_keys
 from .compress import TOLERANCE, Shapes, gathering, squeeze
 from .compress_long import compress_long
+from .gathered import Gathered
 from .motion import Motion
 from .notes import Note
 from .remarks import remarks, unmet_remarks
@@ -31,9 +32,8 @@ if TYPE_CHECKING:
     from ...api import EmotionShares, Face, Retargeted
     from ...face.long_motion import LongMotion
 
-#: Frames are measured for what does not show, until all does: of a motion one in so many seconds, in which nothing
-#: comes and goes; of a long one so many that differ most.
-MEASURED_EVERY, MEASURED = 0.08, 60
+#: So many frames that differ most are measured for what does not show, or until all does.
+MEASURED = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,16 +173,26 @@ def _simulated(
     """A motion simulated frame by frame, as shapes within a tolerance in metres; FAP number -> why it does not show."""
     count = motion.frame_count(fps)
     gathered = gathering(len(face.vertices), tolerance=tolerance, max_keys=max_keys)
-    frames, shown, every = motion.positions(face, fps, drive), list[Floats](), max(1, round(MEASURED_EVERY * fps))
-    missed: Mapping[int, str] = face.unmet_measured(motion.asked, face.measure(face.vertices)[None])
+    frames = motion.positions(face, fps, drive)
     yield from part_of(frames.prepare(), 0.0, 0.2)
     for index, positions in enumerate(frames):
         gathered.add(positions - face.vertices)
-        if missed and index % every == 0:
-            shown.append(face.measure(positions))
-            missed = face.unmet_measured(motion.asked, np.array(shown))
         yield Progress(0.2 + 0.6 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
-    return (yield from part_of(squeeze(gathered, tolerance=tolerance, max_keys=max_keys), 0.8, 1.0)), missed
+    missed = yield from part_of(_missed(face, motion.asked, gathered), 0.8, 0.82)
+    return (yield from part_of(squeeze(gathered, tolerance=tolerance, max_keys=max_keys), 0.82, 1.0)), missed
+
+
+def _missed(face: Face, asked: Floats, gathered: Gathered) -> Work[Mapping[int, str]]:
+    """FAP number -> why it does not show, of FAPs asked (k, 68) of a motion that was gathered."""
+    shown = [face.measure(face.vertices)]
+    missed = face.unmet_measured(asked, np.array(shown))
+    for number, step in enumerate(gathered.telling(MEASURED)):
+        if not missed:
+            break
+        yield Progress(number / MEASURED, "Measuring the motion")
+        shown.append(face.measure(face.vertices + gathered.frame(int(step))))
+        missed = face.unmet_measured(asked, np.array(shown))
+    return missed
 
 
 def _between(

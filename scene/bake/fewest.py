@@ -56,13 +56,10 @@ class Search:
 
     def __init__(self, motion: Gathered) -> None:
         """Choose frames that differ and vertices spread evenly."""
-        from scipy.linalg import qr
-
         self.fields, self.loadings = motion.fields, motion.loadings
         self._orthonormal, self._scale = np.linalg.qr(self.loadings)
-        _, order = qr(self.loadings.T, mode="r", pivoting=True)
         evenly = np.linspace(0, len(self.loadings) - 1, FRAMES).astype(np.int64)
-        self._frames = np.union1d(order[:FRAMES], evenly)
+        self._frames = np.union1d(motion.telling(FRAMES), evenly)
         count = self.fields.shape[1] // 3
         self._sampled(np.unique(np.linspace(0, count - 1, VERTICES).astype(np.int64)))
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...arrays import AnyFloats, Floats, Singles
+from ...arrays import AnyFloats, Floats, Ints, Singles
 from ...progress import Progress, Work
 
 #: Figures that are taken in at once, and how many frames these are at least and at most; figures that the processor
@@ -65,6 +65,18 @@ class Gathered:
         for row, taken in zip(padded, self._taken, strict=True):
             row[: len(taken)] = taken
         return padded
+
+    def telling(self, count: int) -> Ints:
+        """At most so many frames, those first that the others before them tell least about."""
+        from scipy.linalg import qr
+
+        _, order = qr(self.loadings.T, mode="r", pivoting=True)
+        return np.asarray(order[:count], dtype=np.int64)
+
+    def frame(self, step: int) -> Floats:
+        """(V, 3) of one frame, metres."""
+        shown = self.loadings[step].astype(np.float32) @ self.fields
+        return np.asarray(shown, dtype=np.float64).reshape(-1, 3)
 
     def _take_in(self) -> None:
         """Show the waiting frames by the fields so far, and by new ones as far as it takes."""
