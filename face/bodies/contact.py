@@ -124,7 +124,7 @@ class Contact:
             for (meeting, share), closing in zip(self._meetings(shares[going]), closings, strict=True):
                 met = meeting.settle(met, share, closing=None if closing is None else closing.some(going))
             cleared = met.copy()
-            self._lift(cleared, at.some(going))
+            self._lift(cleared, at if len(going) == len(positions) else at.some(going))
             positions[going] = cleared
             moved = np.abs(cleared[:, self._kept_out] - met[:, self._kept_out]).max(axis=(1, 2), initial=0.0)
             going = going[moved >= UNDISTURBED]

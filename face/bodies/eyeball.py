@@ -82,7 +82,9 @@ class Eyeball:
 
     def displacement(self, faps: Floats) -> Floats:
         """(k, 3) displacement in head space for FAPs (68,) in FAP units."""
-        yaw, pitch, thrust, dilate = (value_of(faps, number) for number in self.fap_numbers)
+        yaw, pitch, thrust, dilate = asked = tuple(value_of(faps, number) for number in self.fap_numbers)
+        if not any(asked):
+            return np.zeros_like(self.positions)
         away = self._dilated(dilate * self.units[1] / 2.0)
         turn = Rotation.from_euler("yx", [yaw * ANGLE_UNIT, pitch * ANGLE_UNIT])
         moved: Floats = turn.apply(away) + self.centre - self.positions
@@ -92,6 +94,8 @@ class Eyeball:
     def look(self, faps: Floats) -> Look:
         """Where the eyeball is and looks for FAPs (68,) in FAP units."""
         yaw, pitch, thrust = (value_of(faps, number) for number in self.fap_numbers[:3])
+        if not (yaw or pitch or thrust):
+            return Look(self.centre, self.gaze)
         turn = Rotation.from_euler("yx", [yaw * ANGLE_UNIT, pitch * ANGLE_UNIT])
         return Look(self.centre + np.array([0.0, 0.0, thrust * self.units[0]]), turn.apply(self.gaze))
 

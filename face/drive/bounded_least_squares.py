@@ -15,7 +15,9 @@ ROUNDS = 2000
 TOLERANCE = 1e-10
 
 
-def bounded_least_squares(matrix: Floats, right: Floats, lower: Floats, upper: Floats) -> Floats:
+def bounded_least_squares(
+    matrix: Floats, right: Floats, lower: Floats, upper: Floats, near: Floats | None = None
+) -> Floats:
     """The x (k,) between `lower` and `upper` (k,) with the least |matrix @ x - right|^2.
 
     Block principal pivoting (Judice and Pires 1994): entries are free or held at a bound; all that are wrong (free
@@ -25,6 +27,7 @@ def bounded_least_squares(matrix: Floats, right: Floats, lower: Floats, upper: F
     Parameters
     ----------
     matrix : (m, k) with independent columns. right : (m,).
+    near : (k,) the solution of a like problem, at whose bounds this one is first taken to be.
 
     Raises
     ------
@@ -33,7 +36,7 @@ def bounded_least_squares(matrix: Floats, right: Floats, lower: Floats, upper: F
     normal, wanted = matrix.T @ matrix, matrix.T @ right
     slope = TOLERANCE * np.sqrt(np.diagonal(normal)) * max(float(np.linalg.norm(right)), 1e-300)
     width = TOLERANCE * (upper - lower)
-    held = np.full(len(lower), -1)
+    held = np.full(len(lower), -1) if near is None else np.where(near <= lower, -1, np.where(near >= upper, 1, 0))
     solution: Floats = lower.astype(np.float64)
     least, patience = len(lower) + 1, PATIENCE
     for _ in range(ROUNDS):

@@ -6,7 +6,7 @@ millimetres: what neighbouring points share is left to muscles, what one point a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ from scipy import linalg
 from ...arrays import Floats
 from ...physics.mesh import Sparse
 from ..figures import Length, Share, read_figures
+from ..mechanisms.jaw import Jaw, JawMotion
 from ..mesh.fap_rows import FapRows
 from ..response.actuators import OPENING, SLIDES, Actuators, Amounts
 from ..response.sheet import ElasticSheet
@@ -123,18 +124,19 @@ class Inverse:
         lower[SLIDES] = -upper[SLIDES]
         responses = self._still.copy()
         responses[targets.carried, OPENING:] = 0.0
-        solution: Floats = lower
+        solution: Floats | None = None
         for _ in range(2):
             whitened = linalg.solve_triangular(
                 factor, np.column_stack([responses[known], wanted]), lower=True, check_finite=False
             )
             matrix = np.concatenate([whitened[:, :-1], self._together / usual])
             right = np.concatenate([whitened[:, -1], self._together @ (expected / usual)])
-            solution = bounded_least_squares(matrix, right, lower, upper)
+            solution = bounded_least_squares(matrix, right, lower, upper, near=solution)
             if solution[OPENING] < SECOND_PASS:
                 break
             responses[:, OPENING] = self._opening_response(float(solution[OPENING]))
             responses[targets.carried, OPENING] = 0.0
+        assert solution is not None
         return actuators.amounts(solution)
 
     @cached_property
@@ -159,9 +161,18 @@ class Inverse:
 
     def _opening_response(self, opening: float) -> Floats:
         """(m,) exact response of the rows to an opening of the jaw (metres at the chin), per metre."""
-        amounts = np.zeros(self.actuators.count)
-        amounts[OPENING] = opening
-        return np.asarray(self.matrix @ self.actuators.carried(self.actuators.amounts(amounts)).ravel()) / opening
+        jaw, read, positions = self._jaw_where_read
+        moved = jaw.skin(positions, JawMotion(opening / self.actuators.chin_lever))
+        return np.asarray(read @ moved.ravel()) / opening
+
+    @cached_property
+    def _jaw_where_read(self) -> tuple[Jaw, Sparse, Floats]:
+        """The jaw of the few vertices that rows are read off, `matrix` of these alone, and where they are (r, 3)."""
+        index = np.unique(self.matrix.indices // 3)
+        columns = (3 * index[:, None] + np.arange(3)).ravel()
+        whole = self.actuators.jaw
+        jaw = replace(whole, weights=whole.weights[index], bulge=whole.bulge[index])
+        return jaw, self.matrix[:, columns].tocsr(), self.actuators.skin.positions[index]
 
     def correction(self, residual: Floats, doubts: Floats) -> Floats:
         """(T, n, 3) elastic displacements that take the rows the rest of the way (T, m), in metres; NaN rows are free.

@@ -50,7 +50,9 @@ class HeadFrame:
 
     def to_face(self, positions: Floats) -> Floats:
         """Positions (..., 3) of head space as positions of the face."""
-        return positions @ self.axes * self.scale + self.origin
+        placed: Floats = positions @ (self.axes * self.scale)
+        placed += self.origin
+        return placed
 
 
 def rotation_between(source: Floats, target: Floats) -> Floats:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy import sparse
@@ -45,7 +46,7 @@ class Weld:
     leads: Ints
     polygons: PolygonTable
 
-    @property
+    @cached_property
     def copies(self) -> Ints:
         """(C,) vertices that another one stands for."""
         return np.flatnonzero(self.leads != np.arange(len(self.leads)))

@@ -133,7 +133,8 @@ class Actuators:
 
     def low_strain_each(self, muscles: Floats) -> Floats:
         """(T, n, 3) as `low_strain`, of muscles (T, k)."""
-        return np.asarray(np.tensordot(muscles, self.fields, axes=1), dtype=np.float64)
+        pulling = muscles.any(axis=0)  # most muscles rest in most faces
+        return np.asarray(np.tensordot(muscles[:, pulling], self.fields[pulling], axes=1), dtype=np.float64)
 
     def contractions(self, amounts: Amounts) -> dict[str, float]:
         """Actuator name -> contraction in [0, 1]; the jaw as "jaw_open"."""
@@ -142,4 +143,4 @@ class Actuators:
             named[f"{LID_MOVERS[move].name}_{side}"] = amount / LID_MOVERS[move].amplitude
         if self.skin.has(Mechanism.JAW):
             named["jaw_open"] = amounts.jaw.angle * self.chin_lever / self.upper[OPENING]
-        return {name: float(np.clip(value, 0.0, 1.0)) for name, value in named.items()}
+        return {name: min(max(float(value), 0.0), 1.0) for name, value in named.items()}

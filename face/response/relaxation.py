@@ -67,19 +67,14 @@ class Relaxation:
     def _membrane(self) -> float:
         return tissue().membrane
 
-    def balance(self, amounts: Amounts, *, known: Recollection | None = None) -> Floats:
+    def balance(self, amounts: Amounts) -> Floats:
         """(n, 3) positions of the sheet in balance with the muscles' forces, before sliding and bulging.
-
-        With a recollection, it begins at the balance found last and stops a little short of the new one.
 
         Raises
         ------
         SolverError : contractions beyond what the skin can bear.
         """
-        if known is None:
-            return self._balance(amounts, 0.0, TOLERANCE)[0]
-        balanced, known.latest = self._balance(amounts, known.latest, SKETCHED)
-        return balanced
+        return self._balance(amounts, 0.0, TOLERANCE)[0]
 
     def added(self, amounts: Amounts, foretold: Floats | None = None) -> Floats:
         """(n, 3) metres, what the springs add to the sheet's displacement at low strain, before sliding and bulging.
@@ -98,7 +93,8 @@ class Relaxation:
 
     def _balance(self, amounts: Amounts, added: Floats | float, tolerance: float) -> tuple[Floats, Floats]:
         """Positions of the sheet in balance, and what springs add there, where they add about so much; (n, 3) each."""
-        low_strain = np.tensordot(amounts.muscles, self.actuators.sheets, axes=1)
+        pulling = amounts.muscles != 0.0
+        low_strain = np.tensordot(amounts.muscles[pulling], self.actuators.sheets[pulling], axes=1)
         force = self._membrane * np.asarray(self.sheet.stiffness @ low_strain)
         start = self.skin.positions + low_strain
         balanced = self._solver.solve(force, start=start + added, tolerance=tolerance).positions
@@ -107,7 +103,8 @@ class Relaxation:
     def pulled(self, amounts: Amounts, *, known: Recollection | None = None) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, metres: what `Actuators.low_strain` is at low strain.
 
-        With a recollection, what others foretell is taken where that is near enough, and what is found is added to it.
+        With a recollection, what others foretell is taken where that is near enough; else the search begins there, ends
+        a little short of balance, and what is found is added to it.
 
         Raises
         ------
@@ -118,16 +115,17 @@ class Relaxation:
         if not self.skin.has(Mechanism.BIPHASIC):
             return self.actuators.low_strain(amounts)
         if known is None:
-            return self._shown(amounts)
+            return self._shown(self.balance(amounts))
         linear = self.actuators.low_strain(amounts)
         foretold, doubt = known.foretold(amounts.muscles)
         if doubt <= FORETOLD:
             return linear + foretold
-        found = self._shown(amounts, known)
-        known.learn(amounts.muscles, found - linear)
+        balanced, on_sheet = self._balance(amounts, known.on_sheet(amounts.muscles), SKETCHED)
+        found = self._shown(balanced)
+        known.learn(amounts.muscles, found - linear, on_sheet)
         return found
 
-    def _shown(self, amounts: Amounts, known: Recollection | None = None) -> Floats:
-        """(n, 3) what the face shows of a balance."""
-        shown: Floats = self.sheet.show((self.balance(amounts, known=known) - self.skin.positions)[None])[0]
+    def _shown(self, balanced: Floats) -> Floats:
+        """(n, 3) what the face shows where its sheet is in balance at positions (n, 3)."""
+        shown: Floats = self.sheet.show((balanced - self.skin.positions)[None])[0]
         return shown

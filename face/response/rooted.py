@@ -74,8 +74,10 @@ class RootedParts:
         moment = np.ascontiguousarray(away.transpose(0, 2, 1)) @ lean
         tie = np.maximum(LINE_TIE * np.trace(moment, axis1=1, axis2=2), mesh.SHORTEST**2)
         self._moment = moment + tie[:, None, None] * np.eye(3)
-        self._mean = _reader(carried, shares, len(positions))
-        self._slopes = [_reader(carried, lean[:, :, axis], len(positions)) for axis in range(3)]
+        readers = [_reader(carried, part, len(positions)) for part in (shares, *np.moveaxis(lean, 2, 0))]
+        read = sparse.vstack(readers).tocsc()
+        self._read: Ints = np.flatnonzero(np.diff(read.indptr))
+        self._reader: Sparse = read[:, self._read].tocsr()
         if len(self._rest):
             own = edges[~touching]
             self._factor = Factor(diagonal_matrix(np.asarray(own.sum(axis=1)).ravel()) - own[:, ~touching])
@@ -89,8 +91,9 @@ class RootedParts:
 
     def _follow(self, displacement: Floats) -> None:
         """Fill in the rows of rooted vertices of a displacement field (V, 3), in place."""
-        change = self._turns(displacement) - np.eye(3)
-        shift = np.asarray(self._mean @ displacement) + (change @ self._above[:, :, None])[:, :, 0]
+        mean, *slopes = np.asarray(self._reader @ displacement[self._read]).reshape(4, -1, 3)
+        change = self._turns(np.stack(slopes, axis=2)) - np.eye(3)
+        shift = mean + (change @ self._above[:, :, None])[:, :, 0]
         displacement[self._roots] = shift
         if len(self._rest) == 0:
             return
@@ -99,9 +102,8 @@ class RootedParts:
         turned = (motion[:, :9].reshape(-1, 3, 3) @ self._off[:, :, None])[:, :, 0]
         displacement[self._rest] = turned + motion[:, 9:]
 
-    def _turns(self, displacement: Floats) -> Floats:
-        """(r, 3, 3) rotation of the carriers about each root, by their motion against their mean."""
-        sheared = np.stack([np.asarray(slopes @ displacement) for slopes in self._slopes], axis=2)
+    def _turns(self, sheared: Floats) -> Floats:
+        """(r, 3, 3) rotation of the carriers about each root, by their motion against their mean (r, 3, 3)."""
         moving = np.flatnonzero((sheared != 0.0).any(axis=(1, 2)))
         turns = np.tile(np.eye(3), (len(sheared), 1, 1))
         turns[moving] = nearest_rotations(self._moment[moving] + sheared[moving])

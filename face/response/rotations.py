@@ -6,8 +6,16 @@ import numpy as np
 
 from ...arrays import Floats
 
-#: Newton's iteration ends where no entry changes more than this; it converges quadratically.
-_SETTLED, _ROUNDS = 1e-9, 20
+#: Newton's iteration ends where no entry changes more than this: it converges quadratically, so what is left is its
+#: square. Matrices whose determinant is no more than the second are not left to it.
+_SETTLED, _SINGULAR, _ROUNDS = 3e-5, 1e-9, 20
+
+#: Entries of a matrix (row by row) whose products make each of its cofactors: first times second less third times last.
+_MINORS = (
+    (4, 8, 5, 7), (5, 6, 3, 8), (3, 7, 4, 6),
+    (2, 7, 1, 8), (0, 8, 2, 6), (1, 6, 0, 7),
+    (1, 5, 2, 4), (2, 3, 0, 5), (0, 4, 1, 3),
+)  # fmt: skip
 
 
 def nearest_rotations(moments: Floats) -> Floats:
@@ -16,40 +24,44 @@ def nearest_rotations(moments: Floats) -> Floats:
     The orthogonal part of a matrix that does not mirror, by Newton's iteration (Higham 1986, Computing the polar
     decomposition, SIAM J. Sci. Stat. Comput. 7); of one that mirrors, or is nearly singular, by singular values.
     """
-    turned = np.ascontiguousarray(moments.transpose(1, 2, 0))
-    size = np.sqrt((turned**2).sum(axis=(0, 1)))
-    turned = turned / np.where(size > 0.0, size, 1.0)
-    plain = _determinant(turned, _cofactors(turned)) > _SETTLED
-    way = turned[:, :, plain]
+    way = np.ascontiguousarray(moments.reshape(-1, 9).T)
+    way /= np.maximum(np.sqrt(_squares(way)), np.finfo(np.float64).tiny)
+    plain = _determinants(way, _cofactors(way)) > _SINGULAR
+    way = way if plain.all() else way[:, plain]
     for _ in range(_ROUNDS if plain.any() else 0):
-        cofactors = _cofactors(way)
-        inverse = cofactors / _determinant(way, cofactors)
-        scale = np.sqrt(np.sqrt((inverse**2).sum(axis=(0, 1)) / (way**2).sum(axis=(0, 1))))
-        after = 0.5 * (scale * way + inverse / scale)
+        inverse = _cofactors(way)
+        inverse /= _determinants(way, inverse)
+        scale = np.sqrt(np.sqrt(_squares(inverse) / _squares(way)))
+        after = way * (0.5 * scale)
+        inverse *= 0.5 / scale
+        after += inverse
         change, way = float(np.abs(after - way).max()), after
         if change < _SETTLED:
             break
     rotations = np.empty_like(moments)
-    rotations[plain] = way.transpose(2, 0, 1)
-    rotations[~plain] = _by_singular_values(moments[~plain])
+    rotations[plain] = way.T.reshape(-1, 3, 3)
+    if not plain.all():
+        rotations[~plain] = _by_singular_values(moments[~plain])
     return rotations
 
 
 def _cofactors(matrices: Floats) -> Floats:
-    """(3, 3, r) cofactors of matrices (3, 3, r): the transposed inverse times the determinant."""
-    first, second, third = matrices
-    return np.stack([_across(second, third), _across(third, first), _across(first, second)])
+    """(9, r) cofactors of matrices (9, r): the transposed inverse times the determinant."""
+    cofactors, other = np.empty_like(matrices), np.empty(matrices.shape[1])
+    for each, (first, second, third, last) in zip(cofactors, _MINORS, strict=True):
+        np.multiply(matrices[first], matrices[second], out=each)
+        each -= np.multiply(matrices[third], matrices[last], out=other)
+    return cofactors
 
 
-def _across(one: Floats, other: Floats) -> Floats:
-    """(3, r) vector products of (3, r) and (3, r)."""
-    (x, y, z), (u, v, w) = one, other
-    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u])
+def _determinants(matrices: Floats, cofactors: Floats) -> Floats:
+    """(r,) determinants of matrices (9, r) with their cofactors."""
+    return np.asarray(np.einsum("ir,ir->r", matrices[:3], cofactors[:3]))
 
 
-def _determinant(matrices: Floats, cofactors: Floats) -> Floats:
-    """(r,) determinants."""
-    return np.asarray((matrices[0] * cofactors[0]).sum(axis=0))
+def _squares(matrices: Floats) -> Floats:
+    """(r,) sums of the squares of what matrices (9, r) hold."""
+    return np.asarray(np.einsum("ir,ir->r", matrices, matrices))
 
 
 def _by_singular_values(moments: Floats) -> Floats:

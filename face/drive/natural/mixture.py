@@ -68,6 +68,8 @@ class Mixture:
         self._names = (*data.unit_names, *data.sum_names)
         self._effects = np.column_stack([data.units, data.units @ data.sums])  # (m, k + s) metres
         self._paired = np.array([name.endswith(("_l", "_r")) for name in data.unit_names])
+        pairs = [(i, self._names.index(n[:-2] + "_r")) for i, n in enumerate(self._names) if n.endswith("_l")]
+        self._left, self._right = np.array(pairs).T
 
     def amounts(self, request: Weighed, shown: Shown) -> Floats:
         """(k,) amounts of the half units that explain a request best, its emotion's own sums preferred."""
@@ -77,8 +79,8 @@ class Mixture:
         if not asked[data.row_of[JAW_FAP]]:  # a jaw that nobody asks to open does not open to explain a lowered lip
             spread[data.unit_names.index(JAW)] = MIXTURE.unasked_jaw
         whiten = self._whitening(spread, request.asymmetric)
-        rows = [effects[asked] * request.weight[asked, None], whiten, *self._silence(asked, own, shown.certainty)]
-        matrix = np.concatenate(rows)
+        silence = self._silence(asked, own, shown.certainty)
+        matrix = np.concatenate([effects[asked] * request.weight[asked, None], whiten, silence])
         target = np.zeros(len(matrix))
         target[: asked.sum()] = request.wanted[asked] * request.weight[asked]
         target[asked.sum() : asked.sum() + len(whiten)] = whiten @ mean
@@ -115,25 +117,19 @@ class Mixture:
 
     def _whitening(self, spread: Floats, asymmetric: bool) -> Floats:
         """Square root of the prior's inverse covariance: halves of a pair go together unless asked otherwise."""
-        names, correlation = self._names, 0.0 if asymmetric else MIXTURE.sides
-        covariance = np.diag(spread**2)
-        for i, name in enumerate(names):
-            if name.endswith("_l"):
-                j = names.index(name[:-2] + "_r")
-                covariance[i, j] = covariance[j, i] = correlation * spread[i] * spread[j]
-        root: Floats = np.linalg.cholesky(np.linalg.inv(covariance)).T
+        left, right, correlation = self._left, self._right, 0.0 if asymmetric else MIXTURE.sides
+        root: Floats = np.diag(1.0 / spread)
+        alone = np.sqrt(1.0 - correlation**2)
+        root[left, left] /= alone
+        root[left, right] = -correlation / (alone * spread[right])
         return root
 
-    def _silence(self, asked: Bools, own: Mapping[str, float], certainty: float) -> list[Floats]:
-        """Rows (., k + s) for each sum: what it would move although nothing is asked there speaks against it."""
-        unit_count, effects = len(self.data.unit_names), self._effects
-        blocks = []
-        for column, name in enumerate(self.data.sum_names, start=unit_count):
-            doubt = 1.0 - certainty if name[:-2] in own else 1.0
-            block = np.zeros((int((~asked).sum()), effects.shape[1]))
-            block[:, column] = doubt * effects[~asked, column] / MIXTURE.silence
-            blocks.append(block)
-        return blocks
+    def _silence(self, asked: Bools, own: Mapping[str, float], certainty: float) -> Floats:
+        """(s, k + s) a row for each sum: all that it would move where nothing is asked speaks against it."""
+        sums = self._effects[~asked, len(self.data.unit_names) :]
+        doubts = [1.0 - certainty if name[:-2] in own else 1.0 for name in self.data.sum_names]
+        against = np.array(doubts) * np.sqrt((sums**2).sum(axis=0)) / MIXTURE.silence
+        return np.hstack([np.zeros((len(against), len(self.data.unit_names))), np.diag(against)])
 
 
 def _sparse_least_squares(matrix: Floats, target: Floats, cost: Floats) -> Floats:

@@ -20,6 +20,19 @@ def test_random_problems_agree_with_an_independent_solver(seed: int) -> None:
     found = bounded_least_squares(matrix, right, lower, upper)
     known = lsq_linear(matrix, right, (lower, upper), method="bvls", tol=1e-13, max_iter=1000).x
     np.testing.assert_allclose(found, known, atol=1e-8)
+    elsewhere = rng.uniform(lower, upper)
+    for near in (found, elsewhere, lower, upper):
+        np.testing.assert_allclose(bounded_least_squares(matrix, right, lower, upper, near=near), found, atol=1e-12)
+
+
+def test_it_begins_at_the_bounds_of_a_like_problem(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng, solves, solve = np.random.default_rng(3), [], np.linalg.solve
+    matrix, right = rng.normal(size=(60, 30)), rng.normal(size=60)
+    lower, upper = np.full(30, -0.05), np.full(30, 0.05)
+    found = bounded_least_squares(matrix, right, lower, upper)
+    monkeypatch.setattr(np.linalg, "solve", lambda *given: solves.append(1) or solve(*given))
+    bounded_least_squares(matrix, right, lower, upper, near=found)
+    assert len(solves) == 1
 
 
 def test_loose_bounds_give_plain_least_squares() -> None:
