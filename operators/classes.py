@@ -74,6 +74,17 @@ from .speech.strip_ops import (
     RISORIUS_OT_stretch_speech,
 )
 from .speech.strip_props import RISORIUS_PG_said_sound, RISORIUS_PG_said_word, RISORIUS_PG_speech_strip
+from .speech.word_ops import (
+    RISORIUS_OT_add_sound,
+    RISORIUS_OT_insert_word,
+    RISORIUS_OT_join_words,
+    RISORIUS_OT_pronounce_word,
+    RISORIUS_OT_remove_sound,
+    RISORIUS_OT_remove_word,
+    RISORIUS_OT_select_word,
+    RISORIUS_OT_split_word,
+)
+from .speech.word_panel import RISORIUS_PT_words, RISORIUS_UL_said_sounds, RISORIUS_UL_words
 from .timeline.drag import RISORIUS_OT_drag_clip
 from .timeline.ops import (
     RISORIUS_MT_clips,
@@ -191,6 +202,14 @@ OPERATORS = (
     RISORIUS_OT_remove_speech,
     RISORIUS_OT_fit_speech_sound,
     RISORIUS_OT_stretch_speech,
+    RISORIUS_OT_select_word,
+    RISORIUS_OT_split_word,
+    RISORIUS_OT_join_words,
+    RISORIUS_OT_remove_word,
+    RISORIUS_OT_insert_word,
+    RISORIUS_OT_pronounce_word,
+    RISORIUS_OT_add_sound,
+    RISORIUS_OT_remove_sound,
     RISORIUS_OT_render_film,
     RISORIUS_OT_export_gltf,
     RISORIUS_OT_make_shapes,
@@ -223,6 +242,9 @@ PANELS = (
     RISORIUS_FH_fap,
     RISORIUS_UL_speech,
     RISORIUS_PT_speech,
+    RISORIUS_UL_words,
+    RISORIUS_UL_said_sounds,
+    RISORIUS_PT_words,
     RISORIUS_PT_bake,
     RISORIUS_PT_read,
     RISORIUS_PT_read_faps,

@@ -145,6 +145,12 @@ def line_of(utterance: Utterance) -> Line:
     return Line(tuple(words), utterance.duration)
 
 
+def word_of(utterance: Utterance, text: str) -> LineWord:
+    """All that is said as one word, from 0 s on."""
+    first, last = utterance.sounds[0].start, utterance.sounds[-1].end
+    return LineWord(text, first, last, utterance.sounds).over(0.0, last - first)
+
+
 def utterance_of_line(line: Line, assumed: tuple[str, ...] = ()) -> Utterance:
     """A line as it is said."""
     return together([(0.0, 1.0, line)], assumed)

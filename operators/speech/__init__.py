@@ -8,5 +8,7 @@ ops            bake it at once, with its sound on the sequencer
 strip_ops      strips added, pasted, removed, stretched
 bars           strips in a timeline editor, and how they are dragged there
 fitting        a strip's sound as long as the strip
+word_ops       words split, joined, inserted, removed, pronounced; their sounds
 panel          Speak
+word_panel     the words of a strip and their sounds
 """

@@ -112,8 +112,8 @@ class RISORIUS_OT_add_speech(RisoriusOperator, Operator):
 
 
 class RISORIUS_OT_paste_speech(RisoriusOperator, Operator):
-    """Put timings from the clipboard on the timeline: lines of start, end and sound, a TextGrid, Rhubarb's JSON, TSV \
-or XML, or copied words. Starts at the current frame"""
+    """Put timings from the clipboard on the timeline, starting at the current frame: lines of start, end and sound, a \
+TextGrid, or Rhubarb's JSON, TSV or XML"""
 
     bl_idname = "risorius.paste_speech"
     bl_label = "Paste Timings"

@@ -202,7 +202,7 @@ class RISORIUS_PG_said_sound(PropertyGroup):
 class RISORIUS_PG_said_word(PropertyGroup):
     """A word: its letters, when it is said, how distinctly, and its sounds."""
 
-    text: Annotated[str, StringProperty(name="Word", description="Letters of the word. Pronounce makes its sounds")]
+    name: Annotated[str, StringProperty(name="Word", description="Letters of the word. Pronounce makes its sounds")]
     begins: Annotated[float, FloatProperty(default=0.0, min=0.0, options={"HIDDEN"})]
     ends: Annotated[float, FloatProperty(default=0.1, min=0.0, options={"HIDDEN"})]
     start: Annotated[float, _word_seconds("begins")]

@@ -95,7 +95,7 @@ def title_of_strip(strip: RISORIUS_PG_speech_strip) -> str:
 
 def title_of_word(word: RISORIUS_PG_said_word) -> str:
     """Its letters, or else the symbols of its sounds."""
-    return str(word.text) or " ".join(sound.symbol for sound in word.sounds) or "-"
+    return str(word.name) or " ".join(sound.symbol for sound in word.sounds) or "-"
 
 
 def shortened(text: str) -> str:
@@ -114,7 +114,7 @@ def _read_word(word: RISORIUS_PG_said_word) -> LineWord:
     """One word."""
     begins, ends = round(word.begins, DIGITS), round(word.ends, DIGITS)
     sounds = tuple(_read_sound(sound, begins, ends) for sound in word.sounds)
-    return LineWord(word.text, begins, ends, sounds, round(word.strength, DIGITS))
+    return LineWord(word.name, begins, ends, sounds, round(word.strength, DIGITS))
 
 
 def _read_sound(sound: RISORIUS_PG_said_sound, begins: float, ends: float) -> Sound:
@@ -139,7 +139,7 @@ def write_line(strip: RISORIUS_PG_speech_strip, line: Line) -> None:
 
 def _write_word(entry: RISORIUS_PG_said_word, word: LineWord) -> None:
     """One word."""
-    entry.text, entry.begins, entry.ends, entry.strength = word.text, word.start, word.end, word.strength
+    entry.name, entry.begins, entry.ends, entry.strength = word.text, word.start, word.end, word.strength
     for sound in word.sounds:
         write_sound(entry.sounds.add(), sound, word)
 

@@ -107,3 +107,41 @@ def test_until_it_is_worked_out_the_apex_shows_and_thereafter_the_motion(head: A
     assert face._played is not first
     face.drop()
     assert not face.has_more
+
+
+@pytest.mark.slow
+def test_speech_shows_with_the_feeling_before_it_is_worked_out_and_thereafter(head: Any, tmp_path: Any) -> None:
+    scene = bpy.context.scene
+    scene.render.fps = 10
+    path = tmp_path / "line.txt"
+    path.write_text("0.0 0.2 a\n0.2 0.4 m\n0.4 0.6 a\n", encoding="utf-8")
+    speech = head.risorius.speech
+    speech.source, speech.timings = "TIMINGS", str(path)
+    head.risorius.emotion.word = "surprise"
+    scene.frame_set(5)
+    assert bpy.ops.risorius.add_speech() == {"FINISHED"}
+    face = LiveFace(Target(head))
+    shown: list[Any] = []
+    face.show = lambda target, displacement: shown.append(displacement)  # type: ignore[method-assign]
+
+    def measured(frame: int) -> Any:
+        scene.frame_set(frame)
+        live.play(head, face, scene)
+        return api.default_face().measure(api.default_face().vertices + shown[-1])
+
+    lips, brow = [api.fap(name).number - 1 for name in ("raise_b_midlip", "lower_t_midlip")], 30
+    sketched = measured(6), measured(8)
+    assert sketched[0][lips].sum() < -80.0  # an open mouth
+    assert sketched[1][lips].sum() > -5.0  # closed for m
+    assert sketched[1][brow] > 100.0  # the brow is the emotion's
+    first = len(shown)
+    while face._motion is not None:
+        face.go_on()
+    worked_out = measured(6), measured(8)
+    for one, other in zip(sketched, worked_out, strict=True):
+        assert np.abs(one - other)[lips].max() < 12.0
+    assert np.linalg.norm(shown[first] - shown[0], axis=1).max() < 2e-3
+    speech.strips[0].mute = True
+    live.play(head, face, scene)
+    assert face._played is not None
+    assert face._played[1].motion.frame_count(10.0) != 8

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -202,3 +203,17 @@ def test_clips_on_the_rig_say_how_far_it_follows_and_each_can_be_taken_off(head:
     shown = drawn()["RISORIUS_PT_bake"]
     assert ("label", "93%, 1.0 mm off") in shown
     assert "mouthSmileLeft" not in str(shown), "of several clips, those at the current frame say more"
+
+
+def test_speech_on_the_timeline_shows_its_words(head: Any, tmp_path: Path) -> None:
+    assert "RISORIUS_PT_words" not in drawn()
+    path = tmp_path / "line.txt"
+    path.write_text("0.0 0.2 m\n0.2 0.4 a\n", encoding="utf-8")
+    head.risorius.speech.source, head.risorius.speech.timings = "TIMINGS", str(path)
+    assert bpy.ops.risorius.add_speech() == {"FINISHED"}
+    shown = drawn()
+    assert ("list", "strips") in shown["RISORIUS_PT_speech"]
+    assert {("list", "words"), ("list", "sounds")} <= set(shown["RISORIUS_PT_words"])
+    assert ("prop", "with_feeling") in shown["RISORIUS_PT_speech"]
+    bpy.ops.risorius.add_clip()
+    assert ("prop", "with_feeling") not in drawn()["RISORIUS_PT_speech"]

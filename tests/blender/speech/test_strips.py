@@ -52,7 +52,7 @@ def heard() -> list[Any]:
 def test_a_strip_holds_words_and_their_sounds(speech: Any) -> None:
     strip = add(speech, 20)
     assert (title_of_strip(strip), strip.start) == ("line", 20)
-    assert [(word.text, round(word.start, 6), round(word.end, 6)) for word in strip.words] == [
+    assert [(word.name, round(word.start, 6), round(word.end, 6)) for word in strip.words] == [
         ("me", 0.0, pytest.approx(0.2)),
         ("up", pytest.approx(0.3), pytest.approx(0.6)),
     ]
@@ -106,7 +106,7 @@ def test_a_file_keeps_it(speech: Any, tmp_path: Path) -> None:
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "said.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "said.blend"))
     (strip,) = bpy.data.objects[name].risorius.speech.strips
-    assert [word.text for word in strip.words] == ["me", "up"]
+    assert [word.name for word in strip.words] == ["me", "up"]
     strip.start = 9
     assert heard()[0].frame_final_start == 9
 
