@@ -13,11 +13,12 @@ import sys
 
 from places import DOCS
 from recorded.page import write_tables
-from recorded.played import play
+from recorded.played import lateness, play
 from recorded.takes import TAKES, read_take
 
 HEADS = ("default", "ict", "makehuman")
 PARTS = ("tables", "strip")
+WITH = {"as it is": False, "with inertia": True}
 PICTURED, PICTURE = "Live Link Face", DOCS / "pictures" / "recording.jpg"
 
 
@@ -28,11 +29,12 @@ def main(arguments: list[str]) -> None:
     only = parser.parse_args(arguments).only
     takes = [read_take(title) for title in TAKES]
     if only in (None, "tables"):
-        played = {}
+        played, late = {}, {}
         for take in takes:
             played[take.title] = [play(take, head) for head in HEADS]
+            late[take.title] = {how: lateness(take, HEADS[0], inertia=inertia) for how, inertia in WITH.items()}
             print(f"{take.title}: played on {', '.join(HEADS)}", flush=True)
-        write_tables(takes, played)
+        write_tables(takes, played, late)
     if only in (None, "strip"):
         from recorded.strip import write_strip
 

@@ -19,12 +19,19 @@ START, END = "<!-- measured: {} -->", "<!-- end of {} -->"
 STANDS_ASIDE = (1, 2)
 
 
-def write_tables(takes: Sequence[Take], played: Mapping[str, Sequence[Played]]) -> None:
+#: What a recording is played with -> seconds (68,) by which the default head follows it.
+Lateness = Mapping[str, Floats]
+
+
+def write_tables(
+    takes: Sequence[Take], played: Mapping[str, Sequence[Played]], late: Mapping[str, Lateness]
+) -> None:
     """Write what was measured into the page."""
     text = PAGE.read_text(encoding="utf-8")
     for name, lines in (
         ("recordings", _recordings(takes, played)),
         ("faps", _faps(takes, played)),
+        ("lateness", _lateness(takes, late)),
         ("silence", _silence(takes)),
     ):
         start, end = START.format(name), END.format(name)
@@ -38,8 +45,8 @@ def _recordings(takes: Sequence[Take], played: Mapping[str, Sequence[Played]]) -
     """A row per recording and head."""
     rows = [
         f"| recording | head | FAPs moved | correlation | slope | left open where the blink is {SHUT:g} or more "
-        "| trembling of a still face | step at a missing frame | off between posed frames, mm |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "| late, ms | trembling of a still face | step at a missing frame | off between posed frames, mm |",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for take in takes:
         for figures in played[take.title]:
@@ -48,9 +55,41 @@ def _recordings(takes: Sequence[Take], played: Mapping[str, Sequence[Played]]) -
             rows.append(
                 f"| {take.title}, {len(take.frames)} frames | {figures.head} | {np.isfinite(figures.slope).sum()} "
                 f"| {np.nanmedian(figures.correlation):.3f} | {np.nanmedian(figures.slope):.2f} | {lids} "
+                f"| {_milliseconds(figures.late)} "
                 f"| {figures.trembling:.2f} | {jump} | {1e3 * figures.off[0]:.2f}, at most {1e3 * figures.off[1]:.1f} |"
             )
     return rows
+
+
+def _milliseconds(late: Floats) -> str:
+    """The median over the FAPs, and the largest."""
+    usual, most = 1e3 * np.nanmedian(late), 1e3 * late[np.nanargmax(np.abs(np.nan_to_num(late)))]
+    return f"{usual:.0f}, at most {most:.0f}".replace("-0", "0")
+
+
+def _lateness(takes: Sequence[Take], late: Mapping[str, Lateness]) -> list[str]:
+    """A row per FAP, or pair of sides, and one of all: milliseconds, as it is played and with inertia."""
+    columns = {f"{take.title}: {how}": seconds for take in takes for how, seconds in late[take.title].items()}
+    rows = [f"| FAP | {' | '.join(columns)} |", "|---|" + "---|" * len(columns)]
+    rows.append(f"| all: median, largest | {' | '.join(map(_milliseconds, columns.values()))} |")
+    for pair in _pairs():
+        each = [seconds[np.array(pair) - 1] for seconds in columns.values()]
+        if any(np.isfinite(seconds).any() for seconds in each):
+            cells = [f"{1e3 * np.nanmean(s):.0f}".replace("-0", "0") if np.isfinite(s).any() else "-" for s in each]
+            rows.append(f"| {_name_of(pair)} | {' | '.join(cells)} |")
+    return rows
+
+
+def _pairs() -> list[list[int]]:
+    """Numbers of the low-level FAPs, those of two sides together."""
+    mirrors = {number: FAPS[number].mirror or number for number in range(3, FAP_COUNT + 1)}
+    return [sorted({number, mirror}) for number, mirror in mirrors.items() if mirror >= number]
+
+
+def _name_of(pair: Sequence[int]) -> str:
+    """A FAP, or both sides of one, by number and name."""
+    name = FAPS[pair[0]].name.replace("_l_", "_l/r_") if len(pair) > 1 else FAPS[pair[0]].name
+    return f"{', '.join(map(str, pair))} {name}"
 
 
 def _percent(shares: Floats) -> str:
@@ -64,16 +103,10 @@ def _faps(takes: Sequence[Take], played: Mapping[str, Sequence[Played]]) -> list
     heads = [f"{take.title}: {figures.head}" for take in takes for figures in played[take.title]]
     rows = [f"| FAP | {' | '.join(heads)} |", "|---|" + "---|" * len(heads)]
     every = [figures for take in takes for figures in played[take.title]]
-    for number in range(3, FAP_COUNT + 1):
-        mirror = FAPS[number].mirror or number
-        if mirror < number:
-            continue
-        pair = sorted({number, mirror})
+    for pair in _pairs():
         cells = [_fit(figures, pair) for figures in every]
         if any(cells):
-            numbers = ", ".join(map(str, pair))
-            name = FAPS[number].name.replace("_l_", "_l/r_") if len(pair) > 1 else FAPS[number].name
-            rows.append(f"| {numbers} {name} | {' | '.join(cell or '-' for cell in cells)} |")
+            rows.append(f"| {_name_of(pair)} | {' | '.join(cell or '-' for cell in cells)} |")
     return rows
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import risorius.api as api
 from faithful.heads import load_face
+from risorius.api import Face
 from risorius.arrays import Bools, Floats
 from risorius.mpeg4 import FAP_COUNT
 from risorius.progress import run
@@ -19,6 +21,8 @@ ANGLES = (*range(23, 27), *range(48, 51))
 STILL, OVER = 0.2, 15
 #: A blink of this score or more is to shut the lids.
 SHUT = 0.9
+#: Motion is looked for up to so many seconds late or early.
+LATE = 0.3
 #: FAPs of the left eye's lids, whose sum is 1024 where they meet.
 LIDS, MET = (19, 21), 1024.0
 
@@ -35,6 +39,7 @@ class Played:
     trembling : second differences of the shown values over those of the recorded ones, where the face is still.
     jump : the largest step over a frame that the file does not have, as a share of the FAP's range.
     off : (2,) median and largest distance of frames between posed ones from their own pose, metres.
+    late : (68,) seconds by which shown values follow the recorded ones, by cross-correlation; NaN as for these.
     """
 
     head: str
@@ -44,6 +49,7 @@ class Played:
     trembling: float
     jump: float
     off: Floats
+    late: Floats
 
 
 def play(take: Take, head: str) -> Played:
@@ -58,7 +64,16 @@ def play(take: Take, head: str) -> Played:
         slope[column] = np.polyfit(asked[:, column], shown[:, column], 1)[0]
     off = np.array([np.median(motion.off), motion.off.max()])
     trembling, jump = _trembling(asked[:, moved], shown[:, moved]), _jump(shown[:, moved], take.unknown)
-    return Played(head, correlation, slope, _open_lids(take, shown), trembling, jump, off)
+    late = _late(asked, shown, moved, take.recording.stream.fps)
+    return Played(head, correlation, slope, _open_lids(take, shown), trembling, jump, off, late)
+
+
+def lateness(take: Take, head: str, *, inertia: bool) -> Floats:
+    """(68,) seconds by which a head follows a recording whose frames are shown one by one; NaN as in `Played`."""
+    face: Face = load_face(head)
+    shown = np.array([face.measure(positions) for positions in api.play(face, take.recording, inertia=inertia)])
+    moved = _moved(take.frames) & np.isfinite(shown).all(axis=0)
+    return _late(take.frames, shown, moved, take.recording.stream.fps)
 
 
 def _moved(asked: Floats) -> Bools:
@@ -67,6 +82,19 @@ def _moved(asked: Floats) -> Bools:
     least = np.full(FAP_COUNT, MOVED)
     least[np.array(ANGLES) - 1] = TURNED
     return np.asarray(high - low >= least)
+
+
+def _late(asked: Floats, shown: Floats, moved: Bools, fps: float) -> Floats:
+    """(68,) seconds by which shown values follow those asked: where they correlate best, by a parabola between."""
+    reach, late = round(LATE * fps), np.full(FAP_COUNT, np.nan)
+    shifts, inside = np.arange(-reach, reach + 1), slice(reach, len(asked) - reach)
+    for column in np.flatnonzero(moved):
+        told = asked[inside, column]
+        fits = np.array([np.corrcoef(told, np.roll(shown[:, column], -shift)[inside])[0, 1] for shift in shifts])
+        best = int(np.clip(fits.argmax(), 1, len(fits) - 2))
+        before, at, after = fits[best - 1 : best + 2]
+        late[column] = (shifts[best] + 0.5 * (before - after) / (before - 2.0 * at + after)) / fps
+    return late
 
 
 def _open_lids(take: Take, shown: Floats) -> Floats:

@@ -12,6 +12,7 @@ table_file, json_file, json_layout   CSV and JSON, with errors that name line an
 seeming                              what a file seems to be that is none of them
 text_logs                            Face Cap's files, logs of iFacialMocap and VMC
 openface, live_link                  action units with pose and gaze; ARKit blend shapes
+py_feat_turns                        how versions of Py-Feat write the head's turn
 mediapipe_scores, landmark_file      MediaPipe's blend shapes, and its landmarks (`face.tracked` reads FAPs off them)
 fap_csv                              FAPs as CSV, out and in
 key_names                            which shape keys a preset of names asks for

@@ -20,6 +20,7 @@ from ....tables import read_toml
 from ...standard import ANGLE_UNIT, FAP_COUNT
 from .columns import load_columns
 from .faces import one_face
+from .py_feat_turns import Turns, py_feat_turns
 from .rotation import euler_matrix, head_faps, in_head_axes, in_radians
 from .row_names import tells_of_a_row
 from .samples import Samples
@@ -79,8 +80,8 @@ def read_openface(
         raise FormatError(table.path, "has neither AUxx_r columns nor pose_Rx: run FeatureExtraction with -aus", line=1)
     _check_range(table, scores, read_toml(preset).number("most", above=0.0))
     frames = columns.frames(scores) if scores else np.full((len(table.rows), FAP_COUNT), np.nan)
-    angles, in_degrees = in_radians(table.several(POSE), table.refusal)
-    pose = in_head_axes(_rotations(angles, len(table.rows)), CAMERA_AXES)
+    turns = py_feat_turns(table) if preset == PY_FEAT else _turns(table)
+    pose = in_head_axes(turns.rotations, CAMERA_AXES)
     frames[:, 47:50] = head_faps(pose)
     frames[:, 22:26] = _gaze(table, pose)
     for name in CONFIDENCES:
@@ -89,7 +90,8 @@ def read_openface(
     if "success" in table:
         frames[~(table.numbers("success") > 0.0)] = np.nan
     times = table_times(table, rate)
-    said = (*times.assumed, *in_degrees, *unread_words(_unread(table, scores, preset)))
+    unread = [name for name in _unread(table, scores, preset) if name not in turns.columns]
+    said = (*times.assumed, *turns.said, *unread_words(unread))
     return Samples.at_times(replace(times, assumed=said), frames[times.rows], start=start)
 
 
@@ -110,11 +112,12 @@ def _unread(table: TableFile, scores: Mapping[str, Floats], preset: Path) -> lis
     return [name for name in others if not any(pattern.fullmatch(name) for pattern in silent)]
 
 
-def _rotations(angles: Mapping[str, Floats], count: int) -> Floats:
-    """(T, 3, 3) head rotations in the camera's axes; NaN without all three angles."""
+def _turns(table: TableFile) -> Turns:
+    """The head's turn as OpenFace writes it; unknown without all three angles."""
+    angles, said = in_radians(table.several(POSE), table.refusal)
     if not all(name in angles for name in POSE):
-        return np.full((count, 3, 3), np.nan)
-    return euler_matrix(*(angles[name] for name in POSE))
+        return Turns(np.full((len(table.rows), 3, 3), np.nan), said=said)
+    return Turns(euler_matrix(*(angles[name] for name in POSE)), POSE, said)
 
 
 def _gaze(table: TableFile, pose: Floats) -> Floats:

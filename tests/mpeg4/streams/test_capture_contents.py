@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,8 +21,11 @@ def read(path: Path, text: str, **options: object) -> api.FapStream:
 
 
 def table(path: Path, columns: dict[str, object], count: int = 3, **options: object) -> api.FapStream:
-    """The stream of a table whose columns each have one value."""
-    rows = [",".join([f"{0.04 * n:.2f}", *map(str, columns.values())]) for n in range(count)]
+    """The stream of a table whose columns each have one value, or a list of them."""
+    rows = [
+        ",".join([f"{0.04 * n:.2f}", *(str(each[n] if isinstance(each, list) else each) for each in columns.values())])
+        for n in range(count)
+    ]
     return read(path, "\n".join([",".join(["timestamp", *columns]), *rows]), **options)
 
 
@@ -168,7 +172,44 @@ def test_py_feat(shared: Path) -> None:
     stream = api.read_stream(shared / "samples" / "trackers" / "pyfeat" / "Feat_Test.csv")
     smile = SHAPES["mouthSmileLeft"].frame[59 - 1] + SHAPES["mouthSmileRight"].frame[59 - 1]
     assert stream.frames[0, 59 - 1] > 0.5 * smile  # AU12 is 0.96, the picture is said to be happy at 0.99
-    assert "not read: Pitch, Roll, Yaw" in stream.assumed
+    assert "head turns as of Py-Feat up to 0.6: degrees" in stream.assumed
+    assert stream.frames[0, 49 - 1] < 0.0  # in the picture the nose lies to the subject's right of the eyes' middle
+
+
+#: The head turned by some degrees: down, to the subject's left, to the right shoulder, alone; as versions write it.
+TURNED = {
+    "old": {"Pitch": [-20, 0, 0], "Roll": [0, 0, -20], "Yaw": [0, -20, 0]},
+    "axes": {"Pitch": [0.349, 0, 0], "Roll": [0, -0.349, 0], "Yaw": [0, 0, -0.349], "X": 0, "Y": 0, "Z": 9},
+    "named": {"Pitch": [-0.349, 0, 0], "Roll": [0, 0, 0.349], "Yaw": [0, -0.349, 0], "X": 0, "Y": 0, "Z": 9},
+}
+#: The eyes' outer corners in the image, which the tilt alone turns: the right eye's at the left.
+EYES = {"x_36": 100, "y_36": [50, 50, 50], "x_45": 200, "y_45": [50, 50, 50 - 100 * np.tan(0.349)]}
+
+
+@pytest.mark.parametrize("way", TURNED)
+def test_turns_of_py_feat_are_read_in_the_way_of_their_version(way: str, tmp_path: Path) -> None:
+    stream = table(tmp_path / "a.csv", {"frame": [0, 1, 2], "AU12": 0.5, **TURNED[way], **EYES})
+    degrees = np.degrees(stream.frames[:, 47:50] * 1e-5)
+    np.testing.assert_allclose(degrees, np.diag([20.0, 20.0, 20.0]), atol=0.1)
+    assert any("head turns as of Py-Feat" in line for line in stream.assumed)
+
+
+@pytest.mark.parametrize(
+    ("columns", "said"),
+    [
+        ({**TURNED["axes"]}, "its landmarks do not tell which"),  # no landmarks
+        ({**TURNED["named"], **EYES, "y_45": 50}, "its landmarks do not tell which"),
+        ({**TURNED["axes"], **EYES, "X": None, "Y": None, "Z": None}, "contradict its landmarks"),
+    ],
+)
+def test_turns_of_py_feat_that_are_uncertain_are_not_read(
+    columns: dict[str, Any], said: str, tmp_path: Path
+) -> None:
+    there = {name: values for name, values in columns.items() if values is not None}
+    stream = table(tmp_path / "a.csv", {"frame": [0, 1, 2], "AU12": 0.5, **there})
+    assert np.isnan(stream.frames[:, 47:50]).all()
+    assert any(said in line for line in stream.assumed)
+    assert any("Pitch, Roll, Yaw" in line for line in stream.assumed if line.startswith("not read"))
 
 
 def test_single_images_of_openface_need_no_frame_and_no_time(tmp_path: Path) -> None:
