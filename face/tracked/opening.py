@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...errors import FormatError
 from ...files import read_bytes
-from ...mpeg4.streams.capture import Samples, frames_of, read_json_document, read_table_file
+from ...mpeg4.streams.capture import Samples, frame_by_frame, frames_of, read_json_document, read_table_file
 from ...mpeg4.streams.capture.delimited import decoded
 from ...mpeg4.streams.capture.seeming import names_in, what_begins_so, what_it_seems
 from ...mpeg4.streams.capture.text_logs import begins_as_json, is_text_log, read_text_log
@@ -63,7 +63,7 @@ def open_stream(path: str | Path, format: StreamFormat | None = None) -> Opened:
         problem = f"is binary, and not a FAP stream or a recording: use {', '.join(READABLE)}"
         problem += f"; it seems to be {seems}" if seems is not None else ""
         raise FormatError(file, problem, offset=max(data.find(b"\0"), 0))
-    table = read_text_log(file) if is_text_log(head) else read_table_file(file)
+    table = read_text_log(file) if is_text_log(head) else frame_by_frame(read_table_file(file))
     problem = f"has none of the columns of {_listed(TABLES)}: {what_it_seems(table.columns)}"
     unknown = FormatError(file, problem, line=1)
     return _recognised(file, format, table, TABLES, unknown)

@@ -64,7 +64,12 @@ def _recordings(takes: Sequence[Take], played: Mapping[str, Sequence[Played]]) -
 def _milliseconds(late: Floats) -> str:
     """The median over the FAPs, and the largest."""
     usual, most = 1e3 * np.nanmedian(late), 1e3 * late[np.nanargmax(np.abs(np.nan_to_num(late)))]
-    return f"{usual:.0f}, at most {most:.0f}".replace("-0", "0")
+    return f"{_rounded(usual)}, at most {_rounded(most)}"
+
+
+def _rounded(value: float) -> str:
+    """A whole number; no negative 0."""
+    return str(round(value))
 
 
 def _lateness(takes: Sequence[Take], late: Mapping[str, Lateness]) -> list[str]:
@@ -75,7 +80,7 @@ def _lateness(takes: Sequence[Take], late: Mapping[str, Lateness]) -> list[str]:
     for pair in _pairs():
         each = [seconds[np.array(pair) - 1] for seconds in columns.values()]
         if any(np.isfinite(seconds).any() for seconds in each):
-            cells = [f"{1e3 * np.nanmean(s):.0f}".replace("-0", "0") if np.isfinite(s).any() else "-" for s in each]
+            cells = [_rounded(1e3 * np.nanmean(s)) if np.isfinite(s).any() else "-" for s in each]
             rows.append(f"| {_name_of(pair)} | {' | '.join(cells)} |")
     return rows
 

@@ -21,8 +21,8 @@ ANGLES = (*range(23, 27), *range(48, 51))
 STILL, OVER = 0.2, 15
 #: A blink of this score or more is to shut the lids.
 SHUT = 0.9
-#: Motion is looked for up to so many seconds late or early.
-LATE = 0.3
+#: Motion is looked for up to so many seconds late or early, and found where it correlates so much.
+LATE, ALIKE = 0.3, 0.9
 #: FAPs of the left eye's lids, whose sum is 1024 where they meet.
 LIDS, MET = (19, 21), 1024.0
 
@@ -39,7 +39,8 @@ class Played:
     trembling : second differences of the shown values over those of the recorded ones, where the face is still.
     jump : the largest step over a frame that the file does not have, as a share of the FAP's range.
     off : (2,) median and largest distance of frames between posed ones from their own pose, metres.
-    late : (68,) seconds by which shown values follow the recorded ones, by cross-correlation; NaN as for these.
+    late : (68,) seconds by which shown values follow the recorded ones, by cross-correlation; NaN as for these, and
+        where they are too unlike to tell.
     """
 
     head: str
@@ -93,6 +94,8 @@ def _late(asked: Floats, shown: Floats, moved: Bools, fps: float) -> Floats:
         fits = np.array([np.corrcoef(told, np.roll(shown[:, column], -shift)[inside])[0, 1] for shift in shifts])
         best = int(np.clip(fits.argmax(), 1, len(fits) - 2))
         before, at, after = fits[best - 1 : best + 2]
+        if at < ALIKE:
+            continue
         late[column] = (shifts[best] + 0.5 * (before - after) / (before - 2.0 * at + after)) / fps
     return late
 

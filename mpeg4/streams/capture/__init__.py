@@ -9,6 +9,7 @@ samples                              from these times to an even rate
 rotation                             rotations of a head as FAPs 48 to 50
 delimited                            which mark parts the cells of a line, and which the decimals
 table_file, json_file, json_layout   CSV and JSON, with errors that name line and column or frame
+long_form, json_scores               a row, an entry, a message or a curve for each score, made into frames
 seeming                              what a file seems to be that is none of them
 text_logs                            Face Cap's files, logs of iFacialMocap and VMC
 openface, live_link                  action units with pose and gaze; ARKit blend shapes
@@ -24,6 +25,7 @@ from .json_file import JsonFrame, frames_of, read_json_document, read_json_frame
 from .key_names import KeyShape, load_key_names
 from .landmark_file import Landmarks, holds_landmarks, landmarks_from_csv, landmarks_from_json
 from .live_link import read_arkit
+from .long_form import frame_by_frame
 from .mediapipe_scores import read_scores
 from .openface import read_openface
 from .samples import Samples
@@ -40,6 +42,7 @@ __all__ = [
     "Samples",
     "TableFile",
     "arkit_columns",
+    "frame_by_frame",
     "frames_of",
     "holds_faps",
     "holds_landmarks",

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -41,6 +42,10 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         "facial_transformation_matrix", "facial_transformation_matrixes", "facialTransformationMatrixes", "matrix",
     ),
 }  # fmt: skip
+
+
+#: A dictionary as Python prints it.
+PRINTED = re.compile(r"\s*\[?\s*\{\s*'")
 
 
 @dataclass(frozen=True)
@@ -118,7 +123,8 @@ def read_json_document(path: str | Path) -> Any:
         if isinstance(error, json.JSONDecodeError) and len(lines) > 1 and _is_json(lines[0][1]):
             return [_line(file, number, line) for number, line in lines]
         where = error.lineno if isinstance(error, json.JSONDecodeError) else None
-        raise FormatError(file, f"is not valid JSON ({error}): is the file cut off?", line=where) from error
+        remedy = "what Python prints: write it with json.dumps" if PRINTED.match(text) else "is the file cut off?"
+        raise FormatError(file, f"is not valid JSON ({error}): {remedy}", line=where) from error
 
 
 def _is_json(line: str) -> bool:

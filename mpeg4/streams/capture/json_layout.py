@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ....tables import parsed_number
+from .json_scores import category, frames_of_curves, frames_of_scores
 from .row_names import RATE_NAMES, first_named, numbers_at_end, plain_name, tells_of_a_row, time_name
 from .shape_names import is_turn, shape_named
 
@@ -69,6 +70,9 @@ def laid_out(document: Any) -> list[tuple[float | None, Any]] | None:
     if len(document) == 1 and isinstance(document[0], dict):
         return _of_object(document[0], DEEPEST)
     document = document[1:] if _is_heading(document[0]) and len(document) > 1 else document
+    scores = frames_of_scores(document)
+    if scores is not None:
+        return scores
     if all(category(entry) is not None for entry in document):
         return [(None, {"blendshapes": document})]
     return [(None, entry) for entry in document]
@@ -101,7 +105,7 @@ def _of_object(document: Entries, depth: int) -> list[tuple[float | None, Any]] 
     """The frames of an object: a matrix, a list by a name, frames by numbers, lists by names, or itself."""
     if not document:
         return None
-    matrix = _matrix(document)
+    matrix = _matrix(document) or frames_of_curves(document)
     if matrix is not None:
         return matrix
     numbered = _numbered(document)
@@ -143,12 +147,15 @@ def _are_frames(name: str, inside: list[Any]) -> bool:
 
 def _matrix(document: Entries) -> list[tuple[float | None, Any]] | None:
     """Frames of a list of names and a list of rows of numbers, as Audio2Face exports them."""
-    for heading in (name for name in document if plain_name(name) in HEADINGS):
-        names = document[heading]
+    for heading, names in document.items():
         if not isinstance(names, list) or not names or not all(isinstance(name, str) for name in names):
             continue
-        for place in (name for name in document if plain_name(name) in MATRICES and name != heading):
-            rows = document[place]
+        named_shapes = any(shape_named(name) is not None for name in names)
+        if not named_shapes and plain_name(heading) not in HEADINGS:
+            continue
+        for place, rows in document.items():
+            if place == heading or not (named_shapes or plain_name(place) in MATRICES):
+                continue
             if not (isinstance(rows, list) and rows and all(isinstance(row, list) for row in rows)):
                 continue
             if all(len(row) in (0, len(names)) for row in rows):
@@ -262,29 +269,3 @@ def bare_entries(held: Any) -> Any:
         point = point[0]
     is_point = "x" in point if isinstance(point, dict) else bool(point)
     return {"landmarks" if is_point else "blendshapes": held}
-
-
-#: What the name of a score and the score are called, where each is an entry of its own.
-SCORE_NAMES = (
-    "category_name",
-    "categoryName",
-    "displayName",
-    "name",
-    "shape",
-    "blendshape",
-    "blendShape",
-    "key",
-    "label",
-)
-SCORE_VALUES = ("score", "value", "weight", "coefficient")
-
-
-def category(entry: Any) -> tuple[str, Any] | None:
-    """The name and the score of an entry that is one of both: an object of them, or a pair; None where it is none."""
-    if isinstance(entry, list) and len(entry) == 2 and isinstance(entry[0], str):
-        return entry[0], entry[1]
-    if not isinstance(entry, dict):
-        return None
-    name = next((entry[key] for key in SCORE_NAMES if isinstance(entry.get(key), str) and entry[key]), None)
-    value = next((key for key in SCORE_VALUES if key in entry), None)
-    return None if name is None or value is None else (name, entry[value])

@@ -15,7 +15,7 @@ import numpy as np
 from ....arrays import Floats
 from ....errors import FormatError
 from .json_file import JsonFrame, chosen_face, json_times, of_one_face
-from .json_layout import category
+from .json_scores import category
 from .live_link import faps_of_turns
 from .rotation import head_faps, in_radians
 from .samples import Samples

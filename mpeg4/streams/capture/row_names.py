@@ -90,6 +90,11 @@ def time_named(names: Iterable[str]) -> tuple[str, float | None] | None:
     return min(found, key=lambda item: item[0])[1:] if found else None
 
 
+def tells_the_frame(name: str) -> bool:
+    """Whether a column or an entry says which frame it is of, or whose, and does not number the scores of one."""
+    return plain_name(name) not in (*INDEX_NAMES, *ROW_NAMES) and tells_of_a_row(name)
+
+
 def tells_of_a_row(name: str) -> bool:
     """Whether a column says when a row is, whose it is or how sure it is, rather than what was seen."""
     plain = plain_name(name)

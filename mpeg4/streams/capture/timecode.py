@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from datetime import datetime
 
 import numpy as np
@@ -30,7 +31,9 @@ MOST_FRAMES = 240
 #: Wraps that must agree on a count that is none of the usual.
 SURE = 3
 
-DAY = 86400.0
+DAY, SIXTY = 86400.0, 60
+#: Seconds in a minute of loggers that count all fields of a timecode alike: the frames per second.
+ODD_BASES = (24.0, 25.0, 30.0, 50.0)
 
 
 def is_timecode(text: str) -> bool:
@@ -74,7 +77,9 @@ def timecode_stamps(texts: Sequence[str], rate: float | None, refuse: Callable[[
     if not widths:
         return Stamps(len(texts), refuse=refuse)
     hours, minutes, seconds, frames = fields.T
-    clock = _over_midnight(3600.0 * hours + 60.0 * minutes + seconds)
+    base = _base(minutes, seconds)
+    clock = 3600.0 * hours + 60.0 * minutes + seconds if base == SIXTY else (hours * base + minutes) * base + seconds
+    clock = _over_midnight(clock)
     if marks <= {".", ","} and (min(widths) != 2 or np.nanmax(frames) >= USUAL_COUNT):
         parts = frames / 10.0 ** _decimals(texts)
         return Stamps(len(texts), seconds=clock + parts, unit=1.0, clock=lambda text: _clock(text, None), refuse=refuse)
@@ -89,7 +94,23 @@ def timecode_stamps(texts: Sequence[str], rate: float | None, refuse: Callable[[
             assumed=said,
             refuse=refuse,
         )
-    return _counted(clock, frames, ";" in marks, rate, refuse)
+    stamps = _counted(clock, frames, ";" in marks, rate, refuse)
+    odd = (f"its timecode has {base} seconds in a minute",) if base != SIXTY else ()
+    return replace(stamps, assumed=(*stamps.assumed, *odd))
+
+
+def _base(minutes: Floats, seconds: Floats) -> int:
+    """How many seconds a timecode has in a minute: the number after which they begin anew.
+
+    Some loggers count seconds as they count frames. Only where each minute that begins does so right after the same second below 59, and no second is above.
+    """
+    known = np.isfinite(seconds)
+    minutes, seconds = minutes[known], seconds[known]
+    ends = np.flatnonzero((np.diff(minutes) == 1.0) & (seconds[1:] == 0.0))
+    last = np.unique(seconds[ends])
+    if len(last) != 1 or last[0] + 1.0 not in ODD_BASES or seconds.max() > last[0]:
+        return SIXTY
+    return int(last[0]) + 1
 
 
 def _counted(
