@@ -102,7 +102,8 @@ def timecode_stamps(texts: Sequence[str], rate: float | None, refuse: Callable[[
 def _base(minutes: Floats, seconds: Floats) -> int:
     """How many seconds a timecode has in a minute: the number after which they begin anew.
 
-    Some loggers count seconds as they count frames. Only where each minute that begins does so right after the same second below 59, and no second is above.
+    Some loggers count seconds as they count frames. Only where each minute begins right after the same second below 59,
+    and no second is above it.
     """
     known = np.isfinite(seconds)
     minutes, seconds = minutes[known], seconds[known]
