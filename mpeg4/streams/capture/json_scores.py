@@ -79,7 +79,7 @@ def _messages(document: list[Any]) -> list[Any]:
 
 def _said(entry: Any) -> Sequence[Any]:
     """The arguments of a message."""
-    said = next((entry[name] for name in ("args", "arguments", "values", "data") if name in entry), [])
+    said: Any = next((entry[name] for name in ("args", "arguments", "values", "data") if name in entry), None)
     return said if isinstance(said, list) else []
 
 
