@@ -7,6 +7,7 @@ The layers, each knowing only those above it:
 - ``mpeg4`` the standard's face animation parameters and the emotion model; ``physics`` skin, muscles, solvers;
 - ``face`` one particular face: its parts, feature points, muscles, and the way from parameters to contractions;
 - ``speech`` what is said and when, as motion of a mouth, and what feeling adds;
+- ``labels`` the truth beside a picture of a face: landmarks, areas, depth and all that drives it, as tables;
 - ``api`` the public interface, arrays in and out, without Blender: what scripts and the command line use;
 - ``scene`` Blender's meshes, shape keys, actions and renders to arrays and back; registers nothing;
 - ``track`` films and cameras to parameters, in plain Python;

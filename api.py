@@ -41,6 +41,8 @@ from .face.products.animation_table_files import read_animation_tables, write_an
 from .face.products.animation_tables import AnimationTable, AnimationTables, TableError
 from .face.products.blendshapes import arkit_shapes
 from .face.products.creases import Creases
+from .face.products.efforts import Efforts, explaining_units, performance_efforts, stream_efforts, unit_names
+from .face.products.head_motion import head_motion
 from .face.products.playing import play
 from .face.retarget.controls import Controls
 from .face.retarget.retargeting import Retargeted, Retargeting, Take, retarget
@@ -53,6 +55,7 @@ from .face.tracked.formats import StreamFormat
 from .face.tracked.landmarks import LandmarkReading, read_points
 from .face.tracked.recording import Recording, read_capture, read_recording, read_stream, write_stream
 from .face.unmet import unmet_lines
+from .labels.view import View
 from .mpeg4 import (
     ARCHETYPES,
     FAPS,
@@ -147,6 +150,7 @@ __all__ = [
     "Decoded",
     "Drawn",
     "Drive",
+    "Efforts",
     "EmotionShares",
     "ExpressionField",
     "EyeballPlace",
@@ -189,6 +193,7 @@ __all__ = [
     "Topology",
     "Utterance",
     "Verdict",
+    "View",
     "VisemeField",
     "Voiced",
     "archetype",
@@ -202,12 +207,14 @@ __all__ = [
     "emotion_weights",
     "encode_fba",
     "envelope",
+    "explaining_units",
     "expression",
     "expression_frame",
     "face_animation_tables",
     "fap",
     "find_points",
     "find_points_steps",
+    "head_motion",
     "initial_profile",
     "load_emotions",
     "load_key_names",
@@ -215,6 +222,7 @@ __all__ = [
     "load_shapes",
     "load_timings",
     "load_topologies",
+    "performance_efforts",
     "play",
     "read_animation_tables",
     "read_capture",
@@ -239,6 +247,8 @@ __all__ = [
     "sequence",
     "shown_strength",
     "speak",
+    "stream_efforts",
+    "unit_names",
     "unmet_lines",
     "viseme_frame",
     "voices",

@@ -15,6 +15,7 @@ from .options import (
     Verbs,
     add_creases,
     add_engine,
+    add_labels,
     add_onto,
     add_scene,
     add_timing,
@@ -25,10 +26,11 @@ from .options import (
     verb,
 )
 from .progress import ShowProgress
-from .result import Result
+from .result import Result, UsageError
 
 if TYPE_CHECKING:
     from ..scene.jobs.destination import Destination
+    from ..scene.jobs.labelling import Labels
 
 NEEDS_BLENDER = (
     "this command needs Blender: run it as `blender --command risorius ...`, or `pip install bpy` into this Python"
@@ -55,6 +57,7 @@ def add_film_verbs(verbs: Verbs) -> None:
     _add_rate(render)
     add_engine(render)
     add_creases(render)
+    add_labels(render)
     render.add_argument("--out", type=Path, required=True, help="the .mp4 file to write")
 
     demo = verb(verbs, "demo", _demo)
@@ -80,7 +83,8 @@ def _bake(arguments: argparse.Namespace) -> Result:
 def _render(arguments: argparse.Namespace) -> Result:
     """Render expressions as a video."""
     onto = onto_options(arguments)
-    return _made("render_film", arguments, onto, **timing_options(arguments), engine=arguments.engine)
+    labels = labels_of(arguments)
+    return _made("render_film", arguments, onto, **timing_options(arguments), engine=arguments.engine, labels=labels)
 
 
 def _demo(arguments: argparse.Namespace) -> Result:
@@ -109,6 +113,21 @@ def destination_of(onto: Mapping[str, Any]) -> Destination:
     with needing_blender():
         from ..scene.jobs.destination import Destination
     return Destination.of(**onto)
+
+
+def labels_of(arguments: argparse.Namespace, out: Path | None = None) -> Labels | None:
+    """The labels of `add_labels` beside a video `out`; None where none are wanted."""
+    out = arguments.out if out is None else out
+    if arguments.labels is None:
+        for name in ("label_images", "licence"):
+            if getattr(arguments, name):
+                raise UsageError(f"--{name.replace('_', '-')} needs --labels")
+        return None
+    if out.suffix.lower() != ".mp4":
+        raise UsageError("--labels needs a video (.mp4): labels tell what its frames show")
+    with needing_blender():
+        from ..scene.jobs.labelling import Labels
+    return Labels(arguments.labels, arguments.label_images, arguments.licence)
 
 
 def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:

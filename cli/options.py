@@ -152,6 +152,15 @@ def add_engine(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--engine", choices=choices, type=str.upper, default=choices[0], help="default: WORKBENCH")
 
 
+def add_labels(parser: argparse.ArgumentParser) -> None:
+    """The truth beside a video."""
+    about = "also write labels of every frame to this folder: FAPs, muscles, emotion, landmarks, camera (.mp4 only)"
+    parser.add_argument("--labels", type=Path, metavar="FOLDER", help=about)
+    about = "with --labels: areas, objects, depth and normals of every N-th frame as images (default: 0, none)"
+    parser.add_argument("--label-images", type=int, default=0, metavar="N", help=about)
+    parser.add_argument("--licence", default="", metavar="TEXT", help="with --labels: licence of the head of --mesh")
+
+
 def add_creases(parser: argparse.ArgumentParser) -> None:
     about = "draw wrinkles where skin is compressed, in Cycles and EEVEE (default: on the default head only)"
     parser.add_argument("--creases", action=argparse.BooleanOptionalAction, help=about)

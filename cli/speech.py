@@ -11,11 +11,12 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .films import destination_of, lines_of, needing_blender, silent_blender
+from .films import destination_of, labels_of, lines_of, needing_blender, silent_blender
 from .options import (
     Verbs,
     add_creases,
     add_engine,
+    add_labels,
     add_onto,
     add_scene,
     add_strength,
@@ -67,6 +68,7 @@ def add_speech_verb(verbs: Verbs) -> None:
     add_onto(say)
     add_engine(say)
     add_creases(say)
+    add_labels(say)
     about = "what to write: a stream (.fap, .fba, .json, .csv), a video (.mp4) or a .blend"
     say.add_argument("--out", type=Path, required=True, help=about)
 
@@ -78,6 +80,8 @@ def _say(arguments: argparse.Namespace) -> Result:
     suffix = arguments.out.suffix.lower()
     if suffix not in (*api.WRITABLE_STREAMS, *BLENDER):
         raise UsageError(f"--out must end in one of {', '.join((*api.WRITABLE_STREAMS, *BLENDER))}")
+    if suffix != ".mp4":
+        labels_of(arguments)
     with _heard(arguments) as (utterance, sound):
         for line in utterance.assumed:
             print(f"note: {line}", file=sys.stderr)
@@ -145,6 +149,7 @@ def _in_blender(arguments: argparse.Namespace, say: Any, sound: Path | None, tol
     with needing_blender():
         from ..scene.jobs.saying import say_file
     shared |= {name: getattr(arguments, name) for name in ("creases", "engine", "fps")} | {"sound": sound}
+    shared["labels"] = labels_of(arguments)
     with silent_blender():
         made = dict(say_file(arguments.out, say, **shared, destination=destination_of(onto), progress=ShowProgress()))
     return Result({**made, **told}, lines_of(made))

@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .faps import range_lines, ranges_of
-from .films import destination_of, lines_of, needing_blender, silent_blender
+from .films import destination_of, labels_of, lines_of, needing_blender, silent_blender
 from .options import (
     Verbs,
     add_creases,
     add_engine,
     add_fps,
     add_inertia,
+    add_labels,
     add_onto,
     add_scene,
     add_strength,
@@ -62,6 +63,7 @@ def add_stream_verb(verbs: Verbs) -> None:
     add_inertia(play)
     add_engine(play)
     add_creases(play)
+    add_labels(play)
 
     of = verb(actions, "of", _of)
     of.add_argument("source", metavar="FILE|WORD", help=f"{READABLE}, to inspect or to convert; or an emotion word")
@@ -122,11 +124,12 @@ def _play(arguments: argparse.Namespace) -> Result:
     stream, recording = _read(arguments)
     frames, said = whole_frames(replace(recording, stream=stream))
     stream = api.FapStream(frames, fps=stream.fps, name=stream.name)
-    onto, shared = onto_options(arguments), scene_options(arguments)
+    onto, shared, labels = onto_options(arguments), scene_options(arguments), labels_of(arguments, out)
     with needing_blender():
         from ..scene.jobs import playing
     shared |= {name: getattr(arguments, name) for name in ("creases", "engine", "inertia")}
     shared["destination"] = destination_of(onto)
+    shared["labels"] = labels
     with silent_blender():
         made = dict(playing.play_stream(out, stream, **shared, progress=ShowProgress()))
     data = {**made, "inertia": arguments.inertia, "assumed": [*recording.assumed, *said]}

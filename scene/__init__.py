@@ -31,5 +31,6 @@ live                  previews and readings while the user works
 cut                   sewn lips cut open
 creases               wrinkles as attributes and node groups
 pictures              films, contact sheets, studio, letters
+labels                what stands before a camera, for labels
 jobs                  whole jobs for the command line
 """

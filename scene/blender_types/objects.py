@@ -168,6 +168,9 @@ class Object(Datablock, Protocol):
     def to_mesh(self) -> Mesh: ...
     def to_mesh_clear(self) -> None: ...
     def ray_cast(self, origin: Numbers, direction: Numbers) -> tuple[bool, Numbers, Numbers, int]: ...
+    def calc_matrix_camera(
+        self, depsgraph: Depsgraph, *, x: int, y: int, scale_x: float, scale_y: float
+    ) -> Matrix: ...  # of a camera
     def closest_point_on_mesh(self, origin: Numbers) -> tuple[bool, Numbers, Numbers, int]: ...
 
 
@@ -210,6 +213,9 @@ class Lens(Protocol):
     type: str
     clip_start: float
     clip_end: float
+    lens: float
+    sensor_width: float
+    sensor_height: float
 
 
 class DepsgraphUpdate(Protocol):
@@ -224,7 +230,17 @@ class EvaluatedDatablock(Datablock, Protocol):
     original: Datablock
 
 
+class Instance(Protocol):
+    """One object as it shows at one place."""
+
+    object: Object
+    matrix_world: Matrix
+    show_self: bool
+    is_instance: bool
+
+
 class Depsgraph(Protocol):
     """Everything as modifiers, keys and drivers make it."""
 
     updates: Items[DepsgraphUpdate]
+    object_instances: Items[Instance]

@@ -38,6 +38,8 @@ class RenderSettings(Protocol):
     resolution_x: int
     resolution_y: int
     resolution_percentage: int
+    pixel_aspect_x: float
+    pixel_aspect_y: float
     use_compositing: bool
     use_sequencer: bool
     use_file_extension: bool

@@ -28,6 +28,7 @@ class Made:
     blend: Path | None = None
     film: Path | None = None
     sheet: Path | None = None
+    labels: Path | None = None
     face: str = ""
     frames: int | None = None
     shape_keys: int | None = None

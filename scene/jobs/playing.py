@@ -16,6 +16,7 @@ from ..pictures.look import Engine, Look
 from .destination import NEW_KEYS, Destination
 from .files import Made
 from .inputs import Input
+from .labelling import Labels, refuse_unwritable_labels
 from .subjects import subject
 from .words import film_baked, save_baked
 
@@ -37,6 +38,7 @@ def play_stream(
     engine: str = "WORKBENCH",
     creases: bool | None = None,
     inertia: bool = False,
+    labels: Labels | None = None,
     progress: Report | None = None,
 ) -> Made:
     """Bake a stream by a face's muscles and save the .blend or the film (.mp4).
@@ -55,7 +57,7 @@ def play_stream(
     is_blend = mesh is not None and Path(mesh).suffix.lower() == BLEND
     asked = Input.of(mesh, points, object_name, None if is_blend else stream.fps)
     look = Look(engine=Engine(engine.upper()))
-    return run(_play(Path(out), stream, asked, destination, look, creases, inertia), progress)
+    return run(_play(Path(out), stream, asked, destination, look, creases, inertia, labels), progress)
 
 
 def _play(
@@ -66,8 +68,10 @@ def _play(
     look: Look,
     creases: bool | None,
     inertia: bool,
+    labels: Labels | None,
 ) -> Work[Made]:
     """See `play_stream`."""
+    refuse_unwritable_labels(labels)
     film.refuse_unwritable_output(out)
     played = bridged(stream.expanded(), stream.fps)
     FapMotion(played.frames)  # refuses a stream without frames before anything is loaded
@@ -79,4 +83,4 @@ def _play(
     baked = yield from part_of(destination.motion(face, motion, clip, creases), 0.05, 0.95 if saves else 0.4)
     if saves:
         return save_baked(out, face, baked, look)
-    return (yield from part_of(film_baked(out, face, baked, look), 0.4, 1.0))
+    return (yield from part_of(film_baked(out, face, baked, look, motion=motion, labels=labels), 0.4, 1.0))

@@ -18,6 +18,7 @@ from ..sounds import add_sound
 from .destination import NEW_KEYS, Destination
 from .files import Made
 from .inputs import Input
+from .labelling import Labels, refuse_unwritable_labels
 from .playing import BLEND
 from .subjects import subject
 from .words import engine_of, film_baked, save_baked
@@ -40,6 +41,7 @@ def say_file(
     destination: Destination = NEW_KEYS,
     engine: str = "WORKBENCH",
     creases: bool | None = None,
+    labels: Labels | None = None,
     progress: Report | None = None,
 ) -> Made:
     """Bake speech by a face's muscles and save the .blend or the film (.mp4).
@@ -57,7 +59,7 @@ def say_file(
     if sound is not None and not Path(sound).is_file():
         raise FormatError(sound, "does not exist: check the path of the sound")
     asked, look = Input.of(mesh, points, object_name, fps), Look(engine=engine_of(engine))
-    return run(_say(Path(out), say, asked, destination, look, creases, sound), progress)
+    return run(_say(Path(out), say, asked, destination, look, creases, sound, labels), progress)
 
 
 def _say(
@@ -68,8 +70,10 @@ def _say(
     look: Look,
     creases: bool | None,
     sound: str | Path | None,
+    labels: Labels | None,
 ) -> Work[Made]:
     """See `say_file`."""
+    refuse_unwritable_labels(labels)
     film.refuse_unwritable_output(out)
     face = yield from part_of(subject(asked, creases=bool(creases)), 0.0, 0.05)
     saying = say(bake.scene_fps())
@@ -84,4 +88,5 @@ def _say(
             (moved,) = baked.results
             add_sound(bpy.context.scene, sound, frame=int(moved.frame_range[0]))
         return save_baked(out, face, baked, look)
-    return (yield from part_of(film_baked(out, face, baked, look, sound=sound), 0.4, 1.0))
+    filming = film_baked(out, face, baked, look, motion=motion, sound=sound, labels=labels, saying=saying)
+    return (yield from part_of(filming, 0.4, 1.0))

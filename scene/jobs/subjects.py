@@ -36,12 +36,14 @@ class Subject:
     remarks : how it was chosen, where there was a choice.
     in_own_scene : whether the scene around it is the user's, to be left as it is.
     staying : objects about the face that do not follow it, but show beside it.
+    file : where it comes from; None: the default head.
     """
 
     target: Target
     remarks: tuple[str, ...] = ()
     in_own_scene: bool = False
     staying: tuple[Object, ...] = ()
+    file: Path | None = None
 
     @property
     def obj(self) -> Object:
@@ -78,7 +80,7 @@ def subject(asked: Input, *, creases: bool = False) -> Work[Subject]:
         paint_parts(obj, creases=creases)
     _show(obj)
     face = _with_followers(obj, in_own_scene=asked.is_scene)
-    return replace(face, remarks=remarks + face.remarks)
+    return replace(face, remarks=remarks + face.remarks, file=asked.mesh)
 
 
 def _with_followers(obj: Object, *, in_own_scene: bool) -> Subject:

@@ -11,19 +11,20 @@ from typing import TYPE_CHECKING
 from ...errors import ParameterError
 from ...mpeg4 import Liveliness
 from ...progress import Progress, Report, Work, part_of, run
-from ..bake.motion import CueMotion
+from ..bake.motion import CueMotion, FapMotion
 from ..bake.performance import ARCHETYPES, PAUSE, cues_of
 from ..pictures import film
 from ..pictures.look import Engine, Look
 from .destination import NEW_KEYS, Baked, Destination
 from .files import Made, save
 from .inputs import Input
+from .labelling import Labels, begin, refuse_unwritable_labels
 from .sheet import write_apexes
 from .stage import cover, dress
 from .subjects import Subject, subject
 
 if TYPE_CHECKING:
-    from ...api import Cue, Timing
+    from ...api import Cue, Saying, Timing
 
 #: Pixels of a picture on the contact sheet.
 SHEET_SIZE = 640
@@ -84,13 +85,14 @@ def render_film(
     engine: str = "WORKBENCH",
     fps: float | None = None,
     creases: bool | None = None,
+    labels: Labels | None = None,
     progress: Report | None = None,
 ) -> Made:
-    """Simulate words on a face and write the film (.mp4). Parameters as in `bake_file` and `demo`."""
+    """Simulate words on a face and write the film (.mp4), and labels. Parameters as in `bake_file` and `demo`."""
     look = Look(engine=engine_of(engine))
     load = partial(subject, Input.of(mesh, points, object_name, fps), creases=bool(creases))
     cues = cues_of(words, activation=activation, timing=timing)
-    return run(_render_film(Path(out), load, cues, destination, look, creases), progress)
+    return run(_render_film(Path(out), load, cues, destination, look, creases, labels), progress)
 
 
 def demo(
@@ -149,13 +151,16 @@ def _move(
     liveliness: Liveliness | None = None,
 ) -> Work[Baked]:
     """Simulate all cues as one motion, from the scene's first frame on."""
+    return (yield from destination.motion(face, in_time(cues, liveliness), "performance", creases))
+
+
+def in_time(cues: Sequence[Cue], liveliness: Liveliness | None = None) -> CueMotion:
+    """Cues as one motion that ends at rest."""
     from ... import api
 
     end = max(cue.start + cue.duration for cue in cues)
     rest = api.Cue(api.expression("neutral"), start=end, onset=0.0, apex=PAUSE, offset=0.0)
-    return (
-        yield from destination.motion(face, CueMotion([*cues, rest], liveliness=liveliness), "performance", creases)
-    )
+    return CueMotion([*cues, rest], liveliness=liveliness)
 
 
 def _bake_file(
@@ -185,19 +190,50 @@ def save_baked(out: Path, face: Subject, baked: Baked, look: Look) -> Made:
 
 
 def _render_film(
-    out: Path, load: Load, cues: Sequence[Cue], destination: Destination, look: Look, creases: bool | None = None
+    out: Path,
+    load: Load,
+    cues: Sequence[Cue],
+    destination: Destination,
+    look: Look,
+    creases: bool | None = None,
+    labels: Labels | None = None,
 ) -> Work[Made]:
     """See `render_film`."""
+    refuse_unwritable_labels(labels)
     face = yield from _begin([out], load)
-    baked = yield from part_of(_move(face, cues, destination, creases), 0.05, 0.4)
-    return (yield from part_of(film_baked(out, face, baked, look), 0.4, 1.0))
+    motion = in_time(cues)
+    baked = yield from part_of(destination.motion(face, motion, "performance", creases), 0.05, 0.4)
+    return (yield from part_of(film_baked(out, face, baked, look, motion=motion, labels=labels), 0.4, 1.0))
 
 
-def film_baked(out: Path, face: Subject, baked: Baked, look: Look, *, sound: str | Path | None = None) -> Work[Made]:
-    """Film what was baked as one motion, and tell what is on it."""
-    rendered = yield from _filming(face, baked, out, look, sound)
+def film_baked(
+    out: Path,
+    face: Subject,
+    baked: Baked,
+    look: Look,
+    *,
+    motion: CueMotion | FapMotion,
+    sound: str | Path | None = None,
+    labels: Labels | None = None,
+    saying: Saying | None = None,
+) -> Work[Made]:
+    """Film what was baked as one motion, write labels where they are wanted, and tell what is there.
+
+    `motion` : what was baked; `saying` : the speech that it is.
+    """
+    if labels is None:
+        rendered = yield from _filming(face, baked, out, look, sound)
+    else:
+        start = int(baked.results[0].frame_range[0])
+        labelling = begin(labels, face, motion, start=start, saying=saying)
+        try:
+            rendered = yield from _filming(face, baked, out, look, sound, labelling.look)
+            labelling.write(look)
+        finally:
+            labelling.discard()
     return Made(
         film=rendered.path,
+        labels=None if labels is None else labels.folder,
         face=face.obj.name,
         frames=rendered.frame_count,
         clips=baked.reports,
@@ -206,12 +242,17 @@ def film_baked(out: Path, face: Subject, baked: Baked, look: Look, *, sound: str
 
 
 def _filming(
-    face: Subject, baked: Baked, out: Path, look: Look, sound: str | Path | None = None
+    face: Subject,
+    baked: Baked,
+    out: Path,
+    look: Look,
+    sound: str | Path | None = None,
+    watch: film.Watch | None = None,
 ) -> Work[film.FilmResult]:
     """Render what was baked as one motion."""
     (moved,) = baked.results
     start, end = (int(frame) for frame in moved.frame_range)
-    return film.render_film(face.shown(), out, start=start, end=end, look=look, sound=sound)
+    return film.render_film(face.shown(), out, start=start, end=end, look=look, sound=sound, watch=watch)
 
 
 def _demo(out: Path, load: Load, cues: Sequence[Cue], look: Look, creases: bool | None = None) -> Work[Made]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import shutil
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import bpy
 
@@ -20,6 +21,8 @@ from .look import Camera, Look, usable_engine
 from .seen import look_ahead, refuse_hidden
 from .studio import render_frame, studio
 
+#: Looks at a studio's scene at a frame that has been rendered.
+Watch: TypeAlias = Callable[[Scene, int], None]
 #: The share of looking at the frames before they are rendered.
 LOOKING = 0.05
 
@@ -65,6 +68,7 @@ def render_film(
     look: Look | None = None,
     frames: str | Path | None = None,
     sound: str | Path | None = None,
+    watch: Watch | None = None,
 ) -> Work[FilmResult]:
     """Render the face of ``objects[0]``, well framed and lit, as an MP4; the portrait camera goes where the face goes.
 
@@ -75,6 +79,7 @@ def render_film(
     start, end : first and last frame of the timeline.
     frames : a folder to keep the PNG frames in; by default they are thrown away.
     sound : a sound file that begins with the first frame.
+    watch : called with the studio's scene and each frame once that is rendered.
 
     Raises
     ------
@@ -94,7 +99,7 @@ def render_film(
     _, remark = usable_engine(look.engine)
     with tempfile.TemporaryDirectory(prefix="risorius-") as temporary:
         folder = kept if kept is not None else Path(temporary)
-        pictures, said = yield from render_frames(objects, folder, start=start, end=end, look=look)
+        pictures, said = yield from render_frames(objects, folder, start=start, end=end, look=look, watch=watch)
         if film is not None:
             yield Progress(0.95, "Encoding the video")
             shutil.copyfile(encode(pictures, Path(temporary) / "film.mp4", look=look, sound=sound), film)
@@ -102,7 +107,7 @@ def render_film(
 
 
 def render_frames(
-    objects: Sequence[Object], folder: Path, *, start: int, end: int, look: Look
+    objects: Sequence[Object], folder: Path, *, start: int, end: int, look: Look, watch: Watch | None = None
 ) -> Work[tuple[list[Path], tuple[str, ...]]]:
     """Render frames `start` to `end` as numbered PNGs into `folder`; also returns remarks on what they do not show."""
     pictures = []
@@ -118,6 +123,8 @@ def render_frames(
             if camera is not None:
                 camera.go_to(frame)
             pictures.append(render_frame(scene, frame, folder))
+            if watch is not None:
+                watch(scene, frame)
             done = LOOKING + (0.95 - LOOKING) * (index + 1) / count
             yield Progress(done, f"Rendering frame {index + 1} of {count}")
     return pictures, said

@@ -1,0 +1,239 @@
+"""The truth beside what a job renders: a folder of tables, pictures, a schema and a data card (`labels`).
+
+    labelling = begin(Labels(Path("joy-labels")), face, motion, start=1)
+    ... each time a frame has been rendered in a studio: labelling.look(scene, frame)
+    labelling.write(look)
+
+or, for a motion that is baked and a studio that stands: `write_labels`.
+"""
+
+from __future__ import annotations
+
+import platform
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ...errors import ParameterError
+from ...resources import PACKAGE
+from ..bake.motion import CueMotion, FapMotion
+from ..bake.timing import scene_fps
+from ..blender_types import Scene
+from ..faces import FaceSource, face_of
+from ..pictures.look import Look
+from .subjects import Subject
+
+if TYPE_CHECKING:
+    from ...api import Saying
+    from ...labels.record import Record
+
+#: Whose the default head is.
+OWN_LICENCE = "GPL-3.0-or-later (Risorius); its measures: MIT, USC Institute for Creative Technologies"
+
+
+@dataclass(frozen=True)
+class Labels:
+    """Which labels go where.
+
+    Attributes
+    ----------
+    folder : what is written; earlier labels there are replaced.
+    pictures : areas, objects, depth and normals of every n-th frame, from the first on; 0: none.
+    licence : of the head, for the data card.
+    facts : what else the data card is to say: name -> text or figures.
+    """
+
+    folder: Path
+    pictures: int = 0
+    licence: str = ""
+    facts: Mapping[str, object] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.pictures < 0:
+            raise ParameterError("pictures", "must be 0 or more: of every n-th frame", self.pictures)
+
+
+class Labelling:
+    """Labels of one motion in the making: nothing is seen of them until `write`."""
+
+    def __init__(self, labels: Labels, source: FaceSource, record: Record, facts: Mapping[str, object]) -> None:
+        from ...labels.frames import Subject as Labelled
+        from ...labels.package import Draft
+
+        self._labels, self._source, self._record, self._facts = labels, source, record, facts
+        self._labelled, self._objects = Labelled.of(face_of(source)), tuple[str, ...]()
+        self._draft = Draft(labels.folder)
+
+    def look(self, scene: Scene, number: int) -> None:
+        """Take in what a scene shows at a frame of the timeline, through its camera.
+
+        Raises
+        ------
+        SceneError : a panoramic camera, or a modifier that makes another mesh of the face.
+        FormatError : a picture cannot be written.
+        """
+        from ...labels.frames import Frame
+        from ...labels.pictures import depth_step
+        from ..labels.lens import view_of
+        from ..labels.stage import stage_of
+
+        if scene.frame_current != number:
+            scene.frame_set(number)
+        scene.view_layers[0].update()
+        stage = stage_of(scene, self._source.pieces)
+        places = [
+            stage.local[piece.slice] @ piece.to_metres[:3, :3].T + piece.to_metres[:3, 3]
+            for piece in self._source.pieces
+        ]
+        measured = self._labelled.face.measure(np.concatenate(places))
+        frame = Frame(self._labelled, view_of(scene), stage.world, measured, stage.shown)
+        self._objects = tuple(stage.shown.objects)
+        every = self._labels.pictures
+        if not every or len(self._record) % every:
+            self._record.add(number, frame)
+            return
+        name = f"{number:05d}.png"
+        for kind, pixels in frame.pictures():
+            self._draft.add_picture(kind, name, pixels)
+        self._record.add(number, frame, picture=name, depth_step=depth_step(frame.drawn.depth))
+
+    def write(self, look: Look) -> Path:
+        """Write it all; returns the folder.
+
+        Raises
+        ------
+        FormatError : the folder cannot be written; what was there before is as it was.
+        """
+        from ...labels.card import Card
+
+        facts = {
+            **self._facts,
+            "picture": _told(look),
+            "frames": len(self._record),
+            "frames_per_second": self._record.fps,
+            "objects": self._objects,
+            **self._labels.facts,
+        }
+        self._draft.finish(self._record.tables(), Card.of(**facts))
+        return self._labels.folder
+
+    def discard(self) -> None:
+        """Give it up; nothing has been written then."""
+        self._draft.discard()
+
+
+def refuse_unwritable_labels(labels: Labels | None) -> None:
+    """Refuse a folder for labels that cannot be written or holds something else, before anything is rendered."""
+    from ...labels.package import Draft
+
+    if labels is not None:
+        Draft(labels.folder).discard()
+
+
+def begin(
+    labels: Labels, face: Subject, motion: CueMotion | FapMotion, *, start: int, saying: Saying | None = None
+) -> Labelling:
+    """Begin labels of a motion that is baked on a face.
+
+    Parameters
+    ----------
+    motion : what was baked. start : frame of the timeline at which it begins.
+    saying : the speech that the motion is.
+
+    Raises
+    ------
+    FormatError : a folder that cannot be written, or holds something else.
+    """
+    from ... import api
+    from ...labels.felt import Felt
+    from ...labels.record import Record
+
+    fps, source = scene_fps(), face.target.source()
+    whose = face_of(source)
+    if isinstance(motion, CueMotion):
+        felt = Felt.of_cues(motion.cues, fps)
+        efforts = api.performance_efforts(
+            whose, motion.cues, fps, contractions=motion.contractions, liveliness=motion.liveliness
+        )
+    else:
+        stream = motion.stream
+        felt = Felt.of_stream(len(stream), motion.emotions) if saying is None else Felt.of_saying(saying)
+        efforts = api.stream_efforts(whose, stream, emotions=motion.emotions, planned=motion.planned)
+    record = Record(felt, efforts, start, fps)
+    facts = {"made_with": _made_with(), "head": _head(face, source, labels), "motion": _motion(motion)}
+    return Labelling(labels, source, record, facts)
+
+
+def _told(look: Look) -> dict[str, object]:
+    """A look as the data card tells it."""
+    return {
+        "engine": str(look.engine),
+        "width": look.width,
+        "height": look.height,
+        "camera": str(look.camera).lower(),
+        "yaw_degrees": round(float(np.degrees(look.yaw)), 6),
+        "background": list(look.background),
+    }
+
+
+def _made_with() -> dict[str, object]:
+    """Versions of all that had a hand in it."""
+    import scipy
+
+    manifest = tomllib.loads((PACKAGE / "blender_manifest.toml").read_text(encoding="utf-8"))
+    return {
+        "risorius": manifest["version"],
+        "blender": bpy.app.version_string,
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "scipy": scipy.__version__,
+        "system": f"{platform.system()} {platform.machine()}",
+    }
+
+
+def _head(face: Subject, source: FaceSource, labels: Labels) -> dict[str, object]:
+    """Whose head it is."""
+    path = face.file
+    own = path is None and not face.in_own_scene
+    return {
+        "name": face.obj.name,
+        "file": "" if path is None else path.name,
+        "sha256": "" if path is None else sha256(path.read_bytes()).hexdigest(),
+        "vertices": len(source.vertices),
+        "licence": labels.licence or (OWN_LICENCE if own else ""),
+    }
+
+
+def _motion(motion: CueMotion | FapMotion) -> dict[str, object]:
+    """What was asked for, with all seeds."""
+    if isinstance(motion, FapMotion):
+        return {"kind": "speech" if motion.planned else "stream of FAPs", "frames": len(motion.stream)}
+    lively = motion.liveliness
+    drawn = {} if lively is None else {name: getattr(lively, name) for name in ("blinks", "head", "eyes")}
+    return {
+        "kind": "expressions in time",
+        "cues": [
+            {
+                "word": cue.profile.word or "",
+                "angle": cue.profile.angle,
+                "activation": cue.profile.activation,
+                "start": cue.start,
+                "onset": cue.onset,
+                "apex": cue.apex,
+                "offset": cue.offset,
+                "peak": cue.peak,
+                "ramp": str(cue.ramp),
+                "seed": cue.seed,
+            }
+            for cue in motion.cues
+        ],
+        "liveliness": {name: {"amount": each.amount, "seed": each.seed} for name, each in drawn.items()},
+        "tissue": motion.tissue if isinstance(motion.tissue, str) else repr(motion.tissue),
+        "drive": "natural",
+    }
