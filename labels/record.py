@@ -54,7 +54,7 @@ MUSCLE = (
 SIDES = {"l": "left", "r": "right"}
 
 
-@dataclass
+@dataclass(eq=False)
 class Record:
     """What has been seen of a motion so far.
 
