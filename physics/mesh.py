@@ -215,9 +215,7 @@ def adjacency(vertices: Floats, polygons: Polygons, *, diagonals: bool = True) -
     A graph for shortest paths along the surface (`scipy.sparse.csgraph`); vertices in one spot stay joined.
     """
     corners(polygons, len(vertices))
-    pairs = unique_edges(polygons)
-    if diagonals:
-        pairs = np.concatenate([pairs, face_diagonals(polygons)])
+    pairs = _unique_pairs([face_pairs(polygons)[0]]) if diagonals else unique_edges(polygons)
     length = np.maximum(np.linalg.norm(vertices[pairs[:, 0]] - vertices[pairs[:, 1]], axis=1), SHORTEST)
     rows, columns = np.concatenate([pairs, pairs[:, ::-1]]).T
     return sparse.csr_array((np.tile(length, 2), (rows, columns)), shape=(len(vertices), len(vertices)))

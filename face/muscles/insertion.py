@@ -30,16 +30,16 @@ INSERTION = read_figures("skin.insertion", InsertionFigures)
 def force_density(skin: OuterSkin, muscle: PlacedMuscle) -> Floats:
     """(n, 3) pull per area of skin at full contraction, up to a factor; 0 outside the muscle's zone and region."""
     row = muscle.row
-    force: Floats = row.pull(skin) * region_mask(skin, row.region)[:, None]
-    force *= smoothstep((skin.positions[:, 2] - INSERTION.behind) / INSERTION.over)[:, None]
-    if row.sides is Sides.HALVES:
-        force *= orbicularis_oris.half(skin, row.side)[:, None]
-    return force
+    side = row.side if row.sides is Sides.HALVES else 0
+    share = skin.once(f"insertion {row.region} {side}", lambda: insertion(skin, row.region, side))
+    return np.asarray(row.pull(skin) * share[:, None])
 
 
-def region_mask(skin: OuterSkin, region: Region) -> Floats:
-    """(n,) 1 where a muscle of the region may pull, falling smoothly to 0."""
-    return _REGIONS[region](skin) if region in _REGIONS else np.ones(skin.vertex_count)
+def insertion(skin: OuterSkin, region: Region, side: int = 0) -> Floats:
+    """(n,) 1 where muscles of a region may pull, falling smoothly to 0; of one half, +1 left or -1 right."""
+    front = smoothstep((skin.positions[:, 2] - INSERTION.behind) / INSERTION.over)
+    share = _REGIONS[region](skin) * front if region in _REGIONS else front
+    return share * orbicularis_oris.half(skin, side) if side else share
 
 
 #: Regions that are not the whole face.

@@ -6,7 +6,7 @@ eye sockets are left out of it and follow (`followers.py`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -176,10 +176,15 @@ class OuterSkin:
 
     def lid_distances(self, side: str) -> tuple[Floats, Floats]:
         """Distances (n,) along the skin from the upper and from the lower lid's edge of eye "l" or "r", metres."""
-        for name in ("upper", "lower"):
-            if side + name not in self._cache:
-                self._cache[side + name] = self.distance_from(getattr(self.eyes[side], name))
-        return self._cache[side + "upper"], self._cache[side + "lower"]
+        eye = self.eyes[side]
+        upper = self.once(f"{side}upper", lambda: self.distance_from(eye.upper))
+        return upper, self.once(f"{side}lower", lambda: self.distance_from(eye.lower))
+
+    def once(self, name: str, work: Callable[[], Floats]) -> Floats:
+        """What is worked out of this skin under a name, worked out the first time alone."""
+        if name not in self._cache:
+            self._cache[name] = work()
+        return self._cache[name]
 
     @cached_property
     def lid_edge_distance(self) -> Floats:

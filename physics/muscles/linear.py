@@ -60,8 +60,15 @@ class LinearMuscle:
 
         Zero outside the zone: beyond the radius, outside the angle, behind and at the attachment.
         """
+        force = np.zeros((len(positions), 3))
         toward = self.attachment - np.asarray(positions, dtype=np.float64)
-        distance = np.linalg.norm(toward, axis=1)  # (6)
+        squared = np.einsum("vi,vi->v", toward, toward)
+        near = np.flatnonzero(squared <= self.radius**2)  # most skin is beyond the zone
+        force[near] = self._within(toward[near], np.sqrt(squared[near]))
+        return force
+
+    def _within(self, toward: Floats, distance: Floats) -> Floats:
+        """Force on nodes by their way to the attachment (k, 3) and its length (k,) (6), no longer than the radius."""
         unit = directions(toward, distance)  # (10)
         axis = (self.attachment - self.insertion) / self.length
         # The angle from its tangent keeps its digits near the axis, where arccos loses half of them.

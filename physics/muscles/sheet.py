@@ -83,6 +83,7 @@ class SheetMuscle:
         sideways = line - (line @ pull) * pull
         sideways = sideways / np.linalg.norm(sideways)
         inside = (offset @ pull <= 0) & (np.abs(offset @ sideways) <= self.width / 2)
-        ratio, reach = distance / self.fibre_length, self.length / self.fibre_length  # (21), (22)
-        window = np.where(inside, longitudinal(ratio, reach, self.exponent), 0.0)  # (20)
+        ratio, reach = distance[inside] / self.fibre_length, self.length / self.fibre_length  # (21), (22)
+        window = np.zeros(len(offset))
+        window[inside] = longitudinal(ratio, reach, self.exponent)  # (20)
         return np.asarray((self.scale * window)[:, None] * pull)

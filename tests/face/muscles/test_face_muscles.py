@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from risorius import api
 from risorius.api import Face, Part
 from risorius.face.bodies.contact import AT_REST
 from risorius.face.bodies.eyeball_surface import EyeballSurface
 from risorius.face.mechanisms.lid_movers import LidMove
+from risorius.face.muscles import insertion
 from risorius.face.muscles.insertion import force_density
 from risorius.face.muscles.kinds import KINDS
 from risorius.face.muscles.row import Region
+from risorius.face.skin.outer import OuterSkin
 from scipy.spatial.transform import Rotation
 
 #: The kinds of muscle of the second paper's line and of every FACS table; the parts a name begins with.
@@ -239,3 +244,18 @@ def test_the_simpler_drives_smile_too(face: Face, drive: str) -> None:
     else:
         assert pose.contractions["zygomaticus_major_l"] > 0.05
         assert (pose.achieved[[11, 12]] > 100.0).all()
+
+
+def test_insertions_are_worked_out_once_for_each_region_and_half(monkeypatch: pytest.MonkeyPatch) -> None:
+    face, made = api.default_face(), list[tuple[Region, int]]()
+    skin = replace(face.anatomy.skin, _cache={})
+    whole = insertion.insertion
+
+    def counted(skin: OuterSkin, region: Region, side: int = 0) -> Any:
+        made.append((region, side))
+        return whole(skin, region, side)
+
+    monkeypatch.setattr(insertion, "insertion", counted)
+    for muscle in face.anatomy.muscles:
+        force_density(skin, muscle)
+    assert len(made) == len(set(made)) < len(face.anatomy.muscles) / 3
