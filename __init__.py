@@ -11,7 +11,8 @@ The layers, each knowing only those above it:
 - ``api`` the public interface, arrays in and out, without Blender: what scripts and the command line use;
 - ``scene`` Blender's meshes, shape keys, actions and renders to arrays and back; registers nothing;
 - ``track`` films and cameras to parameters, in plain Python;
-- ``cli`` the command line over ``api``, ``scene`` and ``track``;
+- ``batch`` many clips from a table, each whole or not at all, over ``api`` and ``scene``;
+- ``cli`` the command line over ``api``, ``scene``, ``track`` and ``batch``;
 - ``operators`` everything Blender registers: operators, panels, properties.
 
 ``presets`` holds the tables that a user may copy and edit.

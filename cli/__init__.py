@@ -1,4 +1,4 @@
-"""The command line: argparse over `api` and `track`, and over the jobs of `scene` for what needs Blender.
+"""The command line: argparse over `api`, `track` and `batch`, and over the jobs of `scene` for what needs Blender.
 
 `risorius VERB`, `python -m risorius VERB` and `blender --command risorius VERB` are the same. Exit code 0 on success,
 2 on wrong usage, 1 otherwise. With `--json` the result is one JSON object on standard output.
@@ -6,6 +6,7 @@
 emotions       profile
 faces          measure, points
 films          bake, render, demo: they need Blender
+batch          batch: many clips and stills from a table
 recognition    recognise
 streams        fap
 speech         say
@@ -29,6 +30,7 @@ import sys
 
 from ..errors import RisoriusError
 from .animation_tables import add_table_verb
+from .batch import add_batch_verb
 from .capture import add_capture_verb
 from .emotions import add_emotion_verbs
 from .exports import add_export_verb
@@ -53,7 +55,7 @@ def main(argv: list[str] | None = None) -> int:
     Returns
     -------
     int
-        0 on success, 2 on wrong usage, 1 on any error that Risorius raises on purpose.
+        0 on success, 2 on wrong usage, 1 on any error that Risorius raises on purpose, or where jobs of a batch failed.
     """
     parser = _parser()
     try:
@@ -70,7 +72,7 @@ def main(argv: list[str] | None = None) -> int:
         return 1
     with contextlib.suppress(BrokenPipeError):  # the reader (head, less) has seen enough
         print(json.dumps(plain(result.data), indent=1) if arguments.json else "\n".join(result.lines), flush=True)
-    return 0
+    return result.code
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -83,6 +85,7 @@ def _parser() -> argparse.ArgumentParser:
     add_table_verb(verbs)
     add_track_verb(verbs)
     add_film_verbs(verbs)
+    add_batch_verb(verbs)
     add_face_verbs(verbs)
     add_capture_verb(verbs)
     add_export_verb(verbs)

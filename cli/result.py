@@ -9,10 +9,11 @@ from dataclasses import dataclass, fields, is_dataclass
 
 @dataclass(frozen=True)
 class Result:
-    """What a verb has to say: `data` for --json, `lines` for people."""
+    """What a verb has to say: `data` for --json, `lines` for people; `code` is the exit code."""
 
     data: Mapping[str, object]
     lines: Sequence[str]
+    code: int = 0
 
 
 class UsageError(Exception):

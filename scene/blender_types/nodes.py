@@ -19,6 +19,8 @@ class NodeSocket(Protocol):
     type: str
     identifier: str
     default_value: object
+    is_linked: bool
+    links: Items[NodeLink]
 
 
 class Node(Protocol):

@@ -2,6 +2,8 @@
 
 words, playing, shapes    from words; from a FAP stream; the shape keys that engines know
 saying                    speech, with its sound
+clip, shown               one clip with all that is asked of it; what it shows
+skin_colour               another colour for the skin
 subjects                  whose face it is: the default head, or the mesh of a file that looks most like a face
 destination               where its bakes go: new shape keys, or the controls that the character has
 inputs                    that file: opened or read, and the meshes in it

@@ -17,7 +17,7 @@ from ..blender_types import Object, Scene
 from ..sounds import add_sound
 from .following import FollowingCamera
 from .framing import framing_of
-from .look import Camera, Look, usable_engine
+from .look import Camera, Look, unstamp, usable_engine
 from .seen import look_ahead, refuse_hidden
 from .studio import render_frame, studio
 
@@ -153,6 +153,7 @@ def encode(
         if sound is not None:
             add_sound(scene, sound, frame=1)
             render.ffmpeg.audio_codec = "AAC"
+        unstamp(render)
         render.fps, render.fps_base = rate
         render.resolution_x, render.resolution_y, render.resolution_percentage = look.width, look.height, 100
         scene.view_settings.view_transform = "Standard"

@@ -1,0 +1,201 @@
+"""The verb batch: many clips and stills from a table."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import signal
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from ..errors import RisoriusError
+from ..progress import Progress
+from .films import needing_blender, silent_blender
+from .options import Verbs, verb
+from .result import Result
+
+if TYPE_CHECKING:
+    from ..batch.doing import Told
+    from ..batch.jobs import Job
+    from ..batch.place import JobSet
+    from ..batch.running import Outcome
+    from ..batch.table import JobTable
+
+#: Seconds between two lines about one job.
+PATIENCE = 20.0
+
+
+def add_batch_verb(verbs: Verbs) -> None:
+    """Add batch to the verbs."""
+    batch = verb(verbs, "batch", _batch)
+    about = "a row for each clip or still, .csv or .toml; docs/batch.md lists the columns"
+    batch.add_argument("table", type=Path, metavar="TABLE", help=about)
+    batch.add_argument("--out", type=Path, required=True, help="the folder of the set; started again, it goes on there")
+    about = "only this part of the jobs, as 3/10: for the job arrays of a cluster"
+    batch.add_argument("--shard", metavar="PART/PARTS", help=about)
+    batch.add_argument("--dry-run", action="store_true", help="say what would be done, and how long it would take")
+
+
+def _batch(arguments: argparse.Namespace) -> Result:
+    """Make many clips and stills from a table, each whole or not at all; started again, go on where it was."""
+    from ..batch.place import JobSet
+    from ..batch.running import shard
+    from ..batch.table import read_jobs
+
+    table = read_jobs(arguments.table)
+    jobs = list(table.jobs) if arguments.shard is None else shard(table.jobs, arguments.shard)
+    place = JobSet(arguments.out)
+    for problem in table.problems:
+        print(f"skipped: {problem}", file=sys.stderr)
+    if arguments.dry_run:
+        return _foretold(table, jobs, place)
+    with needing_blender():
+        from ..batch.making import ready_blender
+
+        ready_blender(place.heads)
+    place.prepare()
+    return _worked_off(arguments, table, jobs, place)
+
+
+def _foretold(table: JobTable, jobs: Sequence[Job], place: JobSet) -> Result:
+    """What would be done."""
+    from ..batch.measures import HEAD, START, Pace, for_people
+    from ..batch.place import State
+
+    pace, found = Pace(), {state: list[str]() for state in State}
+    for job in jobs:
+        state, record, _ = place.state(job, check=False)
+        found[state].append(job.id)
+        if state is State.DONE and record is not None:
+            pace.note(job, record.seconds)
+    to_make = [job for job in jobs if job.id in {*found[State.MISSING], *found[State.DAMAGED]}]
+    heads = {job.text("head") for job in to_make}
+    seconds = pace.left(to_make) + (START + HEAD * len(heads) if to_make else 0.0)
+    by = f"as the {len(found[State.DONE])} jobs took that are done" if pace.guessed else "by the manual's figures"
+    data = {
+        "jobs": len(jobs),
+        "bad_rows": [str(problem) for problem in table.problems],
+        "heads": len(heads),
+        "seconds": seconds,
+        **{state.name.lower(): names for state, names in found.items()},
+    }
+    lines = [
+        f"{len(jobs)} jobs on {len(heads)} heads, {len(table.problems)} problems in rows that would be skipped",
+        f"{len(found[State.DONE])} are done, {len(to_make)} would be made",
+        f"it would take {for_people(seconds)} in one process ({by})",
+    ]
+    for state in (State.OTHER, State.FOREIGN):
+        lines += [f"would fail: {name}: {state.value}" for name in found[state]]
+    bad = bool(table.problems or found[State.OTHER] or found[State.FOREIGN])
+    return Result(data, lines, code=int(bad))
+
+
+def _worked_off(arguments: argparse.Namespace, table: JobTable, jobs: Sequence[Job], place: JobSet) -> Result:
+    """Make the jobs, and say what became of them."""
+    from ..batch.doing import DiskFullError
+    from ..batch.manifest import NAME, write_manifest
+    from ..batch.running import work_off
+
+    shown = Shown(len(jobs))
+    name = NAME if arguments.shard is None else f"manifest.{arguments.shard.replace('/', '-of-')}.jsonl"
+    stopped = ""
+    try:
+        with silent_blender(), stopped_in_order(shown):
+            work_off(jobs, place, shown.tell, progress=shown.step)
+    except DiskFullError as error:
+        stopped = str(error)
+    except KeyboardInterrupt:
+        stopped = "stopped: start again to go on"
+    with contextlib.suppress(*([RisoriusError] if stopped else [])):  # a full disk has no room for it, either
+        write_manifest(jobs, place, name)
+    return _told(table, jobs, place, shown.outcome, stopped)
+
+
+def _told(table: JobTable, jobs: Sequence[Job], place: JobSet, outcome: Outcome, stopped: str) -> Result:
+    """What became of all jobs."""
+    done = len(outcome.made) + len(outcome.kept)
+    failed = {told.id: told.why for told in outcome.failed}
+    data = {
+        "jobs": len(jobs),
+        "made": [told.id for told in outcome.made],
+        "kept": [told.id for told in outcome.kept],
+        "failed": failed,
+        "bad_rows": [str(problem) for problem in table.problems],
+        "stopped": stopped,
+        "out": place.folder,
+    }
+    lines = [f"{done} of {len(jobs)} clips are in {place.folder}: {len(outcome.made)} made now"]
+    lines += [f"failed: {name}: {why}" for name, why in failed.items()]
+    lines += [f"skipped: {problem}" for problem in table.problems]
+    lines += [stopped] if stopped else []
+    return Result(data, lines, code=int(bool(failed or table.problems or stopped)))
+
+
+class Shown:
+    """Progress of a batch on standard error: a line for each job, and now and then one about a long one."""
+
+    def __init__(self, count: int) -> None:
+        """So many jobs are to be done."""
+        from ..batch.measures import Pace
+        from ..batch.running import Outcome
+
+        self.outcome, self.stop = Outcome(), False
+        self._count, self._pace, self._said_at = count, Pace(), time.monotonic()
+
+    def tell(self, job: Job, told: Told, left: Sequence[Job]) -> None:
+        """A job is finished."""
+        from ..batch.doing import How
+        from ..batch.measures import for_people
+
+        self.outcome.note(told)
+        done = self._count - len(left)
+        line = f"{100 * done // max(self._count, 1):3d} %  {job.id} {told.how.value}"
+        if told.how is How.MADE:
+            self._pace.note(job, told.seconds)
+            line += f" in {for_people(told.seconds)}"
+        line += f" ({done} of {self._count}"
+        line += f", about {for_people(self._pace.left(left))} left)" if left else ")"
+        self._say(line)
+        if told.why:
+            self._say(f"       {told.why}")
+        for remark in told.remarks:
+            self._say(f"       note: {remark}")
+        self._refuse_to_go_on()
+
+    def step(self, step: Progress) -> None:
+        """A job is on its way."""
+        self._refuse_to_go_on()
+        if time.monotonic() - self._said_at >= PATIENCE:
+            self._say(f"       {step.text}")
+
+    def _refuse_to_go_on(self) -> None:
+        """End where the user has asked for it."""
+        if self.stop:
+            raise KeyboardInterrupt
+
+    def _say(self, line: str) -> None:
+        """Print a line."""
+        self._said_at = time.monotonic()
+        print(line, file=sys.stderr, flush=True)
+
+
+@contextlib.contextmanager
+def stopped_in_order(shown: Shown) -> Iterator[None]:
+    """Ctrl-C and SIGTERM end the batch at the next step of a job, which is left as if it had never begun."""
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        if shown.stop:  # twice: at once
+            raise KeyboardInterrupt
+        shown.stop = True
+        print("stopping after this step; once more stops at once", file=sys.stderr, flush=True)
+
+    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
