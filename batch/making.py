@@ -176,6 +176,8 @@ def _look(job: Job) -> Look:
         lens=job.number("lens"),
         distance=job.maybe("distance"),
         backdrop=linear_colour(job.text("background")),
-        lighting=Lighting(job.number("light"), math.radians(job.number("light_yaw")), job.number("ambient")),
+        lighting=Lighting(
+            job.number("light"), math.radians(job.number("light_yaw")), job.number("ambient"), stays=True
+        ),
         samples=job.whole("samples") if job.text("engine") == "CYCLES" else None,
     )

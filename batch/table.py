@@ -258,5 +258,3 @@ def _file(cells: Cells, values: dict[str, Value], name: str) -> Path:
     """A file that a row names, seen from the table's folder."""
     path = Path(str(values[name])).expanduser()
     return path if path.is_absolute() else cells.path.parent / path
-
-

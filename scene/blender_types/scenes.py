@@ -66,6 +66,8 @@ class Shading(Protocol):
     show_shadows: bool
     show_specular_highlight: bool
     studio_light: str
+    studiolight_rotate_z: float
+    use_world_space_lighting: bool
 
 
 class Display(Protocol):

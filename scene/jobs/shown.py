@@ -112,5 +112,3 @@ def _most(frames: Floats) -> int:
 def _unknown(count: int) -> Floats:
     """(T, 6) strengths that nobody knows."""
     return np.full((count, len(ARCHETYPES)), np.nan)
-
-

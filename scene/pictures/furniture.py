@@ -40,6 +40,10 @@ def furnish(scene: Scene, framing: Framing, look: Look) -> Furniture:
     SceneError : the engine is not available.
     """
     apply_look(scene, look)
+    if look.lighting.stays:
+        shading, forward = scene.display.shading, framing.forward
+        shading.use_world_space_lighting = True
+        shading.studiolight_rotate_z = -look.lighting.yaw - float(np.arctan2(forward[0], -forward[1]))
     if any(has_irises(obj) for obj in scene.objects):
         scene.display.shading.color_type = "TEXTURE"
     return Furniture(_camera(scene, framing, look), tuple(_lights(scene, framing, look.lighting)), _world(scene, look))

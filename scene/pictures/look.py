@@ -50,11 +50,14 @@ class Lighting:
     strength : as a multiple of the usual.
     yaw : how far they are turned about the face to the subject's left, radians.
     ambient : how much of the background's light falls on the face, in Cycles and EEVEE.
+    stays : in Workbench, whether the lights stay about the face when the camera goes around it, and have a yaw, as in
+        Cycles and EEVEE; without, they go with the camera.
     """
 
     strength: float = 1.0
     yaw: float = 0.0
     ambient: float = AMBIENT
+    stays: bool = False
 
 
 #: Where nothing else is said.

@@ -172,7 +172,8 @@ def test_a_full_disk_at_any_write_ends_the_batch_and_loses_nothing(
         return run
 
     with monkeypatch.context() as patch:
-        for owner, name in ((Path, "write_bytes"), (Path, "write_text"), (Path, "mkdir"), (os, "rename"), (os, "fsync")):
+        writes = ((Path, "write_bytes"), (Path, "write_text"), (Path, "mkdir"), (os, "rename"), (os, "fsync"))
+        for owner, name in writes:
             patch.setattr(owner, name, limited(getattr(owner, name)))
         with pytest.raises(DiskFullError, match="the disk is full: free some room"):
             work(jobs, place)
@@ -235,7 +236,9 @@ def test_without_locks_two_processes_still_give_one_result(
     assert place.left() == set()
 
 
-def test_what_a_killed_process_leaves_is_removed_and_its_job_comes_last(tmp_path: Path, place: JobSet, work: Run) -> None:
+def test_what_a_killed_process_leaves_is_removed_and_its_job_comes_last(
+    tmp_path: Path, place: JobSet, work: Run
+) -> None:
     jobs = jobs_of(tmp_path, 3)
     (place.folder / ".risorius" / "unfinished" / "c0~abc").mkdir()
     (place.folder / ".risorius" / "unfinished" / "c0~abc" / "half").write_text("half")

@@ -110,7 +110,9 @@ def test_each_column_of_the_picture_changes_it(
 @pytest.mark.slow
 def test_the_background_has_the_colour_that_is_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "jobs.csv"
-    path.write_text("id,emotion,outputs,size,background,light\na,neutral,still,64,#336699,1\nb,neutral,still,64,#336699,2\n")
+    path.write_text(
+        "id,emotion,outputs,size,background,light\na,neutral,still,64,#336699,1\nb,neutral,still,64,#336699,2\n"
+    )
     batch(path, tmp_path / "set", capsys=capsys)
     for name in ("a", "b"):
         corner = pictured(tmp_path / "set" / name / "still.png")[-1, 0]
