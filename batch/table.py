@@ -220,8 +220,10 @@ def _known_words(cells: Cells, values: dict[str, Value]) -> None:
     felt = {"word": word} if word is not None else {"angle": angle}
     cells.made(lambda: api.expression(**felt, **options), "variant" if variant is not None else "emotion")  # type: ignore[arg-type]
     timing = api.load_timings()[str(values["timing"])]
-    given = {name: values[name] for name in ("onset", "apex", "offset")}
-    seconds = sum(float(getattr(timing, name) if value is None else value) for name, value in given.items())  # type: ignore[arg-type]
+    seconds = 0.0
+    for name in ("onset", "apex", "offset"):
+        value = values[name]
+        seconds += value if isinstance(value, float) else getattr(timing, name)
     if values["text"] is None and seconds <= 0.0:
         raise cells.refuse("must be more than 0 s together with apex and offset: nothing would show", "onset")
 
