@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo quick test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence recording-evidence speech-evidence rigs strangers clean
+.PHONY: help demo quick test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence recording-evidence speech-evidence rigs strangers fuzz clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -61,6 +61,9 @@ strangers: ## what outside judges see in rendered faces; installs them; ARGS="--
 
 docs-pictures: ## the manual's pictures, taken in a real Blender window; ARGS="--only wheel" for some of them
 	@$(SETUP) dev blender && .venv/bin/python tools/docs_pictures.py $(ARGS)
+
+fuzz: ## damaged files for every reader; ARGS="--seconds 600 --only mesh" for longer or fewer, "--again FILE" for one
+	@$(SETUP) bpy-4.5 && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/fuzz.py $(ARGS)
 
 clean: ## remove what the commands above made, downloads included
 	rm -rf .venv .venv-* .cache .typecheck .mypy_cache .ruff_cache .pytest_cache build dist out *.egg-info

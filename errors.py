@@ -8,9 +8,20 @@ from __future__ import annotations
 
 from pathlib import Path
 
+#: Characters of a message, and of a name or value in it: what a file or a caller gives may be of any length.
+LONGEST, LONGEST_PART = 1000, 120
+
+
+def short(text: str, most: int = LONGEST_PART) -> str:
+    """A text that people read: what is longer loses its middle, for the remedy stands at the end."""
+    return text if len(text) <= most else f"{text[: most // 2]} ... {text[-(most // 3) :]}"
+
 
 class RisoriusError(Exception):
     """Root of the tree: catch this to catch everything Risorius raises on purpose."""
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(short(message, LONGEST))
 
 
 class FormatError(RisoriusError):
@@ -44,10 +55,10 @@ class FormatError(RisoriusError):
         if offset is not None:
             where += f", byte {offset}"
         if column is not None:
-            where += f", column {column}"
+            where += f", column {short(column)}"
         if key is not None:
-            where += f", key {key}"
-        super().__init__(f"{where}: {problem}")
+            where += f", key {short(key)}"
+        super().__init__(f"{where}: {short(problem, LONGEST // 2)}")
 
 
 class ModelError(RisoriusError):
@@ -59,7 +70,7 @@ class ParameterError(RisoriusError, ValueError):
 
     def __init__(self, name: str, rule: str, value: object) -> None:
         self.name, self.rule, self.value = name, rule, value
-        super().__init__(f"{name} {rule}, but it is {value!r}")
+        super().__init__(f"{name} {rule}, but it is {short(repr(value))}")
 
 
 class SolverError(RisoriusError):

@@ -9,6 +9,11 @@ from pathlib import Path
 from .errors import FormatError
 from .resources import PACKAGE
 
+#: Bytes of the largest file that is read: more than any of use has.
+LARGEST_FILE = 1 << 30
+#: Bytes read at once of what does not tell its size.
+AT_ONCE = 1 << 22
+
 
 def write_whole(path: str | Path, content: str | bytes) -> None:
     """Write a file, replacing an older one only once the new one is complete; text as UTF-8, lines end as they stand.
@@ -35,11 +40,23 @@ def read_bytes(path: str | Path) -> bytes:
 
     Raises
     ------
-    FormatError : it cannot be read.
+    FormatError : it cannot be read, or is larger than any file of use.
     """
     file = Path(path)
     try:
-        return file.read_bytes()
-    except OSError as error:
-        remedy = "install Risorius again" if file.resolve().is_relative_to(PACKAGE) else "give a file that you may read"
-        raise FormatError(file, f"cannot be read ({error.strerror}): {remedy}") from error
+        with file.open("rb") as source:
+            size = os.fstat(source.fileno()).st_size
+            pieces, left = list[bytes](), LARGEST_FILE + 1
+            # A pipe or a device tells no size, and may never end.
+            while size <= LARGEST_FILE and left and (piece := source.read(min(left, max(size + 1, AT_ONCE)))):
+                pieces.append(piece)
+                left -= len(piece)
+    except (OSError, ValueError) as error:  # ValueError: a path with a null character
+        remedy = "give a file that you may read"
+        with contextlib.suppress(OSError, ValueError):
+            remedy = "install Risorius again" if file.resolve().is_relative_to(PACKAGE) else remedy
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise FormatError(file, f"cannot be read ({reason}): {remedy}") from error
+    if size > LARGEST_FILE or not left:
+        raise FormatError(file, f"is larger than {LARGEST_FILE >> 30} GiB: cut it into parts")
+    return pieces[0] if len(pieces) == 1 else b"".join(pieces)

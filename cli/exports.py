@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import FormatError
+from ..tables import read_arrays
 from .films import needing_blender, silent_blender
 from .options import Verbs, add_inertia, add_scene, face_of, motion_line, scene_options, verb
 from .progress import ShowProgress
@@ -200,11 +201,12 @@ def _controls_of(path: Path, face: Face) -> Controls:
     from .. import api
 
     rule = f"must have names (N,) and displacement (N, {len(face.vertices)}, 3), as `export shapes` writes them"
-    try:
-        with np.load(path, allow_pickle=False) as stored:
-            names, effects = [str(name) for name in stored["names"]], np.asarray(stored["displacement"], np.float64)
-    except (OSError, ValueError, KeyError, TypeError, EOFError) as problem:
-        raise FormatError(path, f"cannot be read as shape keys ({problem}): it {rule}") from problem
-    if effects.shape != (len(names), len(face.vertices), 3):
+    stored = read_arrays(path, "names", "displacement")
+    named, effects = stored.get("names"), stored.get("displacement")
+    if named is None or effects is None or named.dtype.kind != "U" or effects.dtype.kind not in "iuf":
+        raise FormatError(path, f"cannot be read as shape keys: it {rule}")
+    if named.ndim != 1 or effects.shape != (len(named), len(face.vertices), 3):
         raise FormatError(path, f"{rule}, but displacement is {effects.shape}")
+    names = [str(name) for name in named]
+    effects = effects.astype(np.float64)
     return api.Controls(tuple(names), effects, np.zeros(len(names)), np.ones(len(names)))

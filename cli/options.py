@@ -34,7 +34,7 @@ def add_words(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
 
 def _variant(text: str) -> int | str:
     """A variant of the paper's by its number, or a way of showing an emotion by its name."""
-    return int(text) if text.isdigit() else text
+    return int(text) if text.isdecimal() and len(text) < 16 else text
 
 
 def add_strength(parser: argparse.ArgumentParser) -> None:

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Floats
 from ..errors import ParameterError
-from ..mpeg4 import ARCHETYPES, FAP_COUNT, Feeling
+from ..mpeg4 import ARCHETYPES, FAP_COUNT, FAP_LIMIT, Feeling
 from .drive.request import ByHand, Contractions, Drive, EmotionShares, Request
 
 
@@ -24,10 +24,15 @@ def checked_faps(frame: ArrayLike) -> Floats:
     array = np.array(frame, dtype=np.float64)
     if array.shape != (FAP_COUNT,):
         raise ParameterError("frame", f"must have {FAP_COUNT} values, index = FAP number - 1", array.shape)
-    if np.isinf(array).any():
-        number = int(np.flatnonzero(np.isinf(array))[0]) + 1
-        raise ParameterError(f"FAP {number}", "must be finite, or NaN where not stated", float(array[number - 1]))
+    wrong = np.flatnonzero(np.abs(array) > FAP_LIMIT)
+    if len(wrong):
+        raise ParameterError(f"FAP {wrong[0] + 1}", _fap_rule(array[wrong[0]]), float(array[wrong[0]]))
     return array
+
+
+def _fap_rule(value: float) -> str:
+    """The rule that a value breaks."""
+    return "must be finite, or NaN where not stated" if np.isinf(value) else f"must be within ±{FAP_LIMIT:g}"
 
 
 def checked_stream(frames: ArrayLike) -> Floats:
@@ -35,12 +40,11 @@ def checked_stream(frames: ArrayLike) -> Floats:
     array = np.array(frames, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != FAP_COUNT or len(array) == 0:
         raise ParameterError("frames", f"must have the shape (T, {FAP_COUNT}) with one frame or more", array.shape)
-    wrong = np.argwhere(np.isinf(array))
+    wrong = np.argwhere(np.abs(array) > FAP_LIMIT)
     if len(wrong):
         step, index = wrong[0]
-        raise ParameterError(
-            f"FAP {index + 1} of frame {step}", "must be finite, or NaN where not stated", float(array[step, index])
-        )
+        value = float(array[step, index])
+        raise ParameterError(f"FAP {index + 1} of frame {step}", _fap_rule(value), value)
     return array
 
 

@@ -53,6 +53,7 @@ from .high_level import (
 from .standard import (
     ANGLE_UNIT,
     FAP_COUNT,
+    FAP_LIMIT,
     FAPS,
     FAPU,
     FEATURE_POINTS,
@@ -88,6 +89,7 @@ __all__ = [
     "FAPS",
     "FAPU",
     "FAP_COUNT",
+    "FAP_LIMIT",
     "FEATURES",
     "FEATURE_POINTS",
     "FEATURE_SIGNED",

@@ -19,6 +19,12 @@ from ..tables import CsvRow, read_csv
 
 FAP_COUNT = 68
 
+FAP_LIMIT = 1e7
+"""FAP units that no value exceeds: sixteen turns of the head, and far beyond any length of a face."""
+
+FRAMES_LIMIT = 1_000_000
+"""Frames of a stream, at most: eleven hours at 25 a second."""
+
 
 class Unit(StrEnum):
     """FAP units: a 1024th of a distance of the neutral face, or (AU) an angle of 1e-5 rad."""

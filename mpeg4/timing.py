@@ -19,6 +19,7 @@ from ..errors import ParameterError
 from ..resources import PRESETS
 from ..tables import TomlTable, read_toml
 from .emotions.profile import ARCHETYPES, Profile
+from .standard import FRAMES_LIMIT
 
 TIMINGS = PRESETS / "timing.toml"
 """The timing presets that come with Risorius."""
@@ -57,8 +58,8 @@ class Ramp(StrEnum):
     COSINE = "cosine"
 
     def at(self, since: Floats, duration: float) -> Floats:
-        """From 0 to 1 as times (T,) since its beginning go through a duration, seconds; a step if it is 0."""
-        if duration == 0.0:
+        """From 0 to 1 as times (T,) since its beginning go through a duration, seconds; a step if it is none."""
+        if duration < 1e-12:
             return np.where(since >= 0.0, 1.0, 0.0)
         s = np.clip(since / duration, 0.0, 1.0)
         if self is Ramp.COSINE:
@@ -295,6 +296,8 @@ def strengths(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
     if not cues:
         raise ParameterError("cues", "must contain at least one cue", 0)
     end = max(cue.start + cue.duration for cue in cues)
+    if not end * fps < FRAMES_LIMIT:
+        raise ParameterError("cues", f"must end within {FRAMES_LIMIT} frames", end * fps)
     times = np.arange(math.ceil(end * fps - 1e-6) + 1) / fps  # a millionth of a frame is rounding, not time
     return np.stack([cue.strength(times) for cue in cues], axis=1)
 

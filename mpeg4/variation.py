@@ -21,7 +21,7 @@ from ..resources import PRESETS
 from ..tables import TomlTable, read_toml
 from .emotions.profile import ARCHETYPES, Archetype, Profile
 from .emotions.prototypes import load_prototypes
-from .standard import ANGLE_UNIT, FAP_COUNT
+from .standard import ANGLE_UNIT, FAP_COUNT, FRAMES_LIMIT
 from .timing import Cue, Ramp
 
 HABITS = PRESETS / "variation.toml"
@@ -336,6 +336,8 @@ def _times(count: int, fps: float) -> Floats:
     """(T,) seconds of frames."""
     if not (math.isfinite(fps) and fps > 0.0):
         raise ParameterError("fps", "must be a positive number of frames per second", fps)
+    if count > FRAMES_LIMIT:
+        raise ParameterError("count", f"must be {FRAMES_LIMIT} frames at most", count)
     return np.arange(count) / fps
 
 

@@ -7,7 +7,6 @@ a clip of ours keys: those are a motion.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -16,6 +15,7 @@ import bpy
 import numpy as np
 
 from ..arrays import Floats
+from ..tables import parsed_json
 from .attributes import read_floats
 from .blender_types import Action, Key, Mesh, Object, ShapeKey
 from .fcurves import SMALL, changes, curves_of
@@ -54,7 +54,7 @@ def own_keys(keys: Key | None) -> OwnKeys:
     if keys is None or RECORD not in keys:
         return OwnKeys()
     try:
-        stored = json.loads(str(keys[RECORD]))
+        stored = parsed_json(str(keys[RECORD]))
         clips = {
             str(clip): tuple(str(name) for name in names if name in keys.key_blocks)
             for clip, names in stored["clips"].items()

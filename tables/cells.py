@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import math
-import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
@@ -14,12 +13,15 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import FormatError, ParameterError
+from .json_text import LARGEST
 
 T = TypeVar("T")
 S = TypeVar("S", bound=str)
 
 #: Characters of a wrong cell that a message shows.
 SHOWN = 40
+#: No whole number is larger: NumPy has none.
+LONGEST = (1 << 63) - 1
 
 
 class Cells(ABC):
@@ -69,7 +71,7 @@ class Cells(ABC):
         if default is not None and name not in self:
             return default
         value = self._number(name)
-        found = float(value) if _is_finite(value) else math.nan
+        found = float(value) if is_number(value) else math.nan
         if math.isnan(found) or not _within(found, above, least, most):
             raise self._broken(name, "a number" + _bounds(above, least, most))
         return found
@@ -81,7 +83,9 @@ class Cells(ABC):
         if default is not None and name not in self:
             return default
         value = self._number(name)
-        if isinstance(value, bool) or not isinstance(value, int) or not _within(value, None, least, most):
+        if isinstance(value, bool) or not isinstance(value, int) or not -LONGEST <= value <= LONGEST:
+            raise self._broken(name, "a whole number" + _bounds(None, least, most))
+        if not _within(value, None, least, most):
             raise self._broken(name, "a whole number" + _bounds(None, least, most))
         return value
 
@@ -114,8 +118,9 @@ class Cells(ABC):
         if found.shape == (0,) and wanted[0] in (None, 0):  # an empty list has no inner lists to count
             return np.zeros([size or 0 for size in wanted])
         fits = found.ndim == len(wanted) and all(n in (None, m) for n, m in zip(wanted, found.shape, strict=True))
-        if not fits or found.dtype.kind not in "if" or not np.isfinite(found).all():
-            raise self._broken(name, " x ".join("N" if n is None else str(n) for n in wanted) + " finite numbers")
+        if not fits or found.dtype.kind not in "if" or not (np.abs(found) <= LARGEST).all():
+            sizes = " x ".join("N" if n is None else str(n) for n in wanted)
+            raise self._broken(name, f"{sizes} finite numbers")
         return found.astype(np.float64)
 
     def texts(self, name: str) -> tuple[str, ...]:
@@ -153,11 +158,11 @@ class Cells(ABC):
         return self.refuse(f"must be {rule}, but it is {repr(self.cells[name])[:SHOWN]}", name)
 
 
-def _is_finite(value: object) -> TypeGuard[int | float]:
-    """Whether it is a number, finite as a float, and not a truth value."""
+def is_number(value: object, *, most: float = LARGEST) -> TypeGuard[int | float]:
+    """Whether it is a number, no truth value, neither NaN nor beyond `most` on either side."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
-    return abs(value) <= sys.float_info.max
+    return abs(value) <= most
 
 
 def _within(value: float, above: float | None, least: float | None, most: float | None) -> bool:

@@ -14,6 +14,7 @@ from pathlib import Path
 from ..errors import FormatError
 from ..files import read_bytes, write_whole
 from .cells import Cells
+from .json_text import number_of_text
 
 
 class CsvRow(Cells):
@@ -113,14 +114,10 @@ def row_cells(path: Path, count: int, number: int, line: str, *, separator: str 
 
 
 def parsed_number(text: str) -> int | float | None:
-    """The number that a text is; None where it is none."""
+    """The number that a text is, infinite where it is larger than any of use; None where it is none."""
     if "_" in text:  # Python takes 1_000
         return None
     try:
-        return int(text)
-    except ValueError:
-        pass
-    try:
-        return float(text)
+        return number_of_text(text)
     except ValueError:
         return None

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 from ..errors import FormatError
 from ..files import read_bytes
+from .json_text import parsed_json
 from .keyed_table import KeyedTable
 
 
@@ -18,8 +18,8 @@ def read_json(path: str | Path, *, kind: str, version: int) -> KeyedTable:
     FormatError : unreadable, not JSON, or another kind or version of document.
     """
     try:
-        document = json.loads(read_bytes(path).decode("utf-8-sig"))
-    except (ValueError, RecursionError) as error:  # UnicodeDecodeError is a ValueError
+        document = parsed_json(read_bytes(path).decode("utf-8-sig"))
+    except ValueError as error:  # UnicodeDecodeError is a ValueError
         raise FormatError(path, f"is not valid JSON: {error}") from error
     return checked_document(path, document, kind=kind, version=version)
 

@@ -42,6 +42,8 @@ def read_toml(path: str | Path) -> TomlTable:
         place = re.search(r" \(at line (\d+), column \d+\)$", str(error))
         problem, line = (str(error)[: place.start()], int(place[1])) if place else (str(error), None)
         raise FormatError(file, f"is not valid TOML: {problem}", line=line) from error
+    except (ValueError, RecursionError) as error:  # a number of thousands of digits, brackets a thousand deep
+        raise FormatError(file, f"is not valid TOML: {error}") from error
 
 
 def toml_text(text: str) -> str:

@@ -8,6 +8,7 @@ cannot be written is not kept, and all goes on without it.
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
@@ -58,7 +59,7 @@ class Entries:
             places = told["places"]
 
             def array(number: int, dtype: np.dtype[Any], shape: list[int]) -> Any:
-                size = dtype.itemsize * int(np.prod(shape, dtype=np.int64))
+                size = dtype.itemsize * math.prod(shape)
                 return content[places[number] : places[number] + size].view(dtype).reshape(shape)
 
             thing = thawed(told["root"], told["nodes"], array)

@@ -16,6 +16,9 @@ from .sealed_eyes import add_sealed_eyes
 from .template import TEMPLATE_POINTS
 from .told import parts_of_told
 
+#: Coordinates beyond this, in whatever unit, are damage: their cubes would leave no digit of a face.
+LARGEST = 1e12
+
 
 def checked_vertices(vertices: ArrayLike) -> Floats:
     """(V, 3) float64, finite, not empty."""
@@ -24,10 +27,11 @@ def checked_vertices(vertices: ArrayLike) -> Floats:
         raise ModelError(f"vertices must have the shape (V, 3), but have {array.shape}")
     if len(array) == 0:
         raise ModelError("the mesh is empty: it has no vertices")
-    wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    wrong = np.flatnonzero(~(np.abs(array) <= LARGEST).all(axis=1))
     if len(wrong):
+        what = "beyond any mesh" if np.isfinite(array[wrong]).all() else "NaN or infinite"
         raise ModelError(
-            f"{len(wrong)} vertices are NaN or infinite, the first is vertex {wrong[0]}: repair the mesh or delete them"
+            f"{len(wrong)} vertices are {what}, the first is vertex {wrong[0]}: repair the mesh or delete them"
         )
     return array
 

@@ -6,14 +6,18 @@ polygons, one after another) and `face_sizes` (F,). An .obj is read as it stands
 
 from __future__ import annotations
 
-import zipfile
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from pathlib import Path
 
 import numpy as np
 
 from ...arrays import Floats
 from ...errors import FormatError
+from ...files import read_bytes
+from ...tables import read_arrays
+from .checks import LARGEST
 
 #: What `read_mesh` reads without Blender.
 SUFFIXES = (".npz", ".obj")
@@ -61,46 +65,71 @@ def read_mesh(path: str | Path) -> MeshFile:
 
 def _read_npz(path: Path) -> MeshFile:
     """Vertices and polygons of an .npz file."""
-    try:
-        with np.load(path, allow_pickle=False) as arrays:
-            stored = {name: arrays[name] for name in ("vertices", "polygons", "loops", "face_sizes") if name in arrays}
-    except (ValueError, OSError, EOFError, zipfile.BadZipFile) as error:
-        raise FormatError(path, f"not an .npz file of plain arrays ({error})") from error
+    stored = read_arrays(path, "vertices", "polygons", "loops", "face_sizes")
     vertices = stored.get("vertices")
-    if vertices is None or vertices.ndim != 2 or vertices.shape[1] != 3:
-        raise FormatError(path, "expected an array `vertices` of shape (V, 3)", key="vertices")
+    if vertices is None or vertices.ndim != 2 or vertices.shape[1] != 3 or vertices.dtype.kind not in "iuf":
+        raise FormatError(path, "expected an array `vertices` of numbers of shape (V, 3)", key="vertices")
+    vertices = vertices.astype(np.float64)
+    wrong = np.flatnonzero(~(np.abs(vertices) <= LARGEST).all(axis=1))
+    if len(wrong):
+        raise FormatError(path, f"vertex {wrong[0]} is NaN, infinite or beyond any mesh: repair it", key="vertices")
+    for key in ("polygons", "loops", "face_sizes"):
+        if key in stored and (stored[key].dtype.kind not in "iu" or stored[key].ndim != 1 + (key == "polygons")):
+            raise FormatError(path, "must be whole numbers, (F, 3|4) of `polygons`, else (N,)", key=key)
     if "polygons" in stored:
-        rows = [tuple(int(index) for index in row) for row in np.atleast_2d(stored["polygons"])]
+        rows = [tuple(row) for row in stored["polygons"].tolist()]
     elif "loops" in stored and "face_sizes" in stored:
-        loops, sizes = stored["loops"], stored["face_sizes"]
-        if len(loops) != int(sizes.sum()):
-            raise FormatError(path, f"has {len(loops)} corners, but face_sizes add up to {sizes.sum()}", key="loops")
-        rows = [tuple(map(int, part)) for part in np.split(loops, np.cumsum(sizes)[:-1])] if len(sizes) else []
+        rows = _split(path, stored["loops"].tolist(), stored["face_sizes"].tolist())
     else:
         raise FormatError(path, "expected `polygons`, or `loops` with `face_sizes`", key="polygons")
-    return MeshFile(vertices.astype(np.float64), tuple(rows))
+    _check_corners(path, rows, len(vertices))
+    return MeshFile(vertices, tuple(rows))
+
+
+def _split(path: Path, loops: list[int], sizes: list[int]) -> list[tuple[int, ...]]:
+    """Corners of all polygons as those of each."""
+    if len(loops) != sum(sizes) or min(sizes, default=0) < 0:
+        raise FormatError(path, f"has {len(loops)} corners, but face_sizes add up to {sum(sizes)}", key="loops")
+    ends = list(accumulate(sizes))
+    return [tuple(loops[end - size : end]) for end, size in zip(ends, sizes, strict=True)]
+
+
+def _check_corners(path: Path, rows: Sequence[Sequence[int]], vertex_count: int) -> None:
+    """Refuse polygons that name a vertex that is not there."""
+    wrong = next((n for n, row in enumerate(rows) if row and not 0 <= min(row) <= max(row) < vertex_count), None)
+    if wrong is not None:
+        raise FormatError(path, f"polygon {wrong} names a vertex outside 0..{vertex_count - 1}: export the mesh again")
 
 
 def _read_obj(path: Path) -> MeshFile:
     """Vertices and faces of an .obj file; everything else in it is passed over."""
     vertices: list[tuple[float, float, float]] = []
     polygons: list[tuple[int, ...]] = []
-    text = path.read_text(encoding="utf-8", errors="replace")
+    text = read_bytes(path).decode("utf-8", errors="replace")
     for number, line in enumerate(text.splitlines(), 1):
         words = line.split()
         if not words or words[0] not in ("v", "f"):
             continue
         try:
             if words[0] == "v":
-                x, y, z = (float(word) for word in words[1:4])
+                x, y, z = (_coordinate(word) for word in words[1:4])
                 vertices.append((x, y, z))
             else:
                 polygons.append(tuple(_obj_index(word, len(vertices)) for word in words[1:]))
         except ValueError as error:
-            raise FormatError(path, f"cannot read {line.strip()!r} ({error})", line=number) from error
+            raise FormatError(path, f"cannot read {line.strip()[:80]!r} ({str(error)[:80]})", line=number) from error
     if not vertices:
         raise FormatError(path, "has no vertices (lines beginning with `v`)")
+    _check_corners(path, polygons, len(vertices))
     return MeshFile(np.array(vertices, dtype=np.float64), tuple(polygons))
+
+
+def _coordinate(word: str) -> float:
+    """A number that a mesh may have."""
+    value = float(word)
+    if not abs(value) <= LARGEST:
+        raise ValueError("a coordinate is NaN, infinite or beyond any mesh")
+    return value
 
 
 def _obj_index(word: str, vertex_count: int) -> int:

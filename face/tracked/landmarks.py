@@ -116,11 +116,14 @@ def read_points(
     if not seen.any():
         raise ModelError("no frame shows a whole face")
     rough = fit_poses(np.array([TEMPLATE_POINTS[name] for name in stable]), points[:, carriers], seen)
+    seen &= np.isfinite(rough.scales)
+    if not seen.any():
+        raise ModelError("no frame shows a face: its points lie in one line, or at one place")
     chosen = _neutral_frames(rough.undone(points), seen, neutral)
-    rest = np.nanmean(rough.undone(points)[chosen], axis=0)
+    rest = _mean_known(rough.undone(points)[chosen])
     pose = fit_poses(rest[carriers], points[:, carriers], seen)
     still = pose.undone(points)
-    rest = np.nanmean(still[chosen], axis=0)
+    rest = _mean_known(still[chosen])
     at_rest = _with_pupils({name: rest[index] for name, index in place.items()})
     units = fapu(at_rest, np.eye(3))
     stream = np.full((len(points), FAP_COUNT), np.nan)
@@ -195,6 +198,13 @@ def _neutral_frames(shapes: Floats, seen: Bools, neutral: tuple[int, int] | None
     if len(chosen) == 0:
         raise ParameterError("neutral", "must contain a frame with a face", neutral)
     return np.asarray(chosen, dtype=np.int64)
+
+
+def _mean_known(places: Floats) -> Floats:
+    """(P, 3) mean of places (n, P, 3) where they are known; NaN where they never are."""
+    known = ~np.isnan(places)
+    count = known.sum(axis=0)
+    return np.asarray(np.where(count, np.where(known, places, 0.0).sum(axis=0) / np.maximum(count, 1), np.nan))
 
 
 def _with_pupils(points: dict[str, Floats]) -> dict[str, Floats]:

@@ -133,7 +133,10 @@ def read_recording(
         samples = counted_from(samples, neutral)
     frames, per_second = samples.evenly(fps)
     frames = flipped(frames, flips)
-    stream = FapStream(frames=frames, fps=per_second, name=_name(opened), assumed=samples.assumed)
+    try:
+        stream = FapStream(frames=frames, fps=per_second, name=_name(opened), assumed=samples.assumed)
+    except ParameterError as error:
+        raise FormatError(path, f"has values that no face shows: {error}") from error
     return Recording(stream, opened.format, samples.assumed)
 
 

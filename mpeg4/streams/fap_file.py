@@ -17,14 +17,12 @@ from ...arrays import Bools, Floats
 from ...errors import FormatError, ParameterError
 from ...files import read_bytes, write_whole
 from ..high_level import ExpressionField, VisemeField
-from ..standard import FAP_COUNT
+from ..standard import FAP_COUNT, FAP_LIMIT, FRAMES_LIMIT
 from .fap_stream import FapStream
 
 VERSIONS = ("2.0", "2.1", "2.2")
 VISEME_FIELDS, EXPRESSION_FIELDS = 4, 6
-LONGEST = 1_000_000  # frames: eleven hours at 25 a second
 LONGEST_GAP = 10_000  # frames in a row that state nothing; beyond it a frame number is damaged
-LARGEST = 1e7  # FAP units: sixteen turns of the head, and far beyond any length of a face
 LARGEST_NUMBER = 2**31 - 1  # of a frame
 
 
@@ -123,12 +121,10 @@ def write_fap(path: str | Path, stream: FapStream, *, decimals: int = 0) -> None
     >>> api.read_fap("still.fap").name
     'still'
     """
-    if decimals < 0:
-        raise ParameterError("decimals", "must be 0 or more", decimals)
+    if not 0 <= decimals <= 17:
+        raise ParameterError("decimals", "must be in 0..17", decimals)
     if not len(stream.frames):
         raise ParameterError("stream", "must contain at least one frame", 0)
-    if (np.abs(stream.frames) > LARGEST).any():
-        raise ParameterError("frames", f"must be within {LARGEST:.0f} FAP units", float(np.nanmax(abs(stream.frames))))
     write_whole(path, "".join(_text(stream, decimals)))
 
 
@@ -169,8 +165,9 @@ def _check_order(file: Path, line: int, number: int, *, first: int, last: int) -
     if number - last > LONGEST_GAP:
         problem = f"frame number {number} is more than {LONGEST_GAP} frames after {last}: correct the number"
         raise FormatError(file, problem, line=line)
-    if number - first >= LONGEST:
-        raise FormatError(file, f"frame number {number} gives more than {LONGEST} frames: shorten the file", line=line)
+    if number - first >= FRAMES_LIMIT:
+        problem = f"frame number {number} gives more than {FRAMES_LIMIT} frames: shorten the file"
+        raise FormatError(file, problem, line=line)
 
 
 def _mask(file: Path, line: int, text: str) -> Bools:
@@ -213,10 +210,10 @@ def _frame(file: Path, line: int, text: str, mask: Bools) -> _Frame:
         raise FormatError(file, str(error), line=line) from error
     low_level = np.array(values[wanted - stated :], dtype=np.float64)
     endless = np.isinf(low_level)
-    huge = ~endless & (np.abs(low_level) > LARGEST)
+    huge = ~endless & (np.abs(low_level) > FAP_LIMIT)
     if huge.any():
         place = wanted - stated + int(huge.argmax())
-        problem = f"value {place + 1} must be within {LARGEST:.0f} FAP units, but it is {tokens[place]!r}"
+        problem = f"value {place + 1} must be within {FAP_LIMIT:.0f} FAP units, but it is {tokens[place]!r}"
         raise FormatError(file, problem, line=line)
     frame.values[2:][mask[2:]] = np.where(endless, np.nan, low_level)
     return frame

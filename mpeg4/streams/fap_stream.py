@@ -12,7 +12,7 @@ import numpy as np
 from ...arrays import Bools, Floats
 from ...errors import ParameterError
 from ..high_level import VISEME_SHAPES, ExpressionField, VisemeField, expand, expression_frame, viseme_frame
-from ..standard import FAP_COUNT
+from ..standard import FAP_COUNT, FAP_LIMIT
 from .filling import Filling, checked_filling, fill
 
 T = TypeVar("T")
@@ -68,8 +68,9 @@ class FapStream:
         frames = np.array(self.frames, dtype=np.float64)
         if frames.ndim != 2 or frames.shape[1] != FAP_COUNT:
             raise ParameterError("frames", f"must have the shape (T, {FAP_COUNT})", frames.shape)
-        if np.isinf(frames).any():
-            raise ParameterError("frames", "must be finite, or NaN where masked", "inf")
+        if (np.abs(frames) > FAP_LIMIT).any():
+            rule = f"must be finite, within {FAP_LIMIT:.0f} FAP units, or NaN where masked"
+            raise ParameterError("frames", rule, float(np.nanmax(np.abs(frames))))
         if not (math.isfinite(self.fps) and self.fps > 0.0):
             raise ParameterError("fps", "must be a positive number of frames per second", self.fps)
         if not self.name.isprintable():

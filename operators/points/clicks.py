@@ -9,6 +9,7 @@ from ...errors import SceneError
 from ...mpeg4 import FEATURE_POINTS
 from ...scene.points.bound import Surface
 from ...scene.points.mirrored import MirrorPlane
+from ...tables import parsed_json
 
 #: What is asked for, in this order, and where it lies. Left and right are the face's own.
 ASKED = {
@@ -83,7 +84,7 @@ def clicks_of(text: str) -> dict[str, Floats]:
     if not text.strip():
         raise SceneError("Clicks", f"are missing: {remedy}")
     try:
-        table = json.loads(text)
+        table = parsed_json(text)
     except ValueError as problem:
         raise SceneError("Clicks", f"are not JSON ({problem}): {remedy}") from problem
     if not isinstance(table, dict) or not table:

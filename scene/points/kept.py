@@ -18,6 +18,7 @@ from ...arrays import Floats
 from ...errors import FormatError, ParameterError, SceneError
 from ...face.fit.doubt import DOUBTFUL, DOUBTFUL_SCORE
 from ...mpeg4 import FEATURE_POINTS
+from ...tables import is_number, parsed_json
 from ..blender_types import Mesh, Object
 from ..shape_mix import resting_values
 
@@ -57,10 +58,14 @@ class KeptPoint:
     origin: Origin = Origin.FILE
 
     def __post_init__(self) -> None:
-        if len(self.at) != 3 or not np.isfinite(self.at).all():
-            raise ParameterError("at", "must be three finite numbers", self.at)
-        if len(self.vertices) != len(self.weights):
-            raise ParameterError("weights", "must be as many as there are vertices", self.weights)
+        for name in ("at", "on"):
+            place = getattr(self, name)
+            if len(place) != 3 or not np.isfinite(place).all():
+                raise ParameterError(name, "must be three finite numbers", place)
+        if min(self.vertices, default=0) < 0:
+            raise ParameterError("vertices", "must be 0 or more", self.vertices)
+        if len(self.vertices) != len(self.weights) or not np.isfinite(self.weights).all():
+            raise ParameterError("weights", "must be as many as there are vertices, and finite", self.weights)
         if not 0.0 <= self.confidence <= 1.0:
             raise ParameterError("confidence", "must be in [0, 1]", self.confidence)
 
@@ -137,7 +142,7 @@ def read_kept_with(mesh: Mesh, name: str, *, as_given: bool = False) -> KeptPoin
         raise SceneError(name, NO_POINTS)
     try:
         return _decoded(str(text))
-    except (ValueError, KeyError, TypeError) as problem:
+    except (ValueError, LookupError, TypeError, AttributeError, OverflowError) as problem:
         raise SceneError(name, "has unreadable feature points: find or import them again") from problem
 
 
@@ -203,7 +208,7 @@ def _encoded(kept: KeptPoints) -> str:
 @lru_cache(maxsize=8)
 def _decoded(text: str) -> KeptPoints:
     """From JSON; kept, because panels and overlays ask at every redraw."""
-    stored = json.loads(text)
+    stored = parsed_json(text)
     points = {}
     for name, entry in stored["points"].items():
         if name not in FEATURE_POINTS:
@@ -220,4 +225,7 @@ def _decoded(text: str) -> KeptPoints:
     counts = int(vertices), int(corners), int(polygons)
     sewn = frozenset(str(name) for name in stored.get("sewn", ()))
     resting = {str(name): float(value) for name, value in stored.get("resting", {}).items()}
-    return KeptPoints(counts, str(stored["digest"]), points, float(stored.get("score", 0.0)), sewn, resting)
+    score = float(stored.get("score", 0.0))
+    if not all(is_number(value) for value in (score, *resting.values())):
+        raise ValueError("numbers that are none")
+    return KeptPoints(counts, str(stored["digest"]), points, score, sewn, resting)

@@ -20,11 +20,8 @@ from ..fcurves import SMALL, add_keyframes, curves_for, played_curves
 from ..shape_mix import RIG_TAG
 from . import layers
 from .channels import Channel, Place
-from .layers import CLIP_TAG
+from .layers import CLIP_TAG, INTO, noted
 from .turns import keyed_values
-
-#: A property of a user's action: what has been written into it, and between which frames, as JSON.
-INTO = "risorius_rig_into"
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,17 +123,16 @@ def _write_into_action(owner: Datablock, keyframes: Keyframes, places: Sequence[
 
 def _written_before(action: Action | None, span: tuple[float, float]) -> set[tuple[str, int]]:
     """(path, index) of what clips have been written into an action where a span meets theirs."""
-    noted = [] if action is None else json.loads(str(action.get(INTO, "[]")))
-    return {(path, index) for path, index, *theirs in noted if overlap(span, (theirs[0], theirs[1]))}
+    entries = [] if action is None else noted(action, INTO)
+    return {(path, index) for path, index, *theirs in entries if overlap(span, (theirs[0], theirs[1]))}
 
 
 def _note_written(action: Action | None, place: Place, span: tuple[float, float]) -> None:
     """Note on an action what has been written into it, and where."""
     if action is not None:
-        noted = json.loads(str(action.get(INTO, "[]")))
-        entry = [place.path, place.index, *span]
-        if entry not in noted:
-            action[INTO] = json.dumps([*noted, entry])
+        entries, entry = noted(action, INTO), (place.path, place.index, *span)
+        if entry not in entries:
+            action[INTO] = json.dumps([*entries, entry])
 
 
 def overlap(one: tuple[float, float], other: tuple[float, float]) -> bool:

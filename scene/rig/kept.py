@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
+from ...tables import is_number, parsed_json
 from ..bake.notes import Note, note_of
 from ..blender_types import Action, Object
 from .clips import rig_clips
@@ -81,8 +82,9 @@ def _kept(actions: Sequence[Action]) -> KeptClip:
 def _followed(action: Action) -> Followed | None:
     """How far the rig follows; None where nobody has kept it."""
     try:
-        stored = json.loads(str(action.get(FOLLOWED, "")))
+        stored = parsed_json(str(action.get(FOLLOWED, "")))
         carriers, missing = (tuple(str(name) for name in stored[what]) for what in ("carriers", "missing"))
-        return Followed(float(stored["explained"]), float(stored["off"]), carriers, missing)
-    except (ValueError, KeyError, TypeError):
+        explained, off = float(stored["explained"]), float(stored["off"])
+        return Followed(explained, off, carriers, missing) if is_number(explained) and is_number(off) else None
+    except (ValueError, KeyError, TypeError, OverflowError):
         return None

@@ -12,8 +12,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
+import numpy as np
 
 from ...arrays import Floats
+from ...errors import SceneError
+from ...tables import parsed_json
 from ..blender_types import Action, AnimData, Datablock, NlaTrack
 from ..fcurves import curves_of, is_empty, slot_for
 from ..shape_mix import RIG_TAG
@@ -25,6 +28,10 @@ CLIP_TAG = "risorius_rig_clip"
 TRACK_NAME = "Risorius Layer"
 #: A property of an action: where what it keys is at rest.
 REST = "risorius_rig_rest"
+#: A property of a user's action: what has been written into it, and between which frames, as JSON.
+INTO = "risorius_rig_into"
+#: Entries of each place in a note: path and index, then the rest, or the first and the last frame.
+LENGTHS = {REST: 3, INTO: 4}
 #: A property of a datablock: the action that became a strip below a clip.
 PUSHED = "risorius_pushed_down"
 
@@ -210,16 +217,34 @@ def note_rest(action: Action, places: Sequence[tuple[Place, Channel]]) -> None:
     action[REST] = json.dumps([(place.path, place.index, channel.resting) for place, channel in places])
 
 
+def noted(action: Action, name: str) -> list[tuple[str, int, *tuple[float, ...]]]:
+    """What is noted on an action under a name: path, index and numbers, of each place.
+
+    Raises
+    ------
+    SceneError : somebody else has written there what is none of this.
+    """
+    try:
+        entries = parsed_json(str(action.get(name, "[]")))
+        found = [(str(path), int(index), *map(float, numbers)) for path, index, *numbers in entries]
+        if not all(len(entry) == LENGTHS[name] and np.isfinite(entry[1:]).all() for entry in found):
+            raise ValueError("numbers are missing")
+    except (ValueError, TypeError, OverflowError) as error:
+        problem = f"has a damaged note: delete its custom property {name}, and bake the clip again"
+        raise SceneError(action.name, problem) from error
+    return found
+
+
 def put_at_rest(copy: Datablock, action: Action) -> None:
     """Put what a clip keys on a datablock to rest on a copy of that."""
-    for path, index, resting in json.loads(str(action.get(REST, "[]"))):
+    for path, index, resting in noted(action, REST):
         Place(copy, path, index).set(resting)
 
 
 def _settle(owner: Datablock, action: Action) -> None:
     """Put back to rest what a clip has keyed and nothing animates any more."""
     others = [*_user_actions(owner), *_own_actions(owner)]
-    for path, index, resting in json.loads(str(action.get(REST, "[]"))):
+    for path, index, resting in noted(action, REST):
         if not _keyed(others, [(path, max(index, 0))]):
             Place(owner, path, index).set(resting)
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import FormatError
+from ...tables import is_number
 from .labels import Label, Timings, viseme_number
 from .rhubarb import is_rhubarb_json, rhubarb_from_json
 from .tabular import DURATIONS, ENDS, SOUNDS, STARTS, VISEMES, WORDS, place_of, seconds_in, unit_of
@@ -119,7 +120,7 @@ def _from_marks(path: Path, marks: Sequence[Mapping[str, Any]]) -> Timings:
     begun = [_seconds(path, "word", mark["time"]) / 1000.0 for mark in spoken]
     words = [
         Label(start, end, str(mark.get("value", "")), "word")
-        for start, end, mark in zip(begun, [*begun[1:], times[-1]], spoken, strict=True)
+        for start, end, mark in zip(begun, [*begun, times[-1]][1:], spoken, strict=True)
     ]
     return Timings(path, sounds, words, times[-1])
 
@@ -171,6 +172,6 @@ def _labels(path: Path, entries: Sequence[object], name: str, texts: Sequence[st
 
 def _seconds(path: Path, where: str, value: object) -> float:
     """A number."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if not is_number(value):
         raise FormatError(path, f"{where}: must be a number, but it is {value!r}")
     return float(value)

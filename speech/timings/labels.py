@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -15,6 +14,8 @@ from ..utterance import Sound, SpokenWord, Utterance
 
 #: Seconds by which two sounds may overlap for rounding alone, and the least that a sound lasts.
 ROUNDING, LEAST = 0.002, 1e-6
+#: Seconds of a day: no speech is later.
+LATEST = 86400.0
 #: Share of a diphthong that its first vowel lasts. Own choice: the nucleus is the longer part of a falling diphthong.
 NUCLEUS = 0.6
 #: Marks of main and of secondary stress before a symbol of IPA and X-SAMPA, and the digits of ARPAbet after it.
@@ -80,6 +81,8 @@ def utterance_of(timings: Timings, alphabet: Alphabet | None = None) -> Utteranc
         assumed.append(f"not known, the mouth passes over them: {', '.join(unread[:SHOWN])}{more}")
     assumed += _stand_ins(sounds)
     end = max(timings.duration or 0.0, sounds[-1].end)
+    if not end <= LATEST:
+        raise FormatError(timings.path, f"lasts {end:g} s: it must end within {LATEST:g} s")
     words = tuple(SpokenWord(word.start, word.end, word.text) for word in _words(timings))
     return Utterance(tuple(sounds), end, words, tuple(assumed))
 
@@ -133,10 +136,9 @@ def _in_order(path: Path, labels: Sequence[Label]) -> list[Label]:
     """
     kept: list[Label] = []
     for label in sorted(labels, key=lambda mark: mark.start):
-        if not (math.isfinite(label.start) and math.isfinite(label.end)) or label.start < 0.0:
-            raise FormatError(
-                path, f"{label.where}: times must be 0 s or later, but it is {label.start:g} to {label.end:g}"
-            )
+        if not (0.0 <= label.start <= LATEST and abs(label.end) <= LATEST):
+            rule = "0 s or later" if label.start < 0.0 else f"within {LATEST:g} s"
+            raise FormatError(path, f"{label.where}: times must be {rule}, but it is {label.start:g} to {label.end:g}")
         if label.end < label.start:
             raise FormatError(
                 path, f"{label.where}: {label.text!r} ends at {label.end:g} s, before it starts at {label.start:g} s"

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import FormatError
-from ...tables import parsed_number
+from ...tables import is_number, parsed_number
 from .labels import Label, Timings, mouth_shape
 
 
@@ -86,7 +86,7 @@ def _cue(path: Path, where: str, cue: Mapping[str, object]) -> Label:
 def _seconds(path: Path, where: str, value: object) -> float:
     """A time; Rhubarb writes texts or numbers."""
     found: object = parsed_number(value.strip()) if isinstance(value, str) else value
-    if isinstance(found, bool) or not isinstance(found, int | float):
+    if not is_number(found):
         raise FormatError(path, f"{where}: must be a number of seconds, but it is {value!r}")
     return float(found)
 

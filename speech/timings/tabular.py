@@ -68,7 +68,7 @@ def _plain(column: str) -> tuple[str, str]:
 def seconds_in(lengths: Sequence[float]) -> tuple[float, str]:
     """Seconds in the unit of some lengths of sounds, and its name; the name is empty for seconds."""
     median = float(np.median(lengths)) if len(lengths) else 0.0
-    return next((unit, name) for most, unit, name in LENGTHS if median <= most)
+    return next(((unit, name) for most, unit, name in LENGTHS if not median > most), LENGTHS[-1][1:])
 
 
 def has_no_heading(lines: Sequence[tuple[int, str]]) -> bool:

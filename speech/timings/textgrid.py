@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import FormatError
+from ...tables import parsed_number
 from ..phonemes import alphabet_of, is_noise, is_pause, read_symbol
 from .labels import Label, Timings
 
@@ -99,12 +100,10 @@ def _tier(path: Path, number: int, tier: Mapping[str, Any]) -> Tier:
     labels = []
     for place, (start, end, text) in enumerate(tier["entries"], 1):
         where = f"interval {place} of tier {name}"
-        try:
-            labels.append(Label(float(start), float(end), str(text).strip(), where))
-        except ValueError as error:
-            raise FormatError(
-                path, f"{where}: times must be numbers of seconds, but are {start!r} and {end!r}"
-            ) from error
+        begun, ended = parsed_number(str(start)), parsed_number(str(end))
+        if begun is None or ended is None:
+            raise FormatError(path, f"{where}: times must be numbers of seconds, but are {start!r} and {end!r}")
+        labels.append(Label(float(begun), float(ended), str(text).strip(), where))
     return Tier(name, labels)
 
 

@@ -20,7 +20,7 @@ import numpy as np
 from ....arrays import Floats
 from ....errors import FormatError, ParameterError
 from ....files import read_bytes
-from ....tables import parsed_number
+from ....tables import parsed_json, parsed_number
 from .delimited import decoded
 from .faces import name_of_frames, rows_of_face
 from .json_layout import bare_entries, entries_of, laid_out, rate_stated
@@ -117,8 +117,8 @@ def read_json_document(path: str | Path) -> Any:
     if text is None:
         raise FormatError(file, "is not UTF-8 text: save it as UTF-8")
     try:
-        return json.loads(text)
-    except (json.JSONDecodeError, RecursionError) as error:
+        return parsed_json(text)
+    except ValueError as error:
         lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
         if isinstance(error, json.JSONDecodeError) and len(lines) > 1 and _is_json(lines[0][1]):
             return [_line(file, number, line) for number, line in lines]
@@ -130,16 +130,16 @@ def read_json_document(path: str | Path) -> Any:
 def _is_json(line: str) -> bool:
     """Whether a line is an object of its own."""
     try:
-        return isinstance(json.loads(line), dict)
-    except (json.JSONDecodeError, RecursionError):
+        return isinstance(parsed_json(line), dict)
+    except ValueError:
         return False
 
 
 def _line(file: Path, number: int, line: str) -> Any:
     """One line of JSON Lines."""
     try:
-        return json.loads(line)
-    except (json.JSONDecodeError, RecursionError) as error:
+        return parsed_json(line)
+    except ValueError as error:
         raise FormatError(file, f"is not valid JSON ({error}): is the file cut off here?", line=number) from error
 
 

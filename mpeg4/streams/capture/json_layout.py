@@ -111,7 +111,7 @@ def _of_object(document: Entries, depth: int) -> list[tuple[float | None, Any]] 
     numbered = _numbered(document)
     if numbered is not None:
         return numbered
-    if all(isinstance(value, dict) and value and all(key.isdigit() for key in value) for value in document.values()):
+    if all(isinstance(value, dict) and value and all(map(_is_count, value)) for value in document.values()):
         keys = sorted({key for value in document.values() for key in value}, key=int)
         return [(float(key), {name: value.get(key) for name, value in document.items()}) for key in keys]
     columns = _columns(document)
@@ -127,6 +127,11 @@ def _of_object(document: Entries, depth: int) -> list[tuple[float | None, Any]] 
     wrapped = [name for name in document if plain_name(name) in WRAPPERS and isinstance(document[name], dict)]
     inner = _of_object(document[wrapped[0]], depth - 1) if depth > 0 and len(wrapped) == 1 else None
     return inner if inner is not None and inner[0][1] is not document[wrapped[0]] else [(None, document)]
+
+
+def _is_count(key: str) -> bool:
+    """Whether a key is a whole number that something may be counted by."""
+    return key.isdecimal() and len(key) < 16
 
 
 def _numbered(document: Entries) -> list[tuple[float | None, Any]] | None:

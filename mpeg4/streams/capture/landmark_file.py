@@ -27,7 +27,9 @@ from .times import USUAL_RATE, Times
 #: Landmarks beyond this are in pixels; within it they are shares of the picture (a face may stick out a little).
 NORMALISED = 4.0
 
-COLUMN = re.compile(r"(?:.*[_\W]|lm|pt|point|landmark)?(?:([xyz])[_\W]?(\d+)\W?|(\d+)\W?[_.]?([xyz]))", re.IGNORECASE)
+COLUMN = re.compile(
+    r"(?:.*[_\W]|lm|pt|point|landmark)?(?:([xyz])[_\W]?(\d{1,5})\W?|(\d{1,5})\W?[_.]?([xyz]))", re.IGNORECASE
+)
 INDEX_NAMES = (
     "landmark", "landmark_id", "landmark_index", "landmark_idx", "point", "point_id", "keypoint", "vertex", "index",
     "id",

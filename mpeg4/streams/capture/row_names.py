@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from ....tables import large
+
 #: Units of time by what stands behind a name ("timestamp_ms", "Time (s)", "timeMs"), in seconds.
 UNIT_NAMES = {
     **dict.fromkeys(("s", "sec", "secs", "second", "seconds"), 1.0),
@@ -75,7 +77,7 @@ def numbers_at_end(names: Iterable[str]) -> list[float] | None:
     alike = {match[1] for match in matches}
     if len(matches) < len(found) or len(alike) != 1 or not any(letter.isalpha() for letter in alike.pop()):
         return None
-    return [float(match[2]) for match in matches]
+    return [large(float(match[2])) for match in matches]
 
 
 def first_named(names: Iterable[str], wanted: tuple[str, ...]) -> str | None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ....arrays import Floats
 from ....errors import ParameterError
+from ...standard import FRAMES_LIMIT
 from .rates import LONGEST_STEP, usual_rate
 from .times import USUAL_RATE, Times
 
@@ -17,9 +18,6 @@ LONGEST_EVEN_STEP = 1.5
 
 #: A moment within this share of an interval from a sample takes that sample as it is: trackers round their times.
 SNAP = 1e-3
-
-#: Frames of a stream; more is a damaged time, not a recording (eleven hours at 25 a second).
-MOST_FRAMES = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,8 +76,8 @@ class Samples:
             raise ParameterError("fps", "must be a positive number of frames per second", rate)
         begin = float(self.times[0]) if self.begin is None else self.begin
         count = np.floor((self.times[-1] - begin) * rate + 0.5) + 1
-        if count > MOST_FRAMES:
-            raise ParameterError("times", f"must not span more than {MOST_FRAMES} frames", float(count))
+        if count > FRAMES_LIMIT:
+            raise ParameterError("times", f"must not span more than {FRAMES_LIMIT} frames", float(count))
         return self.at(begin + np.arange(int(count)) / rate), rate
 
     def at(self, when: Floats) -> Floats:

@@ -111,7 +111,7 @@ def fap_frame(row: TomlTable) -> Floats:
     faps = row.table("faps", optional=True)
     frame = np.full(FAP_COUNT, np.nan)
     for number in faps:
-        if not (number.isdecimal() and 3 <= int(number) <= FAP_COUNT):
+        if not (number.isdecimal() and len(number) <= 2 and 3 <= int(number) <= FAP_COUNT):
             raise row.refuse(f"must name FAPs 3 to {FAP_COUNT}, but it contains {number!r}", "faps")
         frame[int(number) - 1] = faps.number(number)
     frame.flags.writeable = False

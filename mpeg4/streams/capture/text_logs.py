@@ -103,6 +103,8 @@ def _face_cap(file: Path, lines: Sequence[tuple[int, str]]) -> TableFile:
     for number, line in lines:
         mark, *cells = [cell.strip() for cell in line.split(",")]
         if mark == "bs":
+            if rows:
+                raise FormatError(file, "names the shapes after frames: the line bs,... must come first", line=number)
             names = [cell for cell in cells if cell]
         elif mark == "k":
             cells = cells[: 1 + len(FACE_CAP_TURNS) + len(names)]

@@ -221,7 +221,7 @@ def _by_time(stamps: Stamps, unit: float, rate: float | None) -> Times:
         seconds = seconds[0] + (stamps.numbers - stamps.numbers[0]) * _slope(seconds, stamps.numbers)
     rows, left_out = _rising(stamps, seconds)
     origin = float(seconds[rows[0]])
-    found = even_row(seconds[rows] - origin, rounding, rounding)
+    found = even_row(_since_first(stamps, rows, seconds), rounding, rounding)
     assumed = (*assumed, *left_out)
     return _finished(stamps, found, rows, origin, rate, assumed)
 
@@ -232,7 +232,7 @@ def _by_number(stamps: Stamps, rate: float | None) -> Times:
     if numbers is None or not (np.diff(numbers[np.isfinite(numbers)]) != 0.0).any():
         numbers = np.arange(float(stamps.count))
     rows, left_out = _rising(stamps, numbers)
-    kept = numbers[rows]
+    kept, since = numbers[rows], _since_first(stamps, rows, numbers)
     assumed = (*assumed, *left_out)
     if stamps.counted is None and rate is None:
         assumed = (*assumed, f"the file contains no times: {USUAL_RATE:g} frames per second")
@@ -242,8 +242,8 @@ def _by_number(stamps: Stamps, rate: float | None) -> Times:
         raise stamps.refuse(int(rows[0]), problem)
     whole = bool((kept == np.floor(kept)).all())
     exactness = (EXACT, FINE, 1.0) if whole and stamps.counted is not None else (EXACT, FINE)
-    tried = (even_row((kept - kept[0]) / counted, parts / counted, parts / counted) for parts in exactness)
-    found = next((row for row in tried if row.even), None) or even_row((kept - kept[0]) / counted, 0.0, 0.0)
+    tried = (even_row(since / counted, parts / counted, parts / counted) for parts in exactness)
+    found = next((row for row in tried if row.even), None) or even_row(since / counted, 0.0, 0.0)
     known = (found.rate, counted)
     agrees = rate is None or any(abs(rate / other - 1.0) < SAME for other in known)
     return _finished(stamps, found, rows, float(kept[0]) / counted, None if agrees else rate, assumed)
@@ -285,6 +285,16 @@ def _rising(stamps: Stamps, values: Floats) -> tuple[Ints, tuple[str, ...]]:
     if repeated:
         said.append(f"{len(repeated)} row{'s repeat' if len(repeated) > 1 else ' repeats'} the time before: left out")
     return np.array(kept, dtype=np.int64), tuple(said)
+
+
+def _since_first(stamps: Stamps, rows: Ints, values: Floats) -> Floats:
+    """Values of rows from the first one on; one so far away that its neighbours run together is refused."""
+    since = values[rows] - values[rows[0]]
+    lost = np.flatnonzero(~(np.diff(since) > 0.0))
+    if len(lost):
+        problem = "is so far from the first row that rows cannot be told apart: correct the time of either"
+        raise stamps.refuse(int(rows[lost[0] + 1]), problem)
+    return np.asarray(since)
 
 
 def _agree(seconds: Floats, numbers: Floats, rounding: float) -> bool:

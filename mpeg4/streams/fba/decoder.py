@@ -13,8 +13,8 @@ from ....errors import FormatError, ParameterError
 from ....files import read_bytes
 from ....progress import Progress, Report
 from ...high_level import FULL, ExpressionField, VisemeField
-from ...standard import FAP_COUNT
-from ..fap_file import LONGEST, LONGEST_GAP
+from ...standard import FAP_COUNT, FRAMES_LIMIT
+from ..fap_file import LONGEST_GAP
 from ..fap_stream import FapStream
 from .bits import BitReader, EndOfBits
 from .channels import DEFAULT_LIMITS
@@ -200,8 +200,8 @@ def _read_plane(reading: _Reading) -> None:
         raise Damage("has a P frame without an I frame before it")
     if clock.seconds is not None:
         index = _timed(reading, index, clock.seconds)
-    if index >= LONGEST:
-        raise Damage(f"gives more than {LONGEST} frames: shorten the stream")
+    if index >= FRAMES_LIMIT:
+        raise Damage(f"gives more than {FRAMES_LIMIT} frames: shorten the stream")
     flags = read_levels(bits, reading.coding, intra=intra)
     _keep(reading, reading.coding, index, flags)
     reading.last, reading.lost = index, False
