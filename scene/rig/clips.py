@@ -124,15 +124,15 @@ def _write_into_action(owner: Datablock, keyframes: Keyframes, places: Sequence[
 def _written_before(action: Action | None, span: tuple[float, float]) -> set[tuple[str, int]]:
     """(path, index) of what clips have been written into an action where a span meets theirs."""
     entries = [] if action is None else noted(action, INTO)
-    return {(path, index) for path, index, *theirs in entries if overlap(span, (theirs[0], theirs[1]))}
+    return {(path, index) for path, index, theirs in entries if overlap(span, (theirs[0], theirs[1]))}
 
 
 def _note_written(action: Action | None, place: Place, span: tuple[float, float]) -> None:
     """Note on an action what has been written into it, and where."""
     if action is not None:
-        entries, entry = noted(action, INTO), (place.path, place.index, *span)
+        entries, entry = noted(action, INTO), (place.path, place.index, span)
         if entry not in entries:
-            action[INTO] = json.dumps([*entries, entry])
+            action[INTO] = json.dumps([(path, index, *frames) for path, index, frames in (*entries, entry)])
 
 
 def overlap(one: tuple[float, float], other: tuple[float, float]) -> bool:

@@ -30,8 +30,8 @@ TRACK_NAME = "Risorius Layer"
 REST = "risorius_rig_rest"
 #: A property of a user's action: what has been written into it, and between which frames, as JSON.
 INTO = "risorius_rig_into"
-#: Entries of each place in a note: path and index, then the rest, or the first and the last frame.
-LENGTHS = {REST: 3, INTO: 4}
+#: Numbers of each place in a note: the rest, or the first and the last frame.
+NUMBERS = {REST: 1, INTO: 2}
 #: A property of a datablock: the action that became a strip below a clip.
 PUSHED = "risorius_pushed_down"
 
@@ -217,7 +217,7 @@ def note_rest(action: Action, places: Sequence[tuple[Place, Channel]]) -> None:
     action[REST] = json.dumps([(place.path, place.index, channel.resting) for place, channel in places])
 
 
-def noted(action: Action, name: str) -> list[tuple[str, int, *tuple[float, ...]]]:
+def noted(action: Action, name: str) -> list[tuple[str, int, tuple[float, ...]]]:
     """What is noted on an action under a name: path, index and numbers, of each place.
 
     Raises
@@ -226,8 +226,8 @@ def noted(action: Action, name: str) -> list[tuple[str, int, *tuple[float, ...]]
     """
     try:
         entries = parsed_json(str(action.get(name, "[]")))
-        found = [(str(path), int(index), *map(float, numbers)) for path, index, *numbers in entries]
-        if not all(len(entry) == LENGTHS[name] and np.isfinite(entry[1:]).all() for entry in found):
+        found = [(str(path), int(index), tuple(map(float, numbers))) for path, index, *numbers in entries]
+        if not all(len(numbers) == NUMBERS[name] and np.isfinite(numbers).all() for _, _, numbers in found):
             raise ValueError("numbers are missing")
     except (ValueError, TypeError, OverflowError) as error:
         problem = f"has a damaged note: delete its custom property {name}, and bake the clip again"
@@ -237,14 +237,14 @@ def noted(action: Action, name: str) -> list[tuple[str, int, *tuple[float, ...]]
 
 def put_at_rest(copy: Datablock, action: Action) -> None:
     """Put what a clip keys on a datablock to rest on a copy of that."""
-    for path, index, resting in noted(action, REST):
+    for path, index, (resting,) in noted(action, REST):
         Place(copy, path, index).set(resting)
 
 
 def _settle(owner: Datablock, action: Action) -> None:
     """Put back to rest what a clip has keyed and nothing animates any more."""
     others = [*_user_actions(owner), *_own_actions(owner)]
-    for path, index, resting in noted(action, REST):
+    for path, index, (resting,) in noted(action, REST):
         if not _keyed(others, [(path, max(index, 0))]):
             Place(owner, path, index).set(resting)
 

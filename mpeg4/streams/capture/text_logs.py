@@ -99,7 +99,8 @@ def _is_ifacialmocap(lines: Sequence[str]) -> bool:
 def _face_cap(file: Path, lines: Sequence[tuple[int, str]]) -> TableFile:
     """Face Cap's frames."""
     names: list[str] = []
-    rows, numbers = [], []
+    rows: list[tuple[str, ...]] = []
+    numbers: list[int] = []
     for number, line in lines:
         mark, *cells = [cell.strip() for cell in line.split(",")]
         if mark == "bs":
