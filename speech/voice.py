@@ -14,7 +14,7 @@ import difflib
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -37,6 +37,9 @@ LIST_END, WORD, PHONEME = 0, 1, 7
 #: Words per minute and pitch that eSpeak NG takes, and what it speaks with if nothing is said.
 SPEEDS, USUAL_SPEED = (80, 450), 175
 PITCHES, USUAL_PITCH = (0, 99), 50
+
+#: Signs that are not said at either end of a word.
+EDGES = " .,;:!?…()[]{}\"„“”«»‹›–—-¿¡*/|"
 
 MISSING = (
     "Speaking text needs eSpeak NG: install it (in Python: pip install espeakng-loader), or time the sounds yourself"
@@ -212,6 +215,16 @@ def speak(text: str, *, voice: str = "en", speed: float = USUAL_SPEED, pitch: fl
     return Voiced(_utterance(text, voice, heard, len(sound), rate), sound, rate)
 
 
+def _letters(text: str, words: Sequence[tuple[int, int, int]]) -> list[str]:
+    """What of a text is said by each word: some are said in one with the next, as "did not", and named once."""
+    ends = [*(place for _, place, _ in words), len(text)][1:]
+    letters = []
+    for (_, place, length), end in zip(words, ends, strict=True):
+        said = " ".join(text[place:end].split()).strip(EDGES)
+        letters.append(said or text[place : place + length])
+    return letters
+
+
 def _utterance(text: str, voice: str, heard: _Heard, samples: int, rate: int) -> Utterance:
     """What was heard: each phoneme lasts to the next one, each word too."""
     phonemes = [(sample, symbol) for sample, symbol in heard.phonemes if not is_mark(symbol)]
@@ -224,8 +237,8 @@ def _utterance(text: str, voice: str, heard: _Heard, samples: int, rate: int) ->
     last = spoken[-1].end if spoken else 0.0
     starts = [*(sample / rate for sample, _, _ in heard.words), last][1:]
     words = [
-        Label(sample / rate, max(end, sample / rate), text[place : place + length])
-        for (sample, place, length), end in zip(heard.words, starts, strict=True)
+        Label(sample / rate, max(end, sample / rate), letters)
+        for (sample, _, _), end, letters in zip(heard.words, starts, _letters(text, heard.words), strict=True)
     ]
     if not spoken:
         raise ParameterError("text", f"must have words that the voice {voice} can say", text[:40])

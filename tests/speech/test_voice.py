@@ -109,3 +109,12 @@ def test_an_installed_library_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "espeakng_loader", None)
     monkeypatch.setattr(ctypes.util, "find_library", lambda _name: path)
     assert said(api.speak(SENTENCE)) == "p a t m a ɪ m a p"
+
+
+def test_words_that_are_said_in_one_keep_their_letters() -> None:
+    assert [word.text for word in api.speak("I did not see; it's (well) known.").utterance.words][:2] == [
+        "I",
+        "did not",
+    ]
+    said = " ".join(word.text for word in api.speak("I did not see; it's (well) known.").utterance.words)
+    assert said == "I did not see it's well known"
