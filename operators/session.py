@@ -34,7 +34,7 @@ class Previews:
 
     Attributes
     ----------
-    faces : held ready. due : to be shown next.
+    faces : held ready. due : to be shown next. to_play : to be shown as laid out, once their faces are ready.
     shown : what each shows.
     hidden : those that showed a preview before the file was saved or changed by undo.
     trouble : why the last one could not be shown.
@@ -43,6 +43,7 @@ class Previews:
 
     faces: HeldFaces = field(default_factory=HeldFaces)
     due: DueLooks = field(default_factory=DueLooks)
+    to_play: set[int] = field(default_factory=set)
     shown: dict[int, Shown] = field(default_factory=dict)
     hidden: frozenset[int] = frozenset()
     trouble: str = ""

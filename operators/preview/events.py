@@ -20,8 +20,10 @@ def _after_frame(scene: Scene, *_: object) -> None:
     """Another frame: what is baked plays by itself, what is not is shown as it is laid out."""
     if not live.is_on() or bpy.app.is_job_running("RENDER"):
         return
-    previews = session().previews
+    previews, active = session().previews, bpy.context.object
     previews.due.clear()
+    if active is not None and live.held(active) is None:
+        live.ask_to_play(active)
     for uid in previews.faces.uids:
         obj, face = live.object_of(uid), previews.faces.get(uid)
         if obj is not None and face is not None:

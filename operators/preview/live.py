@@ -93,16 +93,19 @@ def _answer() -> float | None:
     """Timer: do what is due, and say when to come again."""
     previews = session().previews
     faces = previews.faces
-    if not is_on() or not (previews.due or faces.is_preparing or faces.has_more):
+    if not is_on() or not (previews.due or previews.to_play or faces.is_preparing or faces.has_more):
         return None
     try:
         if faces.is_preparing:
             return _prepare(previews)
+        if previews.to_play and not previews.due:
+            return _play_waiting(previews)
         return _look(previews) if previews.due else _go_on(previews)
     except RisoriusError as refusal:
         previews.trouble = str(refusal)
     faces.drop()
     previews.due.clear()
+    previews.to_play.clear()
     show_status_everywhere(None)
     return None
 
@@ -122,6 +125,34 @@ def _look(previews: Previews) -> float:
     show(obj, face, exact=look.exact)
     previews.due.done(look, shown=True)
     return 0.0
+
+
+def _play_waiting(previews: Previews) -> float:
+    """The next face that waits to be shown as laid out; returns the seconds until the next answer."""
+    uid = next(iter(previews.to_play))
+    obj = object_of(uid)
+    face = previews.faces.current(target_of(obj)) if obj is not None and may_play(obj) else None
+    if face is None and previews.faces.is_preparing:
+        return PAUSE
+    previews.to_play.discard(uid)
+    if obj is not None and face is not None:
+        play_or_rest(obj, face, bpy.context.scene)
+    return 0.0
+
+
+def may_play(obj: Object) -> bool:
+    """Whether something is laid out for a face that is not baked, and it can be shown."""
+    if obj.type != "MESH" or not (obj.risorius.timeline.clips or obj.risorius.speech.strips):
+        return False
+    return not shape_keys.has_own(obj) and not rig_clips(obj) and ready_reason(obj) is None
+
+
+def ask_to_play(obj: Object) -> None:
+    """Show `obj` as it is laid out at the scene's frame, as soon as its face is ready."""
+    if is_on() and may_play(obj):
+        session().previews.to_play.add(uid_of(obj))
+        if not bpy.app.timers.is_registered(_answer):
+            bpy.app.timers.register(_answer, first_interval=0.0)
 
 
 def _prepare(previews: Previews) -> float:
@@ -241,7 +272,9 @@ def play_or_rest(obj: Object, face: LiveFace, scene: Scene) -> None:
 def replay(obj: Object) -> None:
     """Show the scene's frame again: something on the timeline of `obj` has moved."""
     face = held(obj)
-    if is_on() and face is not None:
+    if face is None:
+        ask_to_play(obj)
+    elif is_on():
         session().previews.due.clear()
         play_or_rest(obj, face, bpy.context.scene)
 

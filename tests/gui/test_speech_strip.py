@@ -29,22 +29,19 @@ result = {{
     "sounds": [[int(strip.frame_final_start), int(strip.frame_final_duration)] for strip in strips],
 }}
 """
-#: Only Speak in the sidebar, open; some room for the timeline.
+#: The panels of speech come first, and the editor of properties shows the timeline, tall enough for pictures.
 ROOM = """
-for name in ("RISORIUS_PT_emotion", "RISORIUS_PT_timeline"):
-    cls = getattr(bpy.types, name)
-    bpy.utils.unregister_class(cls)
-cls = bpy.types.RISORIUS_PT_speech
-bpy.utils.unregister_class(cls)
-cls.bl_options = set()
-bpy.utils.register_class(cls)
+for name in ("emotion", "variation", "timeline", "bake", "read_features", "read_faps", "read", "film"):
+    bpy.utils.unregister_class(getattr(bpy.types, f"RISORIUS_PT_{name}"))
+area = next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == "PROPERTIES")
+area.ui_type = "TIMELINE"
 """
 #: The middle of the bar of the first speech, and its end, in pixels of the window from its upper left.
 BAR = f"""
 from importlib import import_module
 drawing = import_module("bl_ext.user_default.risorius.operators.timeline.drawing")
 window = bpy.context.window_manager.windows[0]
-area = next(area for area in window.screen.areas if area.type == "DOPESHEET_EDITOR")
+area = max((a for a in window.screen.areas if a.type == "DOPESHEET_EDITOR"), key=lambda a: a.height)
 region = next(region for region in area.regions if region.type == "WINDOW")
 with bpy.context.temp_override(window=window, area=area, region=region):
     bar = drawing.bars_of(bpy.context, region)[-1]
