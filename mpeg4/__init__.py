@@ -4,6 +4,7 @@ standard, high_level    FAPs, feature points, units, visemes, expressions: data
 emotions                words, profiles, the wheel, and recognition
 timing, variation       profiles become frames, and look alive
 preset_file             expressions and timelines as files to keep
+preset_speech           speech in them
 streams                 frames on disk, and what they do not state
 """
 

@@ -16,6 +16,7 @@ from ..files import write_whole
 from ..tables import TomlTable, read_toml, toml_number, toml_text
 from .emotions.expressions import expression, find_word
 from .emotions.profile import Profile
+from .preset_speech import KeptSpeech, read_speech, speech_lines
 from .timing import Ramp
 
 
@@ -93,7 +94,7 @@ class Preset:
 
     Attributes
     ----------
-    kind : of what it is. emotion : of an expression. clips : of a timeline, at least one.
+    kind : of what it is. emotion : of an expression. clips, speech : of a timeline, at least one.
     contractions : muscle name -> 0..1, set by hand. variation : name of `VARIATIONS` -> amount and seed.
     """
 
@@ -102,13 +103,14 @@ class Preset:
     clips: tuple[Clip, ...] = ()
     contractions: Mapping[str, float] = field(default_factory=dict)
     variation: Mapping[str, tuple[float, int]] = field(default_factory=dict)
+    speech: tuple[KeptSpeech, ...] = ()
 
     def __post_init__(self) -> None:
         """Check that it holds what its kind says."""
         if self.kind is PresetKind.EXPRESSION and self.emotion is None:
             raise ParameterError("preset", "must contain an emotion", self.kind)
-        if self.kind is PresetKind.TIMELINE and not self.clips:
-            raise ParameterError("preset", "must contain at least one clip", self.kind)
+        if self.kind is PresetKind.TIMELINE and not (self.clips or self.speech):
+            raise ParameterError("preset", "must contain at least one clip or speech", self.kind)
         for name, value in self.contractions.items():
             if not 0.0 <= value <= 1.0:
                 raise ParameterError(f"contraction of {name}", "must be in 0..1", value)
@@ -129,6 +131,8 @@ def write_preset(path: str | Path, preset: Preset) -> None:
         lines += _choice_lines(clip.emotion)
         lines += [f"{key} = {toml_number(getattr(clip, key))}" for key in ("start", "onset", "apex", "offset", "peak")]
         lines += [f"ramp = {toml_text(clip.ramp.value)}", *(["mute = true"] if clip.mute else [])]
+    for speech in preset.speech:
+        lines += speech_lines(speech)
     if preset.variation:
         lines += ["", "[variation]"]
         lines += [
@@ -163,14 +167,15 @@ def read_preset(path: str | Path) -> Preset:
         kinds = " or ".join(f'"{kind}"' for kind in PresetKind)
         raise document.refuse(f"is not a Risorius preset: it must say risorius = {kinds}", "risorius")
     kind = PresetKind(document.text("risorius"))
-    held = "emotion" if kind is PresetKind.EXPRESSION else "clips"
-    document.only("risorius", held, "contractions", "variation")
+    held = ("emotion",) if kind is PresetKind.EXPRESSION else ("clips", "speech")
+    document.only("risorius", *held, "contractions", "variation")
     emotion = _choice(document.table("emotion")) if kind is PresetKind.EXPRESSION else None
     clips = () if kind is PresetKind.EXPRESSION else tuple(_clip(table) for table in document.listed("clips"))
     contractions = document.table("contractions", optional=True)
     strengths = {name: contractions.number(name, least=0.0, most=1.0) for name in contractions}
     variation = _variation(document.table("variation", optional=True))
-    return document.made(lambda: Preset(kind, emotion, clips, strengths, variation))
+    speech = () if kind is PresetKind.EXPRESSION else tuple(read_speech(table) for table in document.listed("speech"))
+    return document.made(lambda: Preset(kind, emotion, clips, strengths, variation, speech))
 
 
 #: Keys of an emotion, and of a clip besides.

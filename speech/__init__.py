@@ -2,7 +2,7 @@
 
 phonemes       speech sounds, their visemes, and the alphabets that write them
 utterance      sounds and words in time
-line           the same as words to be changed one by one
+line, kept     the same as words to be changed one by one; as presets keep them
 voice          text becomes sound and timed phonemes
 waves          WAV files
 stretching     a sound that lasts longer or shorter at the same pitch

@@ -39,7 +39,7 @@ SPEEDS, USUAL_SPEED = (80, 450), 175
 PITCHES, USUAL_PITCH = (0, 99), 50
 
 #: Signs that are not said at either end of a word.
-EDGES = " .,;:!?…()[]{}\"„“”«»‹›–—-¿¡*/|"
+EDGES = ' .,;:!?…()[]{}"„“”«»‹›–—-¿¡*/|'
 
 MISSING = (
     "Speaking text needs eSpeak NG: install it (in Python: pip install espeakng-loader), or time the sounds yourself"

@@ -18,6 +18,7 @@ from ..emotion.profile import variant_of
 from ..emotion.props import DEFAULT_VARIANT, RISORIUS_PG_emotion
 from ..muscles.props import by_hand_of
 from ..timeline.props import RISORIUS_PG_clip, RISORIUS_PG_timeline
+from .spoken import kept_speech, lay_out_speech
 
 #: Presets that come with Risorius.
 BUNDLED = PRESETS / "timelines"
@@ -40,10 +41,16 @@ def expression_of(obj: Object) -> Preset:
     return Preset(PresetKind.EXPRESSION, choice_of(obj.risorius.emotion), contractions=_rounded(by_hand_of(obj)))
 
 
-def timeline_of(obj: Object, scene: Scene) -> Preset:
-    """All clips, their variation and what is contracted by hand."""
-    timeline, fps = obj.risorius.timeline, scene_fps(scene)
-    first = min(clip.start for clip in timeline.clips)
+def timeline_of(obj: Object, scene: Scene, path: Path | None = None) -> Preset:
+    """All clips and speech, their variation and what is contracted by hand; sounds go beside the preset's path.
+
+    Raises
+    ------
+    FormatError : a sound cannot be written.
+    """
+    timeline, strips, fps = obj.risorius.timeline, obj.risorius.speech.strips, scene_fps(scene)
+    first = min([clip.start for clip in timeline.clips] + [strip.start for strip in strips])
+    speech = tuple(kept_speech(strip, (strip.start - first) / fps, path, n) for n, strip in enumerate(strips, 1))
     clips = tuple(_clip_of(clip, (clip.start - first) / fps) for clip in timeline.clips)
     variation = {
         name: (round(getattr(timeline.variation, name), 6), getattr(timeline.variation, f"{name}_seed"))
@@ -51,7 +58,7 @@ def timeline_of(obj: Object, scene: Scene) -> Preset:
         if getattr(timeline.variation, name) > 0.0
     }
     hands = _rounded(by_hand_of(obj))
-    return Preset(PresetKind.TIMELINE, clips=clips, contractions=hands, variation=variation)
+    return Preset(PresetKind.TIMELINE, clips=clips, contractions=hands, variation=variation, speech=speech)
 
 
 def choice_of(emotion: RISORIUS_PG_emotion) -> Choice:
@@ -74,18 +81,22 @@ def _rounded(contractions: dict[str, float]) -> dict[str, float]:
     return {name: round(value, 6) for name, value in contractions.items()}
 
 
-def load(preset: Preset, obj: Object, context: Context) -> str:
+def load(preset: Preset, obj: Object, context: Context, folder: Path | None = None) -> tuple[str, list[str]]:
     """Give a face what a preset holds: an expression to the Emotion panel, or a timeline from the current frame on.
+
+    `folder` : where sounds are that have no path of their own. Returns what was done, and what could not be, in words.
 
     Raises
     ------
     ParameterError : it names a muscle that is not known; nothing has been changed then.
     """
     _check_muscles(preset)
+    said: list[str] = []
     if preset.emotion is not None:
         choose(obj.risorius.emotion, preset.emotion)
     else:
         _lay_out(preset, obj.risorius.timeline, context.scene)
+        said = lay_out_speech(preset.speech, obj, context.scene, folder or Path())
     by_hand = obj.risorius.muscles.by_hand
     by_hand.clear()
     for name, value in preset.contractions.items():
@@ -93,8 +104,9 @@ def load(preset: Preset, obj: Object, context: Context) -> str:
         entry.name, entry.contraction = name, value
     retimed(obj.risorius.timeline, context)
     changed(obj.risorius.emotion, context)
-    what = "expression" if preset.emotion is not None else f"{len(preset.clips)} clips"
-    return f"{obj.name}: loaded {what}"
+    spoken = f" and {len(preset.speech)} speech" if preset.speech else ""
+    what = "expression" if preset.emotion is not None else f"{len(preset.clips)} clips{spoken}"
+    return f"{obj.name}: loaded {what}", said
 
 
 def choose(emotion: RISORIUS_PG_emotion, choice: Choice) -> None:

@@ -47,7 +47,7 @@ class RISORIUS_OT_save_preset(RisoriusOperator, Operator):
                 (
                     PresetKind.TIMELINE.value,
                     "Timeline",
-                    "Save all clips with their times, the variation, and muscles set by hand",
+                    "Save all clips and speech with their times, the variation, and muscles set by hand",
                 ),
             ),
         ),
@@ -65,14 +65,16 @@ class RISORIUS_OT_save_preset(RisoriusOperator, Operator):
     def run(self, context: Context) -> str:
         """Save it in the user's folder."""
         obj = active_object(context)
-        if self.kind == PresetKind.TIMELINE and not obj.risorius.timeline.clips:
+        nothing = not obj.risorius.timeline.clips and not obj.risorius.speech.strips
+        if self.kind == PresetKind.TIMELINE and nothing:
             raise SceneError(obj.name, "has no clips yet: add one, or save the expression")
         folder = own_folder(create=True)
         if folder is None:
             raise SceneError("Blender", "has no folder for your presets: check the file paths in the preferences")
         stem = re.sub(r"[^\w\- ]", "_", str(self.preset)).strip() or "Mine"
-        held = expression_of(obj) if self.kind == PresetKind.EXPRESSION else timeline_of(obj, context.scene)
         path = folder / f"{stem}.toml"
+        is_expression = self.kind == PresetKind.EXPRESSION
+        held = expression_of(obj) if is_expression else timeline_of(obj, context.scene, path)
         write_preset(path, held)
         return f"Saved {path}"
 
@@ -104,4 +106,7 @@ class RISORIUS_OT_load_preset(RisoriusOperator, ImportHelper, Operator):
     def run(self, context: Context) -> str:
         """Load it."""
         path = Path(bpy.path.abspath(self.filepath))
-        return f"{load(read_preset(path), active_object(context), context)} from {path.name}"
+        done, said = load(read_preset(path), active_object(context), context, path.parent)
+        for line in said:
+            self.report({"WARNING"}, line)
+        return f"{done} from {path.name}"

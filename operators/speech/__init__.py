@@ -5,6 +5,7 @@ strip_props    strips, their words, the words' sounds
 strips         what strips say, and all of them as one motion of the mouth
 heard          what is chosen, spoken or read
 ops            bake it at once, with its sound on the sequencer
+placing        a strip put there with its sound
 strip_ops      strips added, pasted, removed, stretched
 bars           strips in a timeline editor, and how they are dragged there
 fitting        a strip's sound as long as the strip

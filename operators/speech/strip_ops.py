@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tempfile
-import uuid
 from pathlib import Path
 
 import bpy
@@ -11,8 +10,7 @@ from bpy.props import FloatProperty
 
 from ...errors import RisoriusError, SceneError
 from ...scene.bake.timing import scene_fps
-from ...scene.sounds import add_sound, add_wav, is_missing, remove_sound, scrub_along, tagged
-from ...speech.line import line_of
+from ...scene.sounds import is_missing, remove_sound, scrub_along, tagged
 from ..active import active_object, face_reason
 from ..annotated import Annotated
 from ..base import RisoriusOperator
@@ -20,8 +18,9 @@ from ..blender_classes import Operator
 from ..blender_types import Context, Object, Scene
 from .fitting import fit_sound
 from .heard import Heard, heard, nothing_said
-from .strip_props import STRETCH, RISORIUS_PG_speech_strip, active_strip, edited, written_at_once
-from .strips import length_of, shortened, title_of_strip, write_line
+from .placing import place_strip
+from .strip_props import STRETCH, RISORIUS_PG_speech_strip, active_strip, edited
+from .strips import length_of, shortened, title_of_strip
 
 #: Seconds by which a sound may be shorter than what is said in it.
 SHORTER = 0.1
@@ -63,34 +62,23 @@ def strip_of(context: Context) -> RISORIUS_PG_speech_strip:
 def add_strip(operator: RisoriusOperator, context: Context, said: Heard) -> str:
     """Put what is said on the timeline, from the current frame on, with its sound; what to tell the user."""
     obj, scene = active_object(context), context.scene
-    strips, start = obj.risorius.speech.strips, int(scene.frame_current)
-    line, tag = line_of(said.utterance), uuid.uuid4().hex
-    told = [(False, line) for line in said.utterance.assumed]
-    sound = None
+    start, utterance = int(scene.frame_current), said.utterance
+    told = [(False, line) for line in utterance.assumed]
     try:
-        if said.file is not None:
-            sound = add_sound(scene, said.file, frame=start, tag=tag)
-        elif said.wav is not None:
-            sound = add_wav(scene, said.wav, said.title, frame=start, tag=tag)
+        strip, sound = place_strip(obj, scene, utterance, said.title, start, file=said.file, wav=said.wav)
     except RisoriusError as refusal:
         told.append((False, f"Without sound: {refusal}"))
-    with written_at_once():
-        strip = strips.add()
-        strip.name, strip.start, strip.tag = said.title, start, tag
-        strip.voice = obj.risorius.speech.voice
-        strip.sound = None if sound is None else sound.sound
-        write_line(strip, line)
-        obj.risorius.speech.active = len(strips) - 1
-    edited(strip, context)
+        strip, sound = place_strip(obj, scene, utterance, said.title, start)
     if sound is not None:
         heard_for = sound.frame_final_duration / scene_fps(scene)
-        if line.words and heard_for < line.words[-1].end - SHORTER:
-            lasts = f"{said.title}: the sound lasts {heard_for:.1f} s, but the speech {line.words[-1].end:.1f} s"
+        last = utterance.sounds[-1].end
+        if heard_for < last - SHORTER:
+            lasts = f"{said.title}: the sound lasts {heard_for:.1f} s, but the speech {last:.1f} s"
             told.append((False, f"{lasts}: the mouth goes on without it"))
         told += [(True, line) for line in scrub_along(scene)]
     for is_remark, text in told:
         operator.report({"INFO"} if is_remark else {"WARNING"}, text)
-    count = len(line.words)
+    count = len(strip.words)
     return f"Added {title_of_strip(strip)} at frame {start}: {count} word{'s' * (count != 1)}, {length_of(strip):.1f} s"
 
 

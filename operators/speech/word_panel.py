@@ -44,11 +44,10 @@ class RISORIUS_UL_words(UIList):
         active_property: str,
     ) -> None:
         """One word."""
-        split = layout.split(factor=0.42, align=True)
+        split = layout.split(factor=0.5, align=True)
         split.label(text=title_of_word(item))
         row = split.row(align=True)
         row.label(text=f"{item.begins:.2f}")
-        row.label(text=f"{item.ends:.2f}")
         row.prop(item, "strength", text="", emboss=False)
 
 

@@ -94,7 +94,7 @@ def _draw_speech(canvas: Canvas, context: Context, region: Region, bar: Bar) -> 
         words += last - first
         high = bar.low + (0.35 + 0.65 * min(strength, 1.0)) * (bar.high - bar.low)
         colour = EDITED if edited and number == speech.active else SPEECH
-        canvas.box((first, bar.low), (last - 0.5 * scale, high), (*colour, opacity))
+        canvas.box((first, bar.low), (last - 1.5 * scale, high), (*colour, opacity))
         _write(canvas, bar, (first, last), title, 2.0 * scale, scale)
     if not words:
         _write(canvas, bar, (begin, end), title_of_strip(strip), INDENT * scale, scale)

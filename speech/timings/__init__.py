@@ -6,6 +6,7 @@ rhubarb      mouth shapes of Rhubarb Lip Sync: JSON, XML, TSV
 tabular      tables of sounds or visemes with their times
 visemes      streams of FAPs with visemes
 loudness     a sound alone: as loud as open
+presets      timelines saved as presets
 documents    JSON of aligners, of speech services, and plain lists
 reading      which of them a file is
 """

@@ -16,6 +16,7 @@ from ..utterance import Utterance
 from .documents import json_timings
 from .labels import Timings, utterance_of
 from .loudness import is_wav, loudness_utterance
+from .presets import is_preset, preset_utterance
 from .rhubarb import is_rhubarb_tsv, rhubarb_from_tsv, rhubarb_from_xml
 from .tabular import has_no_heading, label_file, table_timings
 from .textgrid import textgrid_timings
@@ -31,8 +32,8 @@ def read_timings(path: str | Path, *, tier: str | None = None, alphabet: str | A
     Parameters
     ----------
     path : a TextGrid, Rhubarb's JSON, TSV or XML, the JSON of the Montreal Forced Aligner, Gentle or Amazon Polly, a
-        label file, a table or JSON of sounds or visemes with their times, or a stream with visemes (.fap, .fba). A
-        sound (.wav) opens the mouth as loud as it is, which is said.
+        label file, a table or JSON of sounds or visemes with their times, a stream with visemes (.fap, .fba), or a
+        timeline saved as a preset (.toml). A sound (.wav) opens the mouth as loud as it is, which is said.
     tier : which tier of a TextGrid holds the sounds; found if not given.
     alphabet : how sounds are written: ipa, arpabet or xsampa; found if not given.
 
@@ -53,6 +54,8 @@ def read_timings(path: str | Path, *, tier: str | None = None, alphabet: str | A
         raise ParameterError("alphabet", f"must be one of {', '.join(Alphabet)}", str(alphabet))
     if is_wav(read_bytes(file)):
         return loudness_utterance(file)
+    if file.suffix.lower() == ".toml" and is_preset(decoded(read_bytes(file)) or ""):
+        return preset_utterance(file)
     timings = _opened(file, tier)
     return utterance_of(timings, None if alphabet is None else Alphabet(alphabet))
 

@@ -190,3 +190,33 @@ def test_what_is_on_the_clipboard_is_said(head: Any) -> None:
     operator = SimpleNamespace(report=lambda *_: None)
     said = strip_ops.RISORIUS_OT_paste_speech.run(operator, context)
     assert said == "Added me up at frame 1: 2 words, 0.6 s"
+
+
+def test_a_preset_keeps_it_with_its_sound(
+    speech: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("risorius.operators.library.ops.own_folder", lambda **_: tmp_path)
+    strip = add(speech, 5)
+    strip.words[1].strength, strip.stretch = 0.5, 1.5
+    strip.words[0].sounds[0].viseme = "2"
+    strip.sound.pack()
+    before = speech_of(speech.id_data, 5.0, 10.0)
+    assert bpy.ops.risorius.save_preset(preset="Mine", kind="timeline") == {"FINISHED"}
+    assert (tmp_path / "Mine 1.wav").is_file()
+    add(speech, 40)
+    bpy.context.scene.frame_set(5)
+    assert bpy.ops.risorius.load_preset(filepath=str(tmp_path / "Mine.toml")) == {"FINISHED"}
+    assert len(speech.strips) == 1
+    after = speech_of(speech.id_data, 5.0, 10.0)
+    assert before is not None
+    assert after is not None
+    assert [(s.phoneme, s.strength) for s in after.utterance.sounds] == [
+        (s.phoneme, s.strength) for s in before.utterance.sounds
+    ]
+    assert np.allclose([s.end for s in after.utterance.sounds], [s.end for s in before.utterance.sounds], atol=1e-5)
+    assert [sound.frame_final_start for sound in heard()] == [5]
+    (tmp_path / "Mine 1.wav").unlink()
+    assert bpy.ops.risorius.load_preset(filepath=str(tmp_path / "Mine.toml")) == {"FINISHED"}
+    assert len(speech.strips) == 1
+    said = capfd.readouterr()
+    assert "line: without sound:" in said.out + said.err
