@@ -108,5 +108,6 @@ def _recognised(
 
 def _listed(trackers: Sequence[Tracker[Content]]) -> str:
     """What files are recognised by, in a sentence."""
-    *others, last = (tracker.example for tracker in trackers)
+    last, *others = dict.fromkeys(tracker.example for tracker in reversed(trackers))
+    others.reverse()
     return f"{', '.join(others)} or {last}"

@@ -65,6 +65,12 @@ TABLES: tuple[Tracker[TableFile], ...] = (
         lambda table, told: read_fap_csv(table, rate=told.rate, start=told.start, face=told.face),
     ),
     Tracker(
+        (StreamFormat.ARKIT,),
+        "ARKit (jawOpen)",
+        lambda table: holds_py_feat(table) and holds_arkit(table),  # Py-Feat's newer detectors have blend shapes, too
+        lambda table, told: read_arkit(table, rate=told.rate, start=told.start, face=told.face),
+    ),
+    Tracker(
         (StreamFormat.LANDMARKS,),
         "landmarks (x_0)",
         holds_landmarks,

@@ -9,6 +9,7 @@ samples                              from these times to an even rate
 rotation                             rotations of a head as FAPs 48 to 50
 delimited                            which mark parts the cells of a line, and which the decimals
 table_file, json_file, json_layout   CSV and JSON, with errors that name line and column or frame
+json_names                           JSON that has the names of its scores once
 long_form, json_scores               a row, an entry, a message or a curve for each score, made into frames
 seeming                              what a file seems to be that is none of them
 text_logs                            Face Cap's files, logs of iFacialMocap and VMC

@@ -24,7 +24,7 @@ from ....tables import parsed_json, parsed_number
 from .delimited import decoded
 from .faces import name_of_frames, rows_of_face
 from .json_layout import bare_entries, entries_of, laid_out, rate_stated
-from .row_names import FACE_NAMES, NUMBER_NAMES, first_named, time_named
+from .row_names import FACE_NAMES, NUMBER_NAMES, first_named, says_unseen, tells_of_a_row, time_named
 from .timecode import date_seconds, is_timecode, timecode_stamps
 from .times import Stamps, Times, placed
 
@@ -106,8 +106,15 @@ def frames_of(file: Path, document: Any) -> list[JsonFrame]:
         entries = bare_entries(held)
         if not isinstance(entries, dict):
             raise FormatError(file, f"must be an object, but it is {str(entries)[:40]!r}", key=f"frame {number}")
-        frames.append(JsonFrame(file, number, entries_of(entries), key, per_second))
+        frames.append(JsonFrame(file, number, _of_a_face(entries_of(entries)), key, per_second))
     return frames
+
+
+def _of_a_face(entries: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A frame's entries; those that tell of the frame alone where it says that no face was seen in it."""
+    if not any(says_unseen(name, value) for name, value in entries.items()):
+        return entries
+    return {name: value for name, value in entries.items() if tells_of_a_row(name)}
 
 
 def read_json_document(path: str | Path) -> Any:
@@ -140,7 +147,8 @@ def _line(file: Path, number: int, line: str) -> Any:
     try:
         return parsed_json(line)
     except ValueError as error:
-        raise FormatError(file, f"is not valid JSON ({error}): is the file cut off here?", line=number) from error
+        problem = f"is not valid JSON ({error}): is the file cut off here? Remove this line to read the rest"
+        raise FormatError(file, problem, line=number) from error
 
 
 def json_times(frames: list[JsonFrame], rate: float | None = None) -> Times:

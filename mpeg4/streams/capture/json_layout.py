@@ -9,8 +9,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ....tables import parsed_number
+from .json_names import ABOUT, names_beside, row_by_name, with_names
 from .json_scores import category, frames_of_curves, frames_of_scores
-from .row_names import RATE_NAMES, first_named, numbers_at_end, plain_name, tells_of_a_row, time_name
+from .row_names import RATE_NAMES, first_named, numbers_at_end, plain_name, time_name
 from .shape_names import is_turn, shape_named
 
 #: Objects around a result that loggers keep, by their plain names.
@@ -52,9 +53,6 @@ SEEN = ("blendshapes", "faceblendshapes", "landmarks", "facelandmarks", "keypoin
 #: Faces that an image shows at most.
 MOST_FACES = 16
 
-#: Names of what is said of a whole recording.
-ABOUT = ("meta", "metadata", "info", "header", "heading", "video", "camera", "capture", "settings", "config", "source")
-
 #: How deep objects are looked into.
 DEEPEST = 4
 
@@ -64,11 +62,11 @@ Entries = Mapping[str, Any]
 def laid_out(document: Any) -> list[tuple[float | None, Any]] | None:
     """Each frame's own number, where the file names frames so, and what it holds; None where there are no frames."""
     if isinstance(document, dict):
-        return _of_object(document, DEEPEST)
+        return with_names(_of_object(document, DEEPEST), names_beside(document))
     if not isinstance(document, list) or not document:
         return None
     if len(document) == 1 and isinstance(document[0], dict):
-        return _of_object(document[0], DEEPEST)
+        return laid_out(document[0])
     document = document[1:] if _is_heading(document[0]) and len(document) > 1 else document
     scores = frames_of_scores(document)
     if scores is not None:
@@ -161,19 +159,14 @@ def _matrix(document: Entries) -> list[tuple[float | None, Any]] | None:
         for place, rows in document.items():
             if place == heading or not (named_shapes or plain_name(place) in MATRICES):
                 continue
+            if isinstance(rows, list) and len(rows) % len(names) == 0 and all(isinstance(v, int | float) for v in rows):
+                rows = [rows[first : first + len(names)] for first in range(0, len(rows), len(names))]
             if not (isinstance(rows, list) and rows and all(isinstance(row, list) for row in rows)):
                 continue
             if all(len(row) in (0, len(names)) for row in rows):
                 times = _times_beside(document, len(rows))
-                return [(None, {**times.get(number, {}), **_row(names, row)}) for number, row in enumerate(rows)]
+                return [(None, {**times.get(number, {}), **row_by_name(names, row)}) for number, row in enumerate(rows)]
     return None
-
-
-def _row(names: list[str], row: list[Any]) -> dict[str, Any]:
-    """The entries of a row of a matrix: what tells of the row by its name, all others as blend shapes."""
-    named = dict(zip(names, row, strict=True)) if row else {}
-    about = {name: value for name, value in named.items() if tells_of_a_row(name)}
-    return {**about, "blendshapes": {name: value for name, value in named.items() if name not in about}}
 
 
 def _columns(document: Entries) -> list[tuple[float | None, Any]] | None:

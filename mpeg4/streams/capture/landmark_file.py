@@ -142,7 +142,7 @@ def _position(frame: JsonFrame, number: int, entry: Any) -> tuple[float, ...]:
 
 def holds_landmarks(table: TableFile) -> bool:
     """Whether a CSV looks like landmarks."""
-    return _is_long(table) or len(_wide_columns(table)) >= 3 * FEWEST
+    return _is_long(table) or len(_wide_columns(table)) >= 2 * FEWEST
 
 
 def landmarks_from_csv(
@@ -173,12 +173,16 @@ def _wide(table: TableFile) -> Floats:
     """(T, N, 3) landmarks of a table with a row per frame."""
     columns = _wide_columns(table)
     numbers = sorted({number for number, _ in columns})
+    if numbers and numbers[0] == 1:  # counted from 1
+        columns = {(number - 1, axis): name for (number, axis), name in columns.items()}
+        numbers = [number - 1 for number in numbers]
     if len(numbers) < FEWEST or numbers != list(range(len(numbers))):
         problem = f"must have columns x_0, y_0, z_0 to x_{FEWEST - 1}, ..., but it has {len(numbers)} landmarks"
         raise FormatError(table.path, problem, line=1)
     missing = [f"{'xyz'[axis]}_{n}" for n in numbers for axis in range(3) if (n, axis) not in columns]
     if missing:
-        raise FormatError(table.path, f"lacks the columns {', '.join(missing[:5])}", line=1)
+        remedy = ": depth is needed, too" if all(name.startswith("z") for name in missing) else ""
+        raise FormatError(table.path, f"lacks the columns {', '.join(missing[:5])}{remedy}", line=1)
     return np.stack([np.stack([table.numbers(columns[n, a]) for a in range(3)], axis=1) for n in numbers], axis=1)
 
 
@@ -195,6 +199,7 @@ def _long(table: TableFile, face: int | None) -> tuple[TableFile, Floats, Ints]:
     for row, (landmark, frame) in enumerate(zip(which, frames, strict=True)):
         if not (0 <= landmark < MOST and landmark == int(landmark) and frame):
             raise FormatError(table.path, "must name its frame and its landmark (0, 1, ...)", line=table.lines[row])
+    which = which - (which.min() == 1.0)  # counted from 1
     count = int(which.max()) + 1
     if count < FEWEST:
         raise FormatError(table.path, f"has {count} landmarks per frame, but a face mesh has {FEWEST} or more")

@@ -19,7 +19,7 @@ from ....tables import TomlTable, read_toml
 from ...standard import FAP_COUNT
 from .faces import one_face
 from .rotation import in_radians
-from .row_names import tells_of_a_row
+from .row_names import says_unseen, tells_of_a_row
 from .samples import Samples
 from .scores import faps_of_scores, unread_words
 from .shape_names import means_nothing, shape_named
@@ -78,10 +78,10 @@ def read_arkit(
 
 
 def _faceless(table: TableFile) -> Bools:
-    """(T,) rows in which the app saw no face: it counts no blend shapes in them."""
-    if COUNT not in table:
-        return np.zeros(len(table.rows), dtype=np.bool_)
-    return np.asarray(table.numbers(COUNT) <= 0.0)
+    """(T,) rows in which the app saw no face: it counts no blend shapes in them, or says so."""
+    unseen = [any(says_unseen(name, cell) for name, cell in zip(table.columns, row, strict=True)) for row in table.rows]
+    uncounted = table.numbers(COUNT) <= 0.0 if COUNT in table else False
+    return np.asarray(np.array(unseen, dtype=np.bool_) | uncounted)
 
 
 def faps_of_turns(columns: Mapping[str, Floats], count: int, turns: Mapping[str, TomlTable] | None = None) -> Floats:

@@ -44,6 +44,13 @@ RATE_NAMES = ("fps", "framerate", "framespersecond", "rate", "exportfps", "sampl
 #: Names of what is known of a row beside its values.
 ROW_NAMES = ("blendshapecount", "confidence", "success", "facescore", "score", "tracked", "istracked", "trackingstatus")
 
+#: Names of what says whether a face was seen at all, and words for that it was not.
+SEEN_NAMES = (
+    "success", "tracked", "istracked", "facetracked", "detected", "facedetected", "isfacedetected", "hasface",
+    "facefound", "valid", "isvalid",
+)  # fmt: skip
+NOT_SEEN = ("0", "0.0", "false", "no")
+
 #: What ends the name of a frame or its image: its number, and a file's ending.
 LAST_NUMBER = re.compile(r"(.*?)(\d+)(\.[A-Za-z]\w*)?")
 
@@ -92,13 +99,18 @@ def time_named(names: Iterable[str]) -> tuple[str, float | None] | None:
     return min(found, key=lambda item: item[0])[1:] if found else None
 
 
+def says_unseen(name: str, value: object) -> bool:
+    """Whether a cell or an entry says that no face was seen, so that all beside it is what was seen before."""
+    return plain_name(name) in SEEN_NAMES and str(value).strip().lower() in NOT_SEEN
+
+
 def tells_the_frame(name: str) -> bool:
     """Whether a column or an entry says which frame it is of, or whose, and does not number the scores of one."""
-    return plain_name(name) not in (*INDEX_NAMES, *ROW_NAMES) and tells_of_a_row(name)
+    return plain_name(name) not in (*INDEX_NAMES, *ROW_NAMES, *SEEN_NAMES) and tells_of_a_row(name)
 
 
 def tells_of_a_row(name: str) -> bool:
     """Whether a column says when a row is, whose it is or how sure it is, rather than what was seen."""
     plain = plain_name(name)
-    others = (*NUMBER_NAMES, *INDEX_NAMES, *IMAGE_NAMES, *FACE_NAMES, *RATE_NAMES, *ROW_NAMES)
+    others = (*NUMBER_NAMES, *INDEX_NAMES, *IMAGE_NAMES, *FACE_NAMES, *RATE_NAMES, *ROW_NAMES, *SEEN_NAMES)
     return plain in others or time_name(name) is not None

@@ -116,6 +116,7 @@ def read_table_file(path: str | Path) -> TableFile:
     if len(lines) == 1:
         raise FormatError(file, "has a heading but no rows: nothing was recorded")
     (_, heading), *others = cells_of(file, lines, mark)
+    others = [(number, cells) for number, cells in others if cells != heading]  # a logger that began anew writes it
     rows = tuple(_row(file, tuple(heading), number, cells) for number, cells in others)
     return TableFile(file, _told_apart(heading), rows, tuple(number for number, _ in others), has_decimal_commas(rows))
 
@@ -142,5 +143,5 @@ def _row(file: Path, columns: tuple[str, ...], number: int, cells: list[str]) ->
     if len(cells) >= 2 * count - 1 and count > 1:
         remedy = "if decimals have commas, separate the columns with semicolons"
     else:
-        remedy = "is the file cut off here?"
+        remedy = "is the file cut off here? Remove this line to read the rest"
     raise FormatError(file, f"has {len(cells)} cells, but the heading has {count}: {remedy}", line=number)

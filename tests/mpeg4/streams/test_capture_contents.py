@@ -212,6 +212,21 @@ def test_turns_of_py_feat_that_are_uncertain_are_not_read(
     assert any("Pitch, Roll, Yaw" in line for line in stream.assumed if line.startswith("not read"))
 
 
+def test_blend_shapes_that_py_feat_writes_beside_its_units_and_mesh(tmp_path: Path) -> None:
+    """Its newer detectors write all three; the mesh's depth is on a scale of its own."""
+    mesh = {f"mesh_{axis}_{n}": 1.0 for axis in "xyz" for n in range(478)}
+    shapes = dict.fromkeys(SHAPES, 0.0) | {"mouthSmileLeft": 0.5}
+    recording = api.read_recording(_written(tmp_path / "a.csv", {"FaceScore": 0.9, "AU12": 0.2, **mesh, **shapes}))
+    assert recording.format == "arkit"
+    assert recording.stream.frames[0, 59 - 1] > recording.stream.frames[0, 60 - 1] + 10.0
+
+
+def _written(path: Path, columns: dict[str, object]) -> Path:
+    """A table of three such rows."""
+    table(path, columns)
+    return path
+
+
 def test_single_images_of_openface_need_no_frame_and_no_time(tmp_path: Path) -> None:
     text = "face, confidence, pose_Rx, pose_Ry, pose_Rz, AU12_r, AU15_r, AU12_c\n0, 0.98, 0.1, 0, 0, 2.5, 0, 1\n"
     stream = read(tmp_path / "a.csv", text)

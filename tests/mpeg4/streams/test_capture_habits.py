@@ -267,3 +267,23 @@ def test_a_date_in_brackets_before_a_frame_is_no_json(tmp_path: Path) -> None:
 def test_messages_of_vmc_as_a_script_prints_them(said: str, tmp_path: Path) -> None:
     lines = [f"/VMC/Ext/Blend/Val {said.format(n / 1000)}\n/VMC/Ext/Blend/Apply ()" for n in range(COUNT)]
     assert shown(read(tmp_path / "a.log", "\n".join(lines))) == list(range(COUNT))
+
+
+@pytest.mark.parametrize("name", ["isTracked", "face_detected", "success", "Valid"])
+@pytest.mark.parametrize("kind", ["csv", "json"])
+def test_a_frame_that_says_that_no_face_was_seen_is_unknown(name: str, kind: str, tmp_path: Path) -> None:
+    """What stands beside it is what was seen before."""
+    path = tmp_path / f"a.{kind}"
+    if kind == "csv":
+        rows = [f"{n / 25:.2f},{str(n not in (2, 3)).lower()},0.5" for n in range(6)]
+        path.write_text("\n".join([f"timestamp,{name},jawOpen", *rows]))
+    else:
+        frames = [{"timestamp": n / 25, name: n not in (2, 3), "blendshapes": {"jawOpen": 0.5}} for n in range(6)]
+        path.write_text(json.dumps(frames))
+    assert np.isnan(api.read_stream(path).frames[:, 2]).tolist() == [False, False, True, True, False, False]
+
+
+def test_a_heading_that_is_written_again_is_no_row(tmp_path: Path) -> None:
+    rows = [f"{n / 25:.2f},{n / 10}" for n in range(6)]
+    (tmp_path / "a.csv").write_text("\n".join(["timestamp,jawOpen", *rows[:3], "timestamp,jawOpen", *rows[3:]]))
+    assert len(api.read_stream(tmp_path / "a.csv").frames) == 6

@@ -83,6 +83,33 @@ def test_long_tables(raw: np.ndarray, tmp_path: Path) -> None:
     np.testing.assert_allclose(read.times, [0.0, 0.02, 0.04])
 
 
+@pytest.mark.parametrize("form", ["wide", "long"])
+def test_landmarks_counted_from_1(form: str, raw: np.ndarray, tmp_path: Path) -> None:
+    if form == "wide":
+        names = [f"{axis}{mark}" for mark in range(1, COUNT + 1) for axis in "xyz"]
+        rows = [",".join(map(str, points.ravel())) for points in raw]
+    else:
+        names = ["frame", "landmark_id", "x", "y", "z"]
+        rows = [
+            f"{frame},{mark + 1},{','.join(map(str, point))}"
+            for frame, points in enumerate(raw)
+            for mark, point in enumerate(points)
+        ]
+    (tmp_path / "a.csv").write_text("\n".join([",".join(names), *rows]))
+    found = landmarks_from_csv(read_table_file(tmp_path / "a.csv"), aspect=1.0)
+    np.testing.assert_allclose(found.positions, raw * [1.0, -1.0, -1.0])
+
+
+def test_landmarks_without_depth_are_refused(raw: np.ndarray, tmp_path: Path) -> None:
+    names = [f"{axis}{mark}" for mark in range(COUNT) for axis in "xy"]
+    rows = [",".join(map(str, points[:, :2].ravel())) for points in raw]
+    (tmp_path / "a.csv").write_text("\n".join([",".join(names), *rows]))
+    table = read_table_file(tmp_path / "a.csv")
+    assert holds_landmarks(table)
+    with pytest.raises(FormatError, match=r"lacks the columns z_0.*depth"):
+        landmarks_from_csv(table)
+
+
 def test_pixels_are_square_and_need_no_aspect(raw: np.ndarray, tmp_path: Path) -> None:
     (tmp_path / "a.json").write_text(json.dumps([{"landmarks": (raw[0] * 500.0).tolist()}]))
     read = landmarks_from_json(read_json_frames(tmp_path / "a.json"), aspect=2.0)

@@ -86,6 +86,19 @@ DOCUMENTS: dict[str, Any] = {
         "blend_shape_values": [[score(n, f) for n in NAMES] for f in range(COUNT)],
         "fps": FPS,
     },
+    "names in what is said of all": {
+        "metadata": {"blendshape_names": list(NAMES), "frame_rate": FPS},
+        "frames": [{"blendshapes": [score(n, f) for n in NAMES]} for f in range(COUNT)],
+    },
+    "names and bare rows": {
+        "info": {"shapes": list(NAMES), "fps": FPS},
+        "frames": [[score(n, f) for n in NAMES] for f in range(COUNT)],
+    },
+    "names and one row of all": {
+        "fps": FPS,
+        "blendshapes": list(NAMES),
+        "frames": [score(n, f) for f in range(COUNT) for n in NAMES],
+    },
     "curves": {"curves": [{"name": n, "keys": keys(n)} for n in NAMES]},
     "tracks": {
         "name": "take",
