@@ -116,8 +116,8 @@ from .mpeg4 import (
 from .mpeg4.streams.capture import CaptureShape, KeyShape, load_key_names, load_shapes, write_fap_csv
 from .progress import Progress
 from .speech.phonemes import Alphabet, Phoneme
+from .speech.recorded import read_timings
 from .speech.saying import Saying, say
-from .speech.timings import read_timings
 from .speech.utterance import Sound, SpokenWord, Utterance
 from .speech.voice import Voiced, speak, voices
 

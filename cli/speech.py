@@ -95,7 +95,11 @@ def _say(arguments: argparse.Namespace) -> Result:
         }
         if suffix in BLENDER:
             return _in_blender(arguments, say, sound, told)
-        stream = say(arguments.fps or 25.0).stream
+        saying = say(arguments.fps or 25.0)
+        stream, more = saying.stream, saying.assumed[len(utterance.assumed) :]
+        for line in more:
+            print(f"note: {line}", file=sys.stderr)
+        told["assumed"] += more
         api.write_stream(arguments.out, stream, progress=when_slow(), decimals=0)
     line = f"wrote {arguments.out}: {len(stream.frames)} frames at {stream.fps:g} per second, {told['sounds']} sounds"
     return Result({**told, "frames": len(stream.frames), "fps": stream.fps, "out": arguments.out}, [line])

@@ -10,5 +10,6 @@ timings        files of aligners and lip-sync tools
 articulation   sounds in time become FAPs of mouth, jaw and tongue
 accompaniment  what lids, brows and head do with speech
 feeling        speech and emotion share a face
+recorded       timings, and mouths as they were recorded
 saying         the whole: what is said, with feeling, as a stream
 """

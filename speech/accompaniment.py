@@ -12,12 +12,17 @@ from ..arrays import Floats
 from ..mpeg4 import ANGLE_UNIT, FAP_COUNT, Liveliness, Overlay, Ramp
 from ..tables import read_toml
 from .phonemes import FOLDER
-from .utterance import Utterance
+from .utterance import Sound, Utterance
 
 #: Brows, inner, middle and outer of both sides; the head, down.
 BROWS, HEAD_DOWN = ((31, 32), (33, 34), (35, 36)), 48
 #: Seconds of the shortest pause in which a blink may fall.
 PAUSE = 0.12
+#: Letters of the shortest word that counts as one of content, where stress is not marked: the commonest words, which
+#: carry grammar, are the shortest (Zipf 1949).
+CONTENT = 4
+#: What is then to be said.
+BY_RULE = f"stress is not marked: the longest vowel of each word of {CONTENT} letters or more counts as stressed"
 
 
 @dataclass(frozen=True)
@@ -66,9 +71,7 @@ def _beats(utterance: Utterance, liveliness: Liveliness, times: Floats) -> Float
         return frames
     rng, last = np.random.default_rng((liveliness.head.seed, len(utterance.sounds))), -math.inf
     size = np.zeros(len(times))
-    for sound in utterance.sounds:
-        if sound.stress < 1.0 or not sound.phoneme.vowel:
-            continue
+    for sound in stressed(utterance):
         chance, strength = rng.random(), rng.uniform(0.6, 1.2)
         if chance < how.share and sound.middle - last >= how.least:
             last = sound.middle
@@ -80,6 +83,24 @@ def _beats(utterance: Utterance, liveliness: Liveliness, times: Floats) -> Float
             frames[:, [number - 1 for number in numbers]] = amount * units * size[:, None]
         frames[:, HEAD_DOWN - 1] = amount * math.radians(how.nod) / ANGLE_UNIT * size
     return frames
+
+
+def stressed(utterance: Utterance) -> list[Sound]:
+    """Its stressed vowels: those that are marked; where none is, by rule the longest vowel of each longer word."""
+    vowels = [sound for sound in utterance.sounds if sound.phoneme.vowel]
+    if is_marked(utterance):
+        return [sound for sound in vowels if sound.stress == 1.0]
+    found = []
+    for word in utterance.words:
+        within = [sound for sound in vowels if word.start <= sound.middle <= word.end]
+        if within and sum(letter.isalpha() for letter in word.text) >= CONTENT:
+            found.append(max(within, key=lambda sound: sound.duration))
+    return found
+
+
+def is_marked(utterance: Utterance) -> bool:
+    """Whether its source says what is stressed."""
+    return any(sound.stress for sound in utterance.sounds)
 
 
 def _in_pauses(closure: Floats, utterance: Utterance, fps: float) -> Floats:

@@ -13,11 +13,11 @@ from ..errors import ParameterError
 from ..face.drive.over_time import cue_plans
 from ..face.drive.request import Drive
 from ..mpeg4 import ARCHETYPES, FAP_COUNT, Cue, FapStream, Liveliness, Profile, emotion_weights, load_timings, strengths
-from .accompaniment import accompanying
+from .accompaniment import BY_RULE, accompanying, is_marked
 from .articulation import articulate
 from .feeling import mixed
 from .phonemes import Alphabet
-from .timings import read_timings
+from .recorded import read_timings
 from .utterance import Utterance
 
 #: The timing by which an emotion comes before speech and goes after it.
@@ -101,8 +101,10 @@ def say(
         felt = _borne(felt, felt_cues, _shifted(shares, ahead, count, 0.0), liveliness)
         felt = accompanying(utterance, liveliness, count, fps).upon_all(felt)
     frames = mixed(spoken, felt, utterance, fps, lean=lean)
-    stream = FapStream(frames, fps=fps, name="speech", assumed=utterance.assumed)
-    return Saying(utterance, stream, emotions, utterance.assumed)
+    beats = liveliness is not None and liveliness.head.amount > 0.0
+    by_rule = (BY_RULE,) if beats and utterance.words and not is_marked(utterance) else ()
+    assumed = (*utterance.assumed, *by_rule)
+    return Saying(utterance, FapStream(frames, fps=fps, name="speech", assumed=assumed), emotions, assumed)
 
 
 def _throughout(emotion: Profile, utterance: Utterance, seed: int | None) -> Cue:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+import numpy as np
+
+from ..arrays import Floats
 from ..errors import ParameterError
 from .phonemes import Phoneme
 
@@ -51,6 +54,19 @@ class SpokenWord:
     text: str
 
 
+@dataclass(frozen=True, eq=False)
+class Mouth:
+    """A mouth's motion as it was recorded: (T, 68) FAPs at a rate, those of mouth, jaw and tongue, none silent."""
+
+    frames: Floats
+    fps: float
+
+    def at(self, times: Floats) -> Floats:
+        """(n, 68) the same at some times, seconds; the first and last one stay."""
+        own = np.arange(len(self.frames)) / self.fps
+        return np.array([np.interp(times, own, column) for column in self.frames.T]).T
+
+
 @dataclass(frozen=True)
 class Utterance:
     """What is said and when; between sounds the mouth rests.
@@ -62,6 +78,7 @@ class Utterance:
     words : in order, where the source names them.
     assumed : what the source did not say and was assumed to read it, or is shown otherwise than it was written, in
         words for people.
+    mouth : the mouth's own motion, where it was recorded; sounds then tell when lips part and close.
 
     Raises
     ------
@@ -73,6 +90,7 @@ class Utterance:
     duration: float
     words: tuple[SpokenWord, ...] = ()
     assumed: tuple[str, ...] = field(default=(), compare=False)
+    mouth: Mouth | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         """Check the order of times."""

@@ -24,6 +24,8 @@ from .strips import length_of, shortened, title_of_strip
 
 #: Seconds by which a sound may be shorter than what is said in it.
 SHORTER = 0.1
+#: What is said of a mouth that was recorded.
+ONLY_SOUNDS = "on the timeline a recorded mouth is open or closed; Import Recording plays it as it was recorded"
 NO_STRIP = "There is no speech on the timeline yet: add some"
 
 
@@ -64,6 +66,8 @@ def add_strip(operator: RisoriusOperator, context: Context, said: Heard) -> str:
     obj, scene = active_object(context), context.scene
     start, utterance = int(scene.frame_current), said.utterance
     told = [(False, line) for line in utterance.assumed]
+    if utterance.mouth is not None:
+        told.append((False, f"{said.title}: {ONLY_SOUNDS}"))
     try:
         strip, sound = place_strip(obj, scene, utterance, said.title, start, file=said.file, wav=said.wav)
     except RisoriusError as refusal:

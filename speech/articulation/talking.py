@@ -13,7 +13,7 @@ from ..phonemes import Phoneme
 from ..utterance import Sound, Utterance
 from .blending import Aim, blended
 from .closures import closed
-from .parts import FAPS_OF, JAW, Manner, carried_by_jaw, manner, target
+from .parts import FAPS_OF, JAW, Manner, beside_jaw, carried_by_jaw, manner, target
 
 #: FAPs that speech moves.
 SPOKEN = tuple(sorted(number for numbers in FAPS_OF.values() for number in numbers))
@@ -47,10 +47,13 @@ def articulate(utterance: Utterance, fps: float = 25.0, *, articulation: float =
             raise ParameterError(name, f"must be from 0 to {MOST:g}", value)
     how = manner()
     times = np.arange(math.floor(utterance.duration * fps + 1e-9) + 1) / fps
-    aims = _aims(utterance, how)
     share = np.full(FAP_COUNT, articulation)
     share[JAW - 1] = jaw
-    frames = closed(carried_by_jaw(share * blended(aims, times, how)), aims, times, how)
+    if utterance.mouth is not None:
+        frames = carried_by_jaw(share * beside_jaw(utterance.mouth.at(times)))
+    else:
+        aims = _aims(utterance, how)
+        frames = closed(carried_by_jaw(share * blended(aims, times, how)), aims, times, how)
     silent = [number - 1 for number in range(1, FAP_COUNT + 1) if number not in SPOKEN]
     frames[:, silent] = np.nan
     return frames

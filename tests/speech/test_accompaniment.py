@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import risorius.api as api
 from risorius.arrays import Floats
 from risorius.mpeg4 import Drawn
-from risorius.speech.accompaniment import accompanying
+from risorius.speech.accompaniment import accompanying, stressed
 from risorius.speech.phonemes import phonemes
 
 FPS = 50.0
@@ -18,8 +20,8 @@ def talk(*, stress: float = 1.0, phrases: int = 6) -> api.Utterance:
     sounds, at = [], 0.2
     for _ in range(phrases):
         for number, symbol in enumerate(["m", "ɑ", "n", "i", "t", "ɒ", "s", "ɛ"]):
-            stressed = stress if number % 4 == 1 else 0.0
-            sounds.append(api.Sound(at, at + 0.15, phonemes()[symbol], symbol, stressed))
+            marked = stress if number % 4 == 1 else 0.0
+            sounds.append(api.Sound(at, at + 0.15, phonemes()[symbol], symbol, marked))
             at += 0.15
         at += 0.4
     return api.Utterance(tuple(sounds), at)
@@ -79,3 +81,19 @@ def test_a_still_face_has_neither() -> None:
     closure, added = over(talk())
     assert not closure.any()
     assert np.isnan(added).all()
+
+
+def test_where_stress_is_not_marked_longer_words_are_stressed_by_rule() -> None:
+    def sound(start: float, end: float) -> api.Sound:
+        return api.Sound(start, end, api.Phoneme("a", 10, vowel=True), "a")
+
+    sounds = (sound(0.0, 0.1), sound(0.2, 0.3), sound(0.4, 0.6))
+    words = (api.SpokenWord(0.0, 0.15, "the"), api.SpokenWord(0.2, 0.6, "answer"))
+    unmarked = api.Utterance(sounds, 0.7, words)
+    assert stressed(unmarked) == [sounds[2]]
+    marked = api.Utterance((replace(sounds[0], stress=1.0), *sounds[1:]), 0.7, words)
+    assert [sound.start for sound in stressed(marked)] == [0.0]
+    lively = api.Liveliness.usual(1)
+    assert "stress is not marked" in api.say(unmarked, liveliness=lively).assumed[-1]
+    assert not api.say(unmarked).assumed
+    assert not api.say(marked, liveliness=lively).assumed

@@ -23,9 +23,7 @@ STANDS_ASIDE = (1, 2)
 Lateness = Mapping[str, Floats]
 
 
-def write_tables(
-    takes: Sequence[Take], played: Mapping[str, Sequence[Played]], late: Mapping[str, Lateness]
-) -> None:
+def write_tables(takes: Sequence[Take], played: Mapping[str, Sequence[Played]], late: Mapping[str, Lateness]) -> None:
     """Write what was measured into the page."""
     text = PAGE.read_text(encoding="utf-8")
     for name, lines in (

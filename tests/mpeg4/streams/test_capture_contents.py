@@ -202,9 +202,7 @@ def test_turns_of_py_feat_are_read_in_the_way_of_their_version(way: str, tmp_pat
         ({**TURNED["axes"], **EYES, "X": None, "Y": None, "Z": None}, "contradict its landmarks"),
     ],
 )
-def test_turns_of_py_feat_that_are_uncertain_are_not_read(
-    columns: dict[str, Any], said: str, tmp_path: Path
-) -> None:
+def test_turns_of_py_feat_that_are_uncertain_are_not_read(columns: dict[str, Any], said: str, tmp_path: Path) -> None:
     there = {name: values for name, values in columns.items() if values is not None}
     stream = table(tmp_path / "a.csv", {"frame": [0, 1, 2], "AU12": 0.5, **there})
     assert np.isnan(stream.frames[:, 47:50]).all()
