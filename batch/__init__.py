@@ -11,6 +11,7 @@ whole       whether a file is complete, by its own format
 making      one job, by the jobs of scene
 doing       the same from its claim to its place: made, kept, or failed with a reason
 running     all jobs one after another, beside others who do the same
+cluster     the same on the workers of a Dask cluster; not in Blender's zip
 measures    how long jobs take, from those that are done
 manifest    the list of all that is done
 """

@@ -133,6 +133,15 @@ COLUMNS = (
     Column("skin", Kind.COLOUR, None, "colour of the skin, sRGB (default: the head's own)"),
     Column("background", Kind.COLOUR, "#73767a", "colour behind the face, sRGB"),
     _number("still_at", None, 0.0, 3600.0, "s", "from the beginning, of the still (default: the end of the apex)"),
+    Column(
+        "label_pictures",
+        Kind.WHOLE,
+        10,
+        "areas, depth and normals of every n-th frame of a film, from the first on; 0: none; of a still always",
+        least=0,
+        most=100000,
+    ),
+    Column("licence", Kind.TEXT, None, "of the head, for the data card of labels"),
     Column("outputs", Kind.CHOICES, ("film",), "what to make, with blanks between", options=OUTPUTS),
 )
 

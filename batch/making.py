@@ -72,6 +72,9 @@ def clip_of(job: Job, scratch: Path) -> Clip:
         creases=creases if isinstance(creases, bool) else None,
         drive=job.text("drive"),
         max_keys=job.whole("max_keys"),
+        label_pictures=job.whole("label_pictures") or 0,
+        licence=job.text("licence"),
+        facts={"row": job.said()},
     )
 
 

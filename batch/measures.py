@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from .jobs import Job
 from .making import FPS
@@ -56,14 +57,18 @@ def guessed(job: Job) -> float:
 
 @dataclass
 class Pace:
-    """How fast jobs really are, as a multiple of what is guessed."""
+    """How fast jobs really are in so many processes, as a multiple of what is guessed."""
 
+    processes: int = 1
     guessed: float = 0.0
     taken: float = 0.0
+    seen: Counter[str] = field(default_factory=Counter)
 
     def note(self, job: Job, seconds: float) -> None:
-        """A job is done."""
-        self.guessed += guessed(job)
+        """A job is done; the first ones of each head, one in each process, prepared it, too."""
+        head = job.text("head")
+        self.seen[head] += 1
+        self.guessed += guessed(job) + (HEAD if self.seen[head] <= self.processes else 0.0)
         self.taken += seconds
 
     @property
@@ -71,9 +76,9 @@ class Pace:
         """Seconds that pass for one that is guessed."""
         return self.taken / self.guessed if self.guessed > 0.0 else 1.0
 
-    def left(self, jobs: Iterable[Job], processes: int = 1) -> float:
+    def left(self, jobs: Iterable[Job]) -> float:
         """Seconds until all of these are done."""
-        return self.ratio * sum(guessed(job) for job in jobs) / max(processes, 1)
+        return self.ratio * sum(guessed(job) for job in jobs) / self.processes
 
 
 def for_people(seconds: float) -> str:

@@ -70,6 +70,10 @@ class JobSet:
             problem = f"cannot be written ({error.strerror}): choose a folder you may write to"
             raise FormatError(self.folder, problem) from error
 
+    def is_there(self) -> bool:
+        """Whether it has been prepared, and is seen from here."""
+        return self._unfinished.is_dir()
+
     def place_of(self, job: Job) -> Path:
         """Where a job stands when it is done."""
         return self.folder / job.id

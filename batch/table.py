@@ -204,6 +204,9 @@ def _nothing_idle(cells: Cells, values: dict[str, Value]) -> None:
             raise cells.refuse("says nothing beside text, whose sounds say when: empty it", name)
     if values["object"] is not None and _suffix(values["head"]) in PLAIN_MESHES:
         raise cells.refuse("says nothing here: a .npz or .obj is read as one mesh; empty it", "object")
+    for name in ("label_pictures", "licence"):
+        if values[name] != BY_NAME[name].default and "labels" not in _outputs(values):
+            raise cells.refuse("says nothing without labels in outputs: empty it, or add labels", name)
     if values["still_at"] is not None and "still" not in _outputs(values):
         raise cells.refuse("says nothing without still in outputs: empty it, or add still", "still_at")
 

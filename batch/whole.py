@@ -78,9 +78,17 @@ def _blend(file: BinaryIO, size: int) -> str | None:
     return None
 
 
+def _parquet(file: BinaryIO, size: int) -> str | None:
+    """A Parquet file begins and ends with its name."""
+    begin = file.read(4)
+    file.seek(max(size - 4, 0))
+    return None if begin == file.read() == b"PAR1" else "it is cut off"
+
+
 CHECKS: dict[str, Callable[[BinaryIO, int], str | None]] = {
     ".png": _png,
     ".mp4": _mp4,
     ".glb": _glb,
     ".blend": _blend,
+    ".parquet": _parquet,
 }

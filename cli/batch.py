@@ -16,7 +16,7 @@ from ..errors import RisoriusError
 from ..progress import Progress
 from .films import needing_blender, silent_blender
 from .options import Verbs, verb
-from .result import Result
+from .result import Result, UsageError
 
 if TYPE_CHECKING:
     from ..batch.doing import Told
@@ -37,6 +37,12 @@ def add_batch_verb(verbs: Verbs) -> None:
     batch.add_argument("--out", type=Path, required=True, help="the folder of the set; started again, it goes on there")
     about = "only this part of the jobs, as 3/10: for the job arrays of a cluster"
     batch.add_argument("--shard", metavar="PART/PARTS", help=about)
+    about = "workers of a Dask cluster on this computer (default: 1, without Dask)"
+    batch.add_argument("--processes", type=int, default=1, metavar="N", help=about)
+    about = "GB of memory that each of them may use (default: 3)"
+    batch.add_argument("--memory", type=float, default=3.0, metavar="GB", help=about)
+    about = "instead: the workers of a Dask scheduler, as tcp://10.0.0.1:8786; all must see the folder of the set"
+    batch.add_argument("--dask", metavar="ADDRESS", help=about)
     batch.add_argument("--dry-run", action="store_true", help="say what would be done, and how long it would take")
 
 
@@ -46,6 +52,10 @@ def _batch(arguments: argparse.Namespace) -> Result:
     from ..batch.running import shard
     from ..batch.table import read_jobs
 
+    if arguments.processes < 1 or not arguments.memory > 0.0:
+        raise UsageError("--processes must be 1 or more, and --memory above 0")
+    if arguments.dask is not None and arguments.processes != 1:
+        raise UsageError("--processes is for this computer alone: leave it out with --dask")
     table = read_jobs(arguments.table)
     jobs = list(table.jobs) if arguments.shard is None else shard(table.jobs, arguments.shard)
     place = JobSet(arguments.out)
@@ -53,10 +63,11 @@ def _batch(arguments: argparse.Namespace) -> Result:
         print(f"skipped: {problem}", file=sys.stderr)
     if arguments.dry_run:
         return _foretold(table, jobs, place)
-    with needing_blender():
-        from ..batch.making import ready_blender
+    if not _on_cluster(arguments):
+        with needing_blender():
+            from ..batch.making import ready_blender
 
-        ready_blender(place.heads)
+            ready_blender(place.heads)
     place.prepare()
     return _worked_off(arguments, table, jobs, place)
 
@@ -98,14 +109,13 @@ def _worked_off(arguments: argparse.Namespace, table: JobTable, jobs: Sequence[J
     """Make the jobs, and say what became of them."""
     from ..batch.doing import DiskFullError
     from ..batch.manifest import NAME, write_manifest
-    from ..batch.running import work_off
 
     shown = Shown(len(jobs))
     name = NAME if arguments.shard is None else f"manifest.{arguments.shard.replace('/', '-of-')}.jsonl"
     stopped = ""
     try:
         with silent_blender(), stopped_in_order(shown):
-            work_off(jobs, place, shown.tell, progress=shown.step)
+            _make(arguments, jobs, place, shown)
     except DiskFullError as error:
         stopped = str(error)
     except KeyboardInterrupt:
@@ -113,6 +123,30 @@ def _worked_off(arguments: argparse.Namespace, table: JobTable, jobs: Sequence[J
     with contextlib.suppress(*([RisoriusError] if stopped else [])):  # a full disk has no room for it, either
         write_manifest(jobs, place, name)
     return _told(table, jobs, place, shown.outcome, stopped)
+
+
+def _on_cluster(arguments: argparse.Namespace) -> bool:
+    """Whether workers make the jobs, not this process."""
+    return arguments.dask is not None or arguments.processes > 1
+
+
+def _make(arguments: argparse.Namespace, jobs: Sequence[Job], place: JobSet, shown: Shown) -> None:
+    """Make the jobs, here or on workers."""
+    from ..batch.running import work_off
+
+    if not _on_cluster(arguments):
+        work_off(jobs, place, shown.tell, progress=shown.step)
+        return
+    try:
+        from ..batch.cluster import Cluster, connected, work_on
+    except ModuleNotFoundError:
+        raise RisoriusError(
+            "--dask and --processes need Risorius in plain Python: pip install risorius[batch]"
+        ) from None
+    cluster = Cluster(arguments.dask, arguments.processes, int(arguments.memory * 2**30))
+    with connected(cluster) as client:
+        shown.pace.processes = arguments.processes if arguments.dask is None else max(len(client.nthreads()), 1)
+        work_on(client, jobs, place, shown.tell, tick=shown.tick)
 
 
 def _told(table: JobTable, jobs: Sequence[Job], place: JobSet, outcome: Outcome, stopped: str) -> Result:
@@ -144,7 +178,8 @@ class Shown:
         from ..batch.running import Outcome
 
         self.outcome, self.stop = Outcome(), False
-        self._count, self._pace, self._said_at = count, Pace(), time.monotonic()
+        self.pace = Pace()
+        self._count, self._said_at = count, time.monotonic()
 
     def tell(self, job: Job, told: Told, left: Sequence[Job]) -> None:
         """A job is finished."""
@@ -155,24 +190,24 @@ class Shown:
         done = self._count - len(left)
         line = f"{100 * done // max(self._count, 1):3d} %  {job.id} {told.how.value}"
         if told.how is How.MADE:
-            self._pace.note(job, told.seconds)
+            self.pace.note(job, told.seconds)
             line += f" in {for_people(told.seconds)}"
         line += f" ({done} of {self._count}"
-        line += f", about {for_people(self._pace.left(left))} left)" if left else ")"
+        line += f", about {for_people(self.pace.left(left))} left)" if left else ")"
         self._say(line)
         if told.why:
             self._say(f"       {told.why}")
         for remark in told.remarks:
             self._say(f"       note: {remark}")
-        self._refuse_to_go_on()
+        self.tick()
 
     def step(self, step: Progress) -> None:
         """A job is on its way."""
-        self._refuse_to_go_on()
+        self.tick()
         if time.monotonic() - self._said_at >= PATIENCE:
             self._say(f"       {step.text}")
 
-    def _refuse_to_go_on(self) -> None:
+    def tick(self) -> None:
         """End where the user has asked for it."""
         if self.stop:
             raise KeyboardInterrupt

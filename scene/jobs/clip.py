@@ -17,13 +17,17 @@ from .. import bake
 from ..faces import face_of, keep_steps, keep_where
 from ..gltf import export_gltf
 from ..materials import Colour
-from ..pictures.film import render_film, render_frames
+from ..pictures.film import Watch, render_film, render_frames
+from ..pictures.following import FollowingCamera
+from ..pictures.framing import framing_of
 from ..pictures.look import Engine as Engine
 from ..pictures.look import Lighting as Lighting
 from ..pictures.look import Look as Look
+from ..pictures.studio import studio
 from ..sounds import add_sound
 from .files import save
 from .inputs import Input
+from .labelling import Labelling, Labels, begin
 from .shown import Shown, ShownAt
 from .skin_colour import colour_skin
 from .stage import cover, dress
@@ -64,6 +68,7 @@ class Clip:
     skin : colour of the skin, linear RGB; None: its own.
     still_at : seconds of the still; None: where most shows.
     creases, drive, max_keys : as for `bake_motion`.
+    label_pictures, licence, facts : as for `Labels`; of a still alone, areas, depth and normals are written always.
     """
 
     name: str
@@ -77,6 +82,9 @@ class Clip:
     creases: bool | None = None
     drive: str = "natural"
     max_keys: int | None = None
+    label_pictures: int = 0
+    licence: str = ""
+    facts: Mapping[str, object] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -117,7 +125,7 @@ def make_clip(folder: Path, clip: Clip) -> Work[MadeClip]:
     first = bpy.context.scene.frame_start
     last = first + len(shown.frames) - 1
     at = first + _still_frame(shown, clip)
-    pictured = yield from part_of(_picture(folder, face, clip, first, last, at), 0.4, 0.9)
+    pictured = yield from part_of(_picture(folder, face, shown, clip, at), 0.4, 0.9)
     yield Progress(0.9, "Saving")
     _save(folder, face, shown, clip, last)
     files = {output: NAMES[output] for output in clip.outputs}
@@ -170,23 +178,66 @@ def _pose(face: Subject, shown: Shown, cue: Cue, clip: Clip) -> Work[tuple[str, 
     return (*result.told, *result.remarks)
 
 
-def _picture(folder: Path, face: Subject, clip: Clip, first: int, last: int, at: int) -> Work[tuple[str, ...]]:
-    """Render film, still and labels; returns remarks."""
+def _labelled(folder: Path, face: Subject, shown: Shown, clip: Clip, first: int) -> Labelling | None:
+    """Labels of what is shown, where they are wanted."""
+    if "labels" not in clip.outputs:
+        return None
+    every = 1 if _is_still(clip) else clip.label_pictures
+    labels = Labels(folder / NAMES["labels"], every, clip.licence, {"clip": clip.name, **clip.facts})
+    return begin(labels, face, shown.motion, start=first, saying=shown.saying)
+
+
+def _is_still(clip: Clip) -> bool:
+    """Whether all that is pictured is one frame."""
+    return "still" in clip.outputs and not MOVING & set(clip.outputs)
+
+
+def _picture(folder: Path, face: Subject, shown: Shown, clip: Clip, at: int) -> Work[tuple[str, ...]]:
+    """Render film and still, and write labels of the frames of the film, or else of the still; returns remarks."""
     wanted, said = set(clip.outputs), tuple[str, ...]()
-    if "film" in wanted:
-        filming = render_film(
-            face.shown(), folder / NAMES["film"], start=first, end=last, look=clip.look, sound=clip.sound
-        )
-        said += (yield from part_of(filming, 0.0, 0.6)).remarks
-    if "still" in wanted:
-        pictures, remarks = yield from part_of(
-            render_frames(face.shown(), folder, start=at, end=at, look=replace(clip.look, fine=True)), 0.6, 0.7
-        )
-        pictures[0].rename(folder / NAMES["still"])
-        said += remarks
-    if "labels" in wanted:
-        raise RisoriusError("labels cannot be made by this version: leave labels out of outputs")
+    first = bpy.context.scene.frame_start
+    last = first + len(shown.frames) - 1
+    labelling = _labelled(folder, face, shown, clip, first)
+    try:
+        watch = None if labelling is None else labelling.look
+        if "film" in wanted:
+            filming = render_film(
+                face.shown(),
+                folder / NAMES["film"],
+                start=first,
+                end=last,
+                look=clip.look,
+                sound=clip.sound,
+                watch=watch,
+            )
+            said += (yield from part_of(filming, 0.0, 0.8)).remarks
+        elif watch is not None and not _is_still(clip):
+            yield from part_of(_look_at(face, clip, first, last, watch), 0.0, 0.8)
+        if "still" in wanted:
+            look = replace(clip.look, fine=True)
+            drawing = render_frames(
+                face.shown(), folder, start=at, end=at, look=look, watch=watch if _is_still(clip) else None
+            )
+            pictures, remarks = yield from part_of(drawing, 0.8, 0.9)
+            pictures[0].rename(folder / NAMES["still"])
+            said += remarks
+        if labelling is not None:
+            labelling.write(clip.look)
+    finally:
+        if labelling is not None:
+            labelling.discard()
     return said
+
+
+def _look_at(face: Subject, clip: Clip, first: int, last: int, watch: Watch) -> Work[None]:
+    """Show each frame to `watch` as the camera would see it, without drawing it."""
+    framing = framing_of(face.obj)
+    with studio(face.shown(), framing, clip.look) as scene:
+        camera = FollowingCamera(scene, face.obj, framing)
+        for frame in range(first, last + 1):
+            camera.go_to(frame)
+            watch(scene, frame)
+            yield Progress((frame - first) / (last - first + 1), f"Labelling frame {frame - first + 1}")
 
 
 def _save(folder: Path, face: Subject, shown: Shown, clip: Clip, last: int) -> None:

@@ -178,7 +178,12 @@ def _told(look: Look) -> dict[str, object]:
         "height": look.height,
         "camera": str(look.camera).lower(),
         "yaw_degrees": round(float(np.degrees(look.yaw)), 6),
-        "background": list(look.background),
+        "pitch_degrees": round(float(np.degrees(look.pitch)), 6),
+        "roll_degrees": round(float(np.degrees(look.roll)), 6),
+        "lens_mm": look.lens,
+        "background": list(look.background if look.backdrop is None else look.backdrop),
+        "light": look.lighting.strength,
+        "light_yaw_degrees": round(float(np.degrees(look.lighting.yaw)), 6),
     }
 
 

@@ -30,6 +30,7 @@ class Shown:
     frames : (T, 68) FAPs that are requested; NaN where silent.
     emotions : (T, 6) strength of each archetype.
     apex : frame, counted from 0, at which a still shows most.
+    saying : the speech that it is.
     cue : the expression of a still that needs no motion; None: it is a frame of a motion.
     remarks : what was assumed.
     """
@@ -39,6 +40,7 @@ class Shown:
     emotions: Floats
     apex: int
     cue: Cue | None = None
+    saying: Saying | None = None
     remarks: tuple[str, ...] = ()
 
     @property
@@ -92,7 +94,7 @@ def speech(say: Callable[[float], Saying]) -> ShownAt:
         saying = say(fps)
         frames = saying.stream.frames
         motion = FapMotion(frames, saying.emotions, planned=True)
-        return Shown(motion, frames, saying.emotions, _most(frames), remarks=saying.assumed)
+        return Shown(motion, frames, saying.emotions, _most(frames), saying=saying, remarks=saying.assumed)
 
     return shown
 

@@ -16,9 +16,9 @@ from risorius import cli
 from risorius.scene.mesh import evaluated_vertices
 
 TABLE = """id,emotion,fap,text,activation,seed,apex,outputs,size,yaw
-joy,joy,,,6,3,0.1,film still blend glb fap,64,20
+joy,joy,,,6,3,0.1,film still blend glb fap labels,64,20
 calm,neutral,,,,,0.1,still film,64,0
-still,anger,,,,,,still,64,-20
+still,anger,,,,,,still labels,64,-20
 jaw,,take.fap,,,,,film still fap,64,0
 """
 
@@ -56,8 +56,13 @@ def test_a_batch_makes_what_its_rows_ask_for(table: Path, tmp_path: Path, capsys
     said = batch(table, out, capsys=capsys)
     assert sorted(said["made"]) == ["calm", "jaw", "joy", "still"]
     there = {folder.name: {path.name for path in folder.iterdir()} for folder in out.iterdir() if folder.is_dir()}
-    assert there["joy"] == {"film.mp4", "still.png", "clip.blend", "clip.glb", "clip.fap", "job.json"}
-    assert there["still"] == {"still.png", "job.json"}
+    assert there["joy"] == {"film.mp4", "still.png", "clip.blend", "clip.glb", "clip.fap", "labels", "job.json"}
+    assert there["still"] == {"still.png", "labels", "job.json"}
+    frames = {name: (out / name / "labels" / "frames.csv").read_text().splitlines() for name in ("joy", "still")}
+    made = json.loads((out / "joy" / "job.json").read_text())
+    assert len(frames["joy"]) == 1 + made["frames"]
+    assert len(frames["still"]) == 2
+    assert "labels/frames.csv" in made["files"]
     assert there["jaw"] == {"film.mp4", "still.png", "clip.fap", "job.json"}
     read = api.read_stream(out / "jaw" / "clip.fap")
     assert read.fps == 12.0

@@ -1,0 +1,131 @@
+"""Jobs on the workers of a Dask cluster: each once, whole, whatever becomes of the workers."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from risorius.batch.doing import DiskFullError, Told
+from risorius.batch.jobs import Job
+from risorius.batch.place import JobSet, State
+from risorius.errors import RisoriusError
+
+from .plain import jobs_of
+
+pytest.importorskip("distributed")
+from risorius.batch.cluster import Cluster, connected, work_on
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def client() -> Iterator[Any]:
+    """Two workers of this computer."""
+    with connected(Cluster(processes=2, memory=2**30)) as found:
+        yield found
+
+
+def slow_task() -> Any:
+    """A task that goes to workers as it is: it makes a stream in some time, without Blender."""
+
+    def task(job: Job, folder: str) -> Told:
+        import time
+        from types import SimpleNamespace
+
+        from risorius.batch.doing import do_job
+        from risorius.batch.place import JobSet
+        from risorius.progress import Progress
+
+        def make(job: Any, folder: Any, scratch: Any) -> Any:
+            for part in range(4):
+                with (folder / "clip.fap").open("a") as file:
+                    file.write(f"{job.id} {part}\n")
+                time.sleep(0.1)
+                yield Progress(part / 4, "Making")
+            return SimpleNamespace(files={"fap": "clip.fap"}, frames=1, remarks=(), contents={}, blender="none")
+
+        return do_job(job, JobSet(folder), make=make)
+
+    return task
+
+
+def test_each_job_is_made_once(tmp_path: Path, place: JobSet, client: Any) -> None:
+    jobs = jobs_of(tmp_path, 8)
+    left: list[int] = []
+    outcome = work_on(client, jobs, place, lambda job, told, rest: left.append(len(rest)), task=slow_task())
+    assert sorted(told.id for told in outcome.made) == sorted(job.id for job in jobs)
+    assert left == list(range(7, -1, -1))
+    again = work_on(client, jobs, place, lambda job, told, rest: None, task=slow_task())
+    assert len(again.kept) == 8
+
+
+def test_workers_that_are_killed_lose_nothing(tmp_path: Path, place: JobSet, client: Any) -> None:
+    jobs = jobs_of(tmp_path, 10)
+    killed: list[int] = []
+
+    def kill_one(job: Job, told: Told, rest: object) -> None:
+        if len(killed) < 3:
+            pids = list(client.run(os.getpid).values())
+            os.kill(pids[0], signal.SIGKILL)
+            killed.append(pids[0])
+
+    outcome = work_on(client, jobs, place, kill_one, task=slow_task())
+    assert len(killed) == 3
+    assert not outcome.failed
+    assert sorted(told.id for told in (*outcome.made, *outcome.kept)) == sorted(job.id for job in jobs)
+    for job in jobs:
+        assert place.state(job)[0] is State.DONE
+        lines = (place.place_of(job) / "clip.fap").read_text().splitlines()
+        assert lines == [f"{job.id} {part}" for part in range(4)]
+    assert place.left() == set()
+
+
+def test_a_job_that_ends_every_worker_is_told_and_the_others_are_made(
+    tmp_path: Path, place: JobSet, client: Any
+) -> None:
+    def task(job: Job, folder: str) -> Told:
+        import os
+
+        if job.id == "c1":
+            os._exit(1)
+        return usual(job, folder)
+
+    usual = slow_task()
+    outcome = work_on(client, jobs_of(tmp_path, 3), place, lambda job, told, rest: None, task=task)
+    assert [told.id for told in outcome.failed] == ["c1"]
+    assert "no worker could make it (KilledWorker" in outcome.failed[0].why
+    assert len(outcome.made) == 2
+
+
+def test_a_full_disk_on_a_worker_ends_the_work(tmp_path: Path, place: JobSet, client: Any) -> None:
+    def task(job: Job, folder: str) -> Told:
+        from risorius.batch.doing import DiskFullError
+
+        raise DiskFullError("the disk is full")
+
+    with pytest.raises(DiskFullError, match="the disk is full"):
+        work_on(client, jobs_of(tmp_path, 3), place, lambda job, told, rest: None, task=task)
+
+
+def test_it_can_be_stopped(tmp_path: Path, place: JobSet, client: Any) -> None:
+    end = time.monotonic() + 1.5
+
+    def tick() -> None:
+        if time.monotonic() > end:
+            raise KeyboardInterrupt
+
+    jobs = jobs_of(tmp_path, 40)
+    with pytest.raises(KeyboardInterrupt):
+        work_on(client, jobs, place, lambda job, told, rest: None, task=slow_task(), tick=tick)
+    states = {place.state(job)[0] for job in jobs}
+    assert states == {State.DONE, State.MISSING}
+
+
+def test_no_scheduler_is_told(tmp_path: Path) -> None:
+    with pytest.raises(RisoriusError, match="no Dask scheduler answers at"), connected(Cluster("tcp://127.0.0.1:9")):
+        pass
