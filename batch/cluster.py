@@ -1,7 +1,7 @@
 """The jobs of a set on the workers of a Dask cluster: one job a task.
 
-A worker makes its jobs in one thread, in its own process, which has loaded Blender in that thread. When a worker is lost,
-Dask gives its job to another. The folder of the set must be one that all workers see.
+A worker makes its jobs in one thread of its own process, into which it has loaded Blender. When a worker is lost, Dask
+gives its job to another. The folder of the set must be one that all workers see.
 
 Not in Blender's zip: Dask opens connections, and Blender's own Python has no Dask.
 """
