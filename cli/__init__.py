@@ -18,6 +18,7 @@ track          track
 options        what several verbs share
 faps           FAPs for people and as JSON
 result         what a verb has to say, for people and as JSON
+kept           prepared faces, out of the user's cache folder
 progress       how far it is, on standard error
 """
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from .options import Verbs, add_face, face_of, verb
+from .options import Verbs, add_face, face_to_pose, verb
 from .progress import when_slow
 from .result import Result, UsageError
 
@@ -36,10 +36,10 @@ def _tables(arguments: argparse.Namespace) -> Result:
     if suffix not in writers:
         raise UsageError(f"--out must end in {', '.join(writers)}")
     options = {"faps": arguments.faps} if arguments.faps else {}
-    face = face_of(arguments)
-    tables = api.face_animation_tables(
-        face, steps=arguments.steps, others=arguments.others, progress=when_slow(), **options
-    )
+    with face_to_pose(arguments) as face:
+        tables = api.face_animation_tables(
+            face, steps=arguments.steps, others=arguments.others, progress=when_slow(), **options
+        )
     writers[suffix](arguments.out, tables)
     rows = {
         number: {

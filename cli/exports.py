@@ -10,8 +10,8 @@ import numpy as np
 
 from ..errors import FormatError
 from ..tables import read_arrays
-from .films import needing_blender, silent_blender
-from .options import Verbs, add_inertia, add_scene, face_of, motion_line, scene_options, verb
+from .films import in_blender, needing_blender
+from .options import Verbs, add_inertia, add_scene, face_to_pose, motion_line, scene_options, verb
 from .progress import ShowProgress
 from .recordings import add_recording, read_as_told, whole_frames
 from .result import Result, UsageError
@@ -102,8 +102,8 @@ def _shapes_to_npz(arguments: argparse.Namespace) -> dict[str, tuple[str, ...]]:
     from .. import api
 
     scene_options(arguments)  # refuses --object where nothing has objects
-    face = face_of(arguments)
-    shapes = api.arkit_shapes(face, arguments.names)
+    with face_to_pose(arguments) as face:
+        shapes = api.arkit_shapes(face, arguments.names)
     moved = np.stack([positions - face.vertices for positions in shapes.values()])
     try:
         np.savez_compressed(arguments.out, names=np.array(list(shapes)), displacement=moved.astype(np.float32))
@@ -121,7 +121,7 @@ def _shapes_in_blender(arguments: argparse.Namespace) -> dict[str, tuple[str, ..
     }
     with needing_blender():
         from ..scene.jobs.shapes import blendshape_file
-    with silent_blender():
+    with in_blender():
         written = blendshape_file(arguments.out, **options, progress=ShowProgress())
     return {"keys": written.keys, "replaced": written.replaced, "remarks": written.remarks}
 
@@ -134,7 +134,7 @@ def _export_gltf(arguments: argparse.Namespace) -> Result:
         raise UsageError("--points has no meaning for export gltf")
     with needing_blender():
         from ..scene.jobs.shapes import gltf_file
-    with silent_blender():
+    with in_blender():
         made = gltf_file(
             arguments.out,
             mesh=arguments.mesh,
@@ -157,10 +157,10 @@ def _export_weights(arguments: argparse.Namespace) -> Result:
     scene_options(arguments)  # refuses --object where nothing has objects
     recording = read_as_told(_source(arguments), arguments)
     stream = recording.stream
-    face = face_of(arguments)
-    controls, (frames, said) = _controls_of(arguments.shapes, face), whole_frames(recording)
-    motion = api.play(face, api.FapStream(frames, fps=stream.fps), inertia=arguments.inertia)
-    found = api.retarget(face, controls, motion, fps=stream.fps, requested=frames, symmetric=arguments.symmetric)
+    with face_to_pose(arguments) as face:
+        controls, (frames, said) = _controls_of(arguments.shapes, face), whole_frames(recording)
+        motion = api.play(face, api.FapStream(frames, fps=stream.fps), inertia=arguments.inertia)
+        found = api.retarget(face, controls, motion, fps=stream.fps, requested=frames, symmetric=arguments.symmetric)
     values = np.zeros((len(found.values), len(controls)))
     values[:, [controls.names.index(name) for name in found.names]] = found.values
     api.write_weight_csv(arguments.out, controls.names, values, fps=stream.fps)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import RisoriusError
+from .kept import kept_by_jobs
 from .options import (
     Verbs,
     add_creases,
@@ -138,6 +139,13 @@ def _job_options(arguments: argparse.Namespace) -> dict[str, Any]:
 
 
 @contextlib.contextmanager
+def in_blender() -> Iterator[None]:
+    """Around a job: standard output is for its result alone, and the faces that it prepares are kept."""
+    with silent_blender(), kept_by_jobs():
+        yield
+
+
+@contextlib.contextmanager
 def silent_blender() -> Iterator[None]:
     """Keep what Blender prints for every frame it saves off standard output, at the level where it writes."""
     sys.stdout.flush()
@@ -159,7 +167,7 @@ def _made(job: str, arguments: argparse.Namespace, onto: Mapping[str, Any] | Non
     run = getattr(words, job)
     if onto is not None:
         options["destination"] = destination_of(onto)
-    with silent_blender():
+    with in_blender():
         made = dict(run(arguments.out, **_job_options(arguments), **options))
     return Result(made, lines_of(made))
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..arrays import Floats
 from ..errors import ParameterError
+from .kept import kept_face
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -191,12 +193,25 @@ def face_of(arguments: argparse.Namespace) -> Face:
     """The face of --mesh and --points; the default one without them."""
     from .. import api
 
+    given = _given_face(arguments)
+    return api.Face.from_arrays(*given) if given else api.default_face()
+
+
+def face_to_pose(arguments: argparse.Namespace) -> AbstractContextManager[Face]:
+    """As `face_of`, prepared already where it has been kept; it is kept at the end."""
+    return kept_face(*_given_face(arguments))
+
+
+def _given_face(arguments: argparse.Namespace) -> tuple[Any, ...]:
+    """Vertices, polygons and points of --mesh and --points; nothing without them."""
+    from .. import api
+
     if (arguments.mesh is None) != (arguments.points is None):
         raise UsageError("--mesh and --points must be given together")
     if arguments.mesh is None:
-        return api.default_face()
+        return ()
     mesh = api.read_mesh(arguments.mesh)
-    return api.Face.from_arrays(mesh.vertices, mesh.polygons, api.read_point_file(arguments.points))
+    return mesh.vertices, mesh.polygons, api.read_point_file(arguments.points)
 
 
 def vertices_of(path: Path, face: Face) -> Floats:

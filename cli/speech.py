@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .films import destination_of, labels_of, lines_of, needing_blender, silent_blender
+from .films import destination_of, in_blender, labels_of, lines_of, needing_blender
 from .options import (
     Verbs,
     add_creases,
@@ -154,6 +154,6 @@ def _in_blender(arguments: argparse.Namespace, say: Any, sound: Path | None, tol
         from ..scene.jobs.saying import say_file
     shared |= {name: getattr(arguments, name) for name in ("creases", "engine", "fps")} | {"sound": sound}
     shared["labels"] = labels_of(arguments)
-    with silent_blender():
+    with in_blender():
         made = dict(say_file(arguments.out, say, **shared, destination=destination_of(onto), progress=ShowProgress()))
     return Result({**made, **told}, lines_of(made))

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .faps import range_lines, ranges_of
-from .films import destination_of, labels_of, lines_of, needing_blender, silent_blender
+from .films import destination_of, in_blender, labels_of, lines_of, needing_blender
 from .options import (
     Verbs,
     add_creases,
@@ -130,7 +130,7 @@ def _play(arguments: argparse.Namespace) -> Result:
     shared |= {name: getattr(arguments, name) for name in ("creases", "engine", "inertia")}
     shared["destination"] = destination_of(onto)
     shared["labels"] = labels
-    with silent_blender():
+    with in_blender():
         made = dict(playing.play_stream(out, stream, **shared, progress=ShowProgress()))
     data = {**made, "inertia": arguments.inertia, "assumed": [*recording.assumed, *said]}
     return Result(data, [*lines_of(made), f"motion: {motion_line(arguments.inertia)}"])

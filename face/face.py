@@ -40,8 +40,8 @@ class Face:
     def __init__(self, vertices: Floats, polygons: Sequence[Ints], anatomy: Anatomy) -> None:
         self._vertices, self._polygons = vertices, polygons
         self.anatomy = anatomy
-        self.kept_as, self.is_from_file = "", False
-        """Under which key it is kept, where it is (`kept`), and whether it comes out of a file."""
+        self.kept_as, self.is_from_file, self.was_explored = "", False, False
+        """Its key where it is kept (`kept`); whether it comes out of a file, and with what sketches need."""
 
     @classmethod
     def from_arrays(

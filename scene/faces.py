@@ -5,7 +5,8 @@ Building a face takes a moment, so the last few are kept, found again by the fin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -231,6 +232,28 @@ def keep_where(where: Callable[[], Path | None]) -> None:
     """Keep prepared faces in the folder that `where` tells whenever it is asked; in none where that is None."""
     global _where
     _where = where
+
+
+@contextmanager
+def kept_where_unset(where: Callable[[], Path | None]) -> Iterator[None]:
+    """For a while, keep prepared faces as `keep_where`, where nothing has been said of that yet."""
+    before = _where
+    if before is nowhere:
+        keep_where(where)
+    try:
+        yield
+    finally:
+        keep_where(before)
+
+
+def keep_posed_steps() -> Work[list[str]]:
+    """Keep the last faces of `face_of` that were posed, as far as they are prepared; why some could not be."""
+    kept_faces, troubles = _kept_faces(), list[str]()
+    if kept_faces is not None:
+        for _, face in _faces:
+            if not (yield from kept_faces.keep_posed_steps(face)) and kept_faces.entries.trouble:
+                troubles.append(kept_faces.entries.trouble)
+    return troubles
 
 
 def keep_steps(face: Face) -> Work[bool]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,6 +12,9 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
+
+#: No test leaves prepared faces with the user.
+os.environ["RISORIUS_CACHE"] = "off"
 
 
 @pytest.fixture(scope="session")

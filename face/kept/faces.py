@@ -88,13 +88,26 @@ class KeptFaces:
         return run(self.keep_steps(face))
 
     def keep_steps(self, face: Face) -> Work[bool]:
-        """As `keep`, bit by bit; a face that came out of a file is kept already."""
+        """As `keep`, bit by bit; a face that came out of a file with all that is near explored is kept already."""
         if face.kept_as == "":
+            return False
+        if face.is_from_file and face.was_explored:
+            return True
+        yield from face.prepare()
+        yield from face.sketcher().explore()
+        return (yield from self.entries.write(face.kept_as, face.poser))
+
+    def keep_posed(self, face: Face) -> bool:
+        """Keep a face from here that was posed, as far as it is prepared by now; whether it is kept."""
+        return run(self.keep_posed_steps(face))
+
+    def keep_posed_steps(self, face: Face) -> Work[bool]:
+        """As `keep_posed`, bit by bit."""
+        if face.kept_as == "" or "inverse" not in vars(face.anatomy):
             return False
         if face.is_from_file:
             return True
         yield from face.prepare()
-        yield from face.sketcher().explore()
         return (yield from self.entries.write(face.kept_as, face.poser))
 
 
@@ -102,7 +115,7 @@ def _out_of_file(vertices: Floats, polygons: PolygonTable, poser: Poser, key: st
     """A face that was prepared before."""
     face = Face(vertices, polygons, poser.anatomy)
     vars(face)["_poser"] = poser
-    face.kept_as, face.is_from_file = key, True
+    face.kept_as, face.is_from_file, face.was_explored = key, True, poser.is_explored
     return face
 
 

@@ -10,6 +10,7 @@ inputs                    that file: opened or read, and the meshes in it
 stage                     the scene around the face, if it is not the user's
 painting                  materials for meshes that bring none
 files                     the file that a job works in, what is written, and how it is saved
+kept                      prepared faces, for the next time
 labelling                 the truth beside what is rendered
 sheet                     the contact sheet of a job
 """

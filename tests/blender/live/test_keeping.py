@@ -8,12 +8,14 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
+import numpy as np
 import pytest
 from risorius.operators.kept import folder as kept_folder
 from risorius.operators.kept import ops
 from risorius.operators.kept.props import RISORIUS_AP_preferences
 from risorius.scene import faces
 from risorius.scene.bake.target import Target
+from risorius.scene.jobs.kept import kept_in
 from risorius.scene.live.held_faces import HeldFaces
 
 
@@ -48,6 +50,33 @@ def test_a_face_that_was_shown_is_kept_and_the_next_time_it_comes_from_there(hea
     assert again.is_from_file
     head.data.vertices[0].co.x += 1e-4
     assert not faces.face_of(Target(head).source()).is_from_file
+
+
+@pytest.mark.slow
+def test_what_a_job_has_posed_is_kept_for_the_next_one(head: Any, tmp_path: Path) -> None:
+    folder, seen = tmp_path / "faces", []
+    faces.forget_faces()
+    for _ in range(2):
+        with kept_in(lambda: folder) as troubles:
+            face = faces.face_of(Target(head).source())
+            seen.append(face.is_from_file)
+            face.pose(np.full(68, np.nan))
+        faces.forget_faces()
+    assert (seen, troubles) == ([False, True], [])
+    assert not faces.face_of(Target(head).source()).is_from_file  # after the job all is as before it
+    shown_face = shown_from(folder, head)
+    assert shown_face.is_from_file
+    assert shown_face.poser.is_explored  # what the command line has kept is kept again with what a preview needs
+    faces.keep_where(faces.nowhere)
+
+
+def shown_from(folder: Path, head: Any) -> Any:
+    """The face of a head that was shown with a folder, as it comes out of that the next time."""
+    faces.forget_faces()
+    faces.keep_where(lambda: folder)
+    shown(head)
+    faces.forget_faces()
+    return faces.face_of(Target(head).source())
 
 
 @pytest.mark.slow
