@@ -8,6 +8,7 @@ bearing                       where a word turns eyes and head
 emotion_presets               words of users, in files
 features, recognition         Table 3; from FAPs back to emotions (section 5)
 fuzzy, robust                 profiles as fuzzy classes; the robust rule
+beside, places                profiles that this knows beside Table 5; FAPs that move together
 belief_track                  beliefs over time
 action_units                  Table 1
 """

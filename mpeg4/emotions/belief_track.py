@@ -23,8 +23,9 @@ from .profile import ARCHETYPES
 from .recognition import NEUTRAL, Rule, Verdict, checked_weights, recognise, shown_strength
 
 #: What a change of the verdict costs, from or to the neutral face and from one emotion to another: so many seconds,
-#: times the halvings by which the new one must be believed more (own choice).
-REST_CHANGE, CHANGE = 0.02, 0.15
+#: times the halvings by which the new one must be believed more (own choice). The first is what a first frame that is
+#: not neutral costs, too; less in a stream of under a second, which need not begin at rest.
+REST_CHANGE, CHANGE = 0.03, 0.15
 
 #: Belief below which verdicts are all alike.
 LEAST_BELIEF = 1e-3
@@ -75,7 +76,8 @@ def _most_plausible(believed: Floats, fps: float) -> Ints:
     costs = np.full((count, count), CHANGE)
     costs[0], costs[:, 0] = REST_CHANGE, REST_CHANGE
     np.fill_diagonal(costs, 0.0)
-    total, came = np.zeros(count), np.zeros(believed.shape, dtype=np.int64)
+    came = np.zeros(believed.shape, dtype=np.int64)
+    total = np.where(np.arange(count) == 0, 0.0, -REST_CHANGE * min(1.0, len(gains) / fps))
     for step, gain in enumerate(gains):
         ways = total[:, None] - costs
         came[step] = ways.argmax(axis=0) if step else np.arange(count)

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from ...arrays import Bools, Floats
 from ...errors import ParameterError
 from ..standard import FAP_COUNT
-from .archetypes import archetype
+from .beside import known_classes, known_profile
 from .expressions import expression
 from .features import FEATURE_COUNT, faps_from_features
 from .fuzzy import LEAST_MEMBERSHIP, LEAST_SEEN, FuzzyClass, archetype_classes
@@ -61,7 +61,8 @@ class Beliefs(dict[Archetype, float]):
 
     Attributes
     ----------
-    profiles : archetype -> variant -> belief in that profile of Table 5.
+    profiles : archetype -> variant -> belief in that profile of Table 5; by the robust rule also in those beside it,
+        whose variants go on where the table ends (anger 5: with the mouth shut).
     neutral : belief that the face rests; None by the paper's rule, which does not ask, and where too little was seen.
     decisive : FAP number -> how much it speaks for the best emotion's best profile against the runner-up's: the
         logarithm of the ratio of the memberships (1 where a profile does not ask for it), the weightiest first.
@@ -89,12 +90,12 @@ class Beliefs(dict[Archetype, float]):
 
     @property
     def best_profile(self) -> Profile | None:
-        """The profile of Table 5 that decided for the best emotion, in MPEG-4 signs; None where there is none."""
+        """The profile that decided for the best emotion, in MPEG-4 signs; None where there is none."""
         best = self.best
         if best is None or best == NEUTRAL:
             return None
         variants = self.profiles[best]
-        return archetype(best, max(variants, key=variants.__getitem__))
+        return known_profile(best, max(variants, key=variants.__getitem__))
 
 
 def recognise(
@@ -271,7 +272,7 @@ def _beliefs(
         return _robust(values, visible, confidence, doubt)
     shown = np.ones(FAP_COUNT, dtype=np.bool_) if visible is None else visible
     classes = archetype_classes()
-    beliefs = _by_archetype([_product(fuzzy, values, shown) for fuzzy in classes.values()])
+    beliefs = _by_archetype(classes, [_product(fuzzy, values, shown) for fuzzy in classes.values()])
     against = {key: np.zeros(FAP_COUNT) for key in classes}
     for key, fuzzy in classes.items():
         members = np.maximum(np.nan_to_num(fuzzy.memberships(values), nan=1.0), LEAST_MEMBERSHIP)
@@ -283,16 +284,18 @@ def _robust(values: Floats, visible: Bools | None, confidence: Floats | None, do
     """Beliefs by the robust rule; `values`, `visible`, `confidence` (68,), `doubt` (68, m)."""
     sure = None if confidence is None else confidence[None]
     judged = archetype_rule().judge(values[None], visible=visible, confidence=sure, doubt=doubt)
-    beliefs = _by_archetype(judged.beliefs[0].tolist())
-    against = dict(zip(archetype_classes(), judged.against[0] * np.log(2.0), strict=True))
+    beliefs = _by_archetype(known_classes(), judged.beliefs[0].tolist())
+    against = dict(zip(known_classes(), judged.against[0] * np.log(2.0), strict=True))
     rest = float(judged.neutral[0])
     return Beliefs(beliefs, _decisive(beliefs, against, ~np.isnan(values)), None if np.isnan(rest) else rest)
 
 
-def _by_archetype(found: Iterable[float]) -> dict[Archetype, dict[int, float]]:
-    """Beliefs in the order of `archetype_classes` by emotion and variant."""
+def _by_archetype(
+    classes: Iterable[tuple[Archetype, int]], found: Iterable[float]
+) -> dict[Archetype, dict[int, float]]:
+    """Beliefs in profiles by emotion and variant."""
     beliefs: dict[Archetype, dict[int, float]] = {name: {} for name in ARCHETYPES}
-    for (name, variant), belief in zip(archetype_classes(), found, strict=True):
+    for (name, variant), belief in zip(classes, found, strict=True):
         beliefs[name][variant] = belief
     return beliefs
 

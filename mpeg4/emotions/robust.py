@@ -5,16 +5,21 @@ profile is judged by its own FAPs alone, so that sadness, which says nothing of 
 broad smile; there is no neutral face. So here
 
 - every FAP that was seen counts for every profile: where the profile asks for it by its membership, elsewhere by how
-  far it is from rest, in shares of what profiles usually ask of it. Both are weighed by how sure the value is. A
-  profile that asks for one FAP of a lip, a lid or a brow knows the others of it (`TOGETHER`).
-- a profile may be shown at any strength up to its own (section 4.1, Rule 2): an expression that grows is the same
-  expression all the way.
-- the neutral face is a verdict. It is believed as far as no profile's own FAPs have left rest; the emotions are
-  believed as far as the face does not rest.
+  far it is from rest. Both are weighed by how sure the value is. A profile that asks for one FAP of a lip, a lid or a
+  brow knows the others of it (`places.TOGETHER`).
+- a profile may be shown at any strength up to its own (section 4.1, Rule 2), and what it does not ask for is measured
+  by how much the face moves at all: an expression that grows is the same expression all the way, and a weak smile
+  counts against sadness as a broad one does.
+- what lifts the upper lip lifts its outer contour, too (`LIFTED`); pressed lips move the inner one alone.
+- the neutral face is a verdict. It is believed as far as the three places of the face that moved most have not left
+  rest: an expression moves several, noise, a blink or a twitch one. Emotions are believed as far as the
+  face does not rest.
 - where the neutral face is doubtful, each profile may have the neutral face that suits it best, at a price: so much
   as the doubt makes it unlikely.
+- anger with a shut mouth is known beside the angers of Table 5, all of which leave the lips alone or part them
+  (`beside`).
 
-Source: own choice; figures of the constants: chosen on the posed faces and photographs of docs/evidence.md.
+Source: own choice; the figures of the constants were chosen on one half of the faces of docs/evidence.md.
 """
 
 from __future__ import annotations
@@ -27,41 +32,33 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from ..standard import FAP_COUNT
-from .fuzzy import LEAST_SEEN, LEAST_WIDTH, FuzzyClass, archetype_classes
+from .beside import known_classes
+from .fuzzy import LEAST_SEEN, LEAST_WIDTH, FuzzyClass
+from .places import by_place, known, largest, usual
 
 #: Shares of a profile that are tried.
 STRENGTHS = (1.0, 0.85, 0.7, 0.55, 0.4, 0.3, 0.2, 0.1)
 
-#: A face rests, to one half, where FAPs are this share of what a profile asks, or so many units, from 0.
-REST_SHARE, REST_LEAST = 0.4, 40.0
+#: A place rests, to one half, where its FAPs are this share of what profiles usually ask, or so many units, from 0.
+REST_SHARE, REST_LEAST = 0.2, 50.0
 
 #: Less belief in the neutral face than this takes nothing off an emotion.
 LEAST_REST = 0.05
 
-#: Motion that a profile does not ask for halves a membership at this share of what profiles usually ask of the FAP, and
-#: takes at most so many halvings off.
+#: How much a face moves, 0..1: this times the shares of what profiles usually ask, of which no more than so much counts
+#: at one FAP; a face that moves less than the least is judged as if it did.
+MOVED_SHARE, MOVED_CAP, MOVED_LEAST = 0.65, 3.0, 0.4
+
+#: Motion that a profile does not ask for halves a membership at this share of what profiles usually ask of the FAP,
+#: times how much the face moves, and takes at most so many halvings off.
 UNASKED_SHARE, UNASKED_MOST = 1.25, 4.0
 
 #: Halvings by which one FAP can count against a profile that asks for it: no FAP decides alone.
 ASKED_MOST = 16.0
 
-#: FAPs that move together: contours of a lip, chin and jaw, both lids of a kind, both brows at one place, cheeks, nose.
-TOGETHER = (
-    (3, 18),
-    (4, 8, 9, 51, 55, 56),
-    (5, 10, 11, 52, 57, 58),
-    (6, 7, 53, 54),
-    (12, 13, 59, 60),
-    (19, 20),
-    (21, 22),
-    (31, 32),
-    (33, 34),
-    (35, 36),
-    (37, 38),
-    (39, 40),
-    (41, 42),
-    (61, 62),
-)
+#: FAPs of the upper lip's inner contour -> those of the outer one at the same place. Levators lie outside the lip,
+#: so that a profile that asks for the one asks for the other; shut lips roll in by the orbicularis alone.
+LIFTED = {4: 51, 8: 55, 9: 56}
 
 #: Price of a neutral face, in halvings, per squared standard deviation: -log2 of exp(-1/2).
 DOUBT_PRICE = 0.5 / float(np.log(2.0))
@@ -115,8 +112,12 @@ class RobustRule:
         for row, fuzzy in enumerate(classes):
             columns = list(fuzzy.indices)
             asked[row, columns], centres[row, columns], widths[row, columns] = True, fuzzy.centres, fuzzy.widths
-        usual = _usual()
-        return cls(asked, (usual > 0.0) & ~_known(asked), centres, widths, usual, strengths)
+        for inner, outer in LIFTED.items():
+            rows = asked[:, inner - 1] & ~asked[:, outer - 1]
+            for table in (asked, centres, widths):
+                table[rows, outer - 1] = table[rows, inner - 1]
+        sizes = usual()
+        return cls(asked, (sizes > 0.0) & ~known(asked), centres, widths, sizes, strengths)
 
     def judge(
         self,
@@ -144,35 +145,54 @@ class RobustRule:
         asked = self.asked & (True if visible is None else visible)
         told = (seen[:, None] & asked).sum(axis=2) >= np.maximum(LEAST_SEEN * asked.sum(axis=1), 1.0)
         fits, rests, against = (np.concatenate(columns) for columns in zip(*judged, strict=True))
-        rest = np.where(told, rests, np.inf).min(axis=1)
-        expressed = 1.0 - np.clip((rest - LEAST_REST) / (1.0 - LEAST_REST), 0.0, 1.0)
+        expressed = 1.0 - np.clip((rests - LEAST_REST) / (1.0 - LEAST_REST), 0.0, 1.0)
         return Judgement(
-            np.where(told, fits * expressed[:, None], 0.0), np.where(np.isinf(rest), np.nan, rest), against
+            np.where(told, fits * expressed[:, None], 0.0), np.where(told.any(axis=1), rests, np.nan), against
         )
 
     def _judge(self, values: Floats, sure: Floats, doubt: Floats | None, fall: Fall) -> tuple[Floats, Floats, Floats]:
-        """(n, k) how well each profile fits at its best strength and how far its own FAPs rest; (n, k, 68) halvings."""
-        shares = np.array(self.strengths)[:, None, None]
-        widths = np.where(
-            self.asked,
-            np.maximum(self.widths * shares, LEAST_WIDTH),
-            np.maximum(UNASKED_SHARE * self.usual * shares, LEAST_WIDTH),
-        )
+        """(n, k) how well each profile fits at its best strength; (n,) how far the face rests; (n, k, 68) halvings."""
+        moved = self._moved(values, sure)[:, None, None]
+        least = LEAST_WIDTH * moved
+        unasked = np.maximum(UNASKED_SHARE * self.usual * moved, least)
         use = (self.asked | self.unasked) * sure[:, None]
         most = np.where(self.asked, ASKED_MOST, UNASKED_MOST)
         tried = [
-            _explained(values, share * self.centres, width, use, most, doubt, fall)
-            for share, width in zip(self.strengths, widths, strict=True)
+            _explained(
+                values,
+                share * self.centres,
+                np.where(self.asked, np.maximum(share * self.widths, least), unasked),
+                use,
+                most,
+                doubt,
+                fall,
+            )
+            for share in self.strengths
         ]
         halvings, against = np.array([each[0] for each in tried]), np.array([each[1] for each in tried])
         best = halvings.argmin(axis=0)[None]
         fits = np.exp2(-np.take_along_axis(halvings, best, axis=0)[0])
         at_best: Floats = np.take_along_axis(against, best[..., None], axis=0)[0]
-        resting = np.maximum(REST_SHARE * np.abs(self.centres), REST_LEAST)
-        left, _ = _explained(
-            values, np.zeros_like(resting), resting, self.asked * sure[:, None], most, doubt, np.square
-        )
-        return fits, np.exp2(-left), at_best
+        return fits, self._rests(values, sure, doubt), at_best
+
+    def _moved(self, values: Floats, sure: Floats) -> Floats:
+        """(n,) how much faces move, from `MOVED_LEAST` to 1."""
+        shares = values / np.where(self.usual > 0.0, self.usual, np.inf)
+        moved = largest(np.abs(by_place(np.clip(shares, -MOVED_CAP, MOVED_CAP), sure)))
+        return np.clip(MOVED_SHARE * moved, MOVED_LEAST, 1.0)
+
+    def _rests(self, values: Floats, sure: Floats, doubt: Floats | None) -> Floats:
+        """(n,) beliefs that faces rest; a doubtful neutral face is the one with which they rest best."""
+        widths = np.maximum(REST_SHARE * self.usual, REST_LEAST)
+        use = sure * (self.usual > 0.0)
+        rest, price = values, np.zeros(len(values))
+        if doubt is not None and doubt.size:
+            shift = _best_neutral(rest[:, None], widths, use[:, None], np.full(FAP_COUNT, ASKED_MOST), doubt)[:, 0]
+            rest = rest - shift @ doubt.T
+            price = DOUBT_PRICE * (shift**2).sum(axis=1) / np.maximum(use.sum(axis=1), 1e-9)
+        most = np.sqrt(ASKED_MOST)
+        off = by_place(np.clip(rest / widths, -most, most), sure) ** 2
+        return np.asarray(np.exp2(-(largest(off) + price)))
 
 
 def _explained(
@@ -208,31 +228,5 @@ def _best_neutral(rest: Floats, widths: Floats, use: Floats, most: Floats, doubt
 
 @cache
 def archetype_rule() -> RobustRule:
-    """The rule for all profiles of Table 5, in the order of `archetype_classes`."""
-    return RobustRule.of(list(archetype_classes().values()))
-
-
-@cache
-def _usual() -> Floats:
-    """(68,) the median of what profiles of Table 5 ask of a FAP, of FAPs that move together the largest; 0: no profile
-    asks for it."""
-    asked = np.full((len(archetype_classes()), FAP_COUNT), np.nan)
-    for row, fuzzy in enumerate(archetype_classes().values()):
-        asked[row, list(fuzzy.indices)] = np.abs(fuzzy.centres)
-    usual = np.zeros(FAP_COUNT)
-    some = ~np.isnan(asked).all(axis=0)
-    usual[some] = np.nanmedian(asked[:, some], axis=0)
-    for numbers in TOGETHER:
-        columns = np.array([number - 1 for number in numbers if some[number - 1]], dtype=np.int64)
-        usual[columns] = usual[columns].max(initial=0.0)
-    usual.flags.writeable = False
-    return usual
-
-
-def _known(asked: Bools) -> Bools:
-    """(k, 68) FAPs that profiles ask for (k, 68), with those that move together with them."""
-    known = asked.copy()
-    for numbers in TOGETHER:
-        columns = [number - 1 for number in numbers]
-        known[:, columns] |= asked[:, columns].any(axis=1, keepdims=True)
-    return known
+    """The rule for all profiles of Table 5 and beside it, in the order of `known_classes`."""
+    return RobustRule.of(list(known_classes().values()))

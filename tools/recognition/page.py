@@ -14,6 +14,7 @@ from risorius.arrays import Bools, Floats
 from risorius.mpeg4 import Rule
 
 from .faces import FACES
+from .halves import halves_section
 from .poses import SHARES, Measured, Series
 from .samples import Sample
 from .scans import STRENGTHS, combinations, shown, units
@@ -34,9 +35,11 @@ Written by `make evidence` (`tools/evidence.py`); do not edit.
 `api.recognise` turns FAPs into beliefs in the six archetypes by section 5 of the first paper: a membership per FAP,
 their product per profile (8), the best variant of an emotion (9), the most believed emotion (11). This is the *paper*
 rule. The *robust* rule takes the geometric mean over all FAPs that were measured: those that a profile does not ask for
-count against it if they move. It takes a profile at any strength, and *neutral* is a verdict. `api.recognise_features`
-uses only the 15 distances of Table 3. One part of the paper's rule is ours: figure 6, the shape of the membership, is
-illegible in the paper, so it was chosen on faces (below).
+count against it if they move, the more the less the face moves as a whole. It takes a profile at any strength, knows
+anger with a shut mouth beside those of Table 5 (`presets/profiles_beside.csv`), and *neutral* is a verdict: the three
+places of the face that moved most are still near rest. `api.recognise_features` uses only the 15 distances of Table 3.
+One part of the paper's rule is ours: figure 6, the shape of the membership, is illegible in the paper, so it was chosen
+on faces (below).
 
 Figures are per cent of correct results among the six emotions; chance is 17 %. *Least* is the emotion with the lowest
 figure.
@@ -113,8 +116,8 @@ Sources: *FACS table* is Ekman and Friesen 1978 as quoted by mpr-online 4, 3; *E
 *prototype* is the Investigator's Guide as quoted in slides; *library* is Greta's facelibrary. The table gives the
 correct results out of {people}, and the most frequent other result of the paper's and the robust rule.
 
-The robust rule takes weak sadness for neutral: the profile of Table 5 asks for little, and nothing of the mouth, so
-that corners of the mouth that fall count against it. In a weak smile they rise too little to contradict disgust.
+The robust rule loses weak anger with an open mouth or a raised lip, of which the angers of Table 5 say nothing or
+little: {anger} are right. Its smiles and sadnesses are right at half strength as at full.
 
 | emotion | source | AUs | no scan for | {ways} | paper, other | robust, other |
 |---|---|---|---|{dashes}|---|---|
@@ -157,12 +160,14 @@ class Figures:
 def page(figures: Figures) -> str:
     """docs/evidence.md."""
     said = {series: all_verdicts(measured) for series, measured in figures.posed.items()}
+    natural, scans, robust = figures.posed[Series.NATURAL], figures.scans, Way.FAPS_ROBUST
     parts = [
         HEADING,
         *_posed(figures.posed, said),
         *_shapes(figures.posed[Series.NATURAL], figures.scans),
         *_words(figures.words),
         *_scans(figures.scans),
+        *halves_section(natural, said[Series.NATURAL][robust], scans, all_verdicts(scans)[robust], figures.seen),
         *_neutral(),
         *seen_section(figures.seen),
         *_samples(figures.samples),
@@ -290,6 +295,7 @@ def _word_scores(word: str, ranks: Sequence[str]) -> tuple[bool, bool, bool]:
 def _scans(scans: Measured) -> Table:
     """Combinations of scans."""
     said = all_verdicts(scans)
+    angry = scans.asked == "anger"
     missing = [number for number, unit in units().items() if not unit.shape]
     unshown = [str(each) for each in combinations() if not each.weights()]
     lines = [
@@ -299,6 +305,7 @@ def _scans(scans: Measured) -> Table:
             missing=", ".join(map(str, missing)),
             unshown=f"\nA combination of AU {', '.join(unshown)} alone is left out." if unshown else "",
             ways=" | ".join(Way),
+            anger=f"{int((said[Way.FAPS_ROBUST] == scans.asked)[angry].sum())} of {int(angry.sum())}",
             dashes="|".join(["---"] * len(Way)),
         ).rstrip("\n")
     ]

@@ -38,7 +38,7 @@ class Series(StrEnum):
 
 
 #: Draws inside the ranges on each face, per profile and activation.
-DRAWS = {Series.NATURAL: 4, Series.EXACT: 1, Series.UNTOLD: 1, Series.WORDS: 1}
+DRAWS = {Series.NATURAL: 6, Series.EXACT: 1, Series.UNTOLD: 1, Series.WORDS: 1}
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ INTRODUCTION = """
 
 What MediaPipe 0.10.21 sees in pictures ([tracking](tracking.md)), recognised. *Guessed* is a neutral face that is
 guessed from the picture itself, with its doubt; *own* is read from a picture of the same head at rest. The robust rule
-weighs each FAP by the tracker's confidence. Its constants were chosen on posed faces and with an eye to the
-photographs, so the figures of these are optimistic. Nothing was chosen on the renders and films.
+weighs each FAP by the tracker's confidence. Its constants were chosen on half of the renders, and the photographs were
+looked at on the way, so the figures are optimistic; those of the other half are above. Nothing was chosen on the films.
 """
 
 PHOTOGRAPHS = """
@@ -33,12 +33,15 @@ The neutral face is guessed.
 """
 
 ANGER = """
-The anger has its lips pressed and its chin raised. The whole mouth stands higher than the guess by two standard
-deviations, upper lip included, and MediaPipe's brows are lowered by a quarter of what anger asks. The upper lids,
-which the anger of Table 5 opens wide, are narrowed. So disgust, which raises both lips and narrows the eyes, explains
-the picture better. Pressed lips on the heads below are read the same way, against their own neutral faces, too. A
-profile of FACS' closed-mouth anger (AU 4, 7, 17, 24) beside those of Table 5 was tried and named none of these more
-than one in twelve better: the picture, not the profile, lacks it.
+The anger has its lips pressed and its chin raised. Against the guess the whole mouth stands higher by two to three
+standard deviations, and MediaPipe's brows are lowered by a quarter of what anger asks; so disgust, which raises both
+lips and narrows the eyes, explains the picture better. Against their own neutral faces, half of the pressed lips on the
+heads below are told from disgust. What tells them apart is the outer contour of the upper lip (F51, F55, F56): the
+levators lift it in disgust (AU 10), while in AU 17 and 24 the lower lip is pushed up (F5, F18) against an upper lip
+that stays. On the scanned head, F51 is +67 in anger and -681 in disgust; MediaPipe reads +7 to +137, and -263 to -504.
+The inner contour (F4) does not tell: shut lips roll in, and MediaPipe reads that as raised by up to 150 units. The
+drawn press of MakeHuman lifts the corners of its mouth by 280 units, which no anger does; some of its pictures stay
+with disgust.
 """
 
 RENDERS = """

@@ -15,7 +15,8 @@ import numpy as np
 import risorius.api as api
 from risorius.arrays import Bools, Floats
 from risorius.mpeg4 import ARCHETYPES, VARIANTS, Rule
-from risorius.mpeg4.emotions.fuzzy import LEAST_SEEN, LEAST_WIDTH, RELATIVE_WIDTH, archetype_classes
+from risorius.mpeg4.emotions.beside import known_classes
+from risorius.mpeg4.emotions.fuzzy import LEAST_SEEN, LEAST_WIDTH, RELATIVE_WIDTH
 from risorius.mpeg4.emotions.recognition import UNSEEN_MEMBERSHIP
 from risorius.mpeg4.emotions.robust import archetype_rule
 
@@ -72,7 +73,7 @@ def believed(faps: Floats, choice: Choice) -> Floats:
     best = np.zeros((len(faps), len(ARCHETYPES)))
     if choice.rule is Rule.ROBUST:
         judged = archetype_rule().judge(faps)
-        for (name, _), belief in zip(archetype_classes(), judged.beliefs.T, strict=True):
+        for (name, _), belief in zip(known_classes(), judged.beliefs.T, strict=True):
             best[:, ARCHETYPES.index(name)] = np.maximum(best[:, ARCHETYPES.index(name)], belief)
         return best
     for column, name in enumerate(ARCHETYPES):

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 from faithful.heads import load_face
-from faithful.sitter import Sitter
+from faithful.sitter import Sitter, object_alone
 from risorius.arrays import Floats
+from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.studio import render_frame, studio
 
 from .known import FPS, STREAMS, TRUTH, stream_of
@@ -45,7 +46,8 @@ def film_head(name: str, kind: str, out: Path) -> list[Path]:
         positions = face.vertices if silent else face.pose(frame).positions
         poses.append(positions)
         truth.append(face.measure(positions))
-    sitter = Filmed.of_head(name, face, width=SIZE, height=SIZE)
+    obj = object_alone(name, face)
+    sitter = Filmed([obj], width=SIZE, height=SIZE, framing=framing_of(obj))  # whole, as before a webcam
     folders = []
     for degrees in VIEWS:
         folder = out / kind / f"{name}-{degrees}"

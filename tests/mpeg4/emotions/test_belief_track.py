@@ -94,6 +94,23 @@ def test_trembling_does_not_name_what_a_face_does_not_show() -> None:
     assert set(track.best) == {"neutral", "joy"}
 
 
+@pytest.mark.parametrize("word", api.ARCHETYPES)
+def test_a_shaken_clip_is_neutral_then_its_emotion_then_neutral(word: str) -> None:
+    frames = clip(word, 50.0)
+    for seed in range(1, 5):
+        shaken = frames + np.random.default_rng(seed).normal(scale=40.0, size=frames.shape)
+        best = api.recognise_over_time(shaken, rule="robust", fps=50.0).best
+        runs = [name for index, name in enumerate(best) if index == 0 or best[index - 1] != name]
+        assert runs == ["neutral", word, "neutral"]
+
+
+@pytest.mark.parametrize("fps", [1.0, 25.0, 240.0])
+def test_a_single_picture_is_what_it_is_alone(fps: float) -> None:
+    for word in api.ARCHETYPES:
+        frame = np.nan_to_num(api.expression(word).frame())[None]
+        assert api.recognise_over_time(frame, rule="robust", fps=fps).best == (word,)
+
+
 def test_a_change_from_one_emotion_to_another_is_seen() -> None:
     joy, anger = (np.nan_to_num(api.expression(word).frame()) for word in ("joy", "anger"))
     frames = np.concatenate([np.tile(joy, (25, 1)), np.tile(anger, (25, 1))])
