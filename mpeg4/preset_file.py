@@ -110,7 +110,7 @@ class Preset:
         if self.kind is PresetKind.EXPRESSION and self.emotion is None:
             raise ParameterError("preset", "must contain an emotion", self.kind)
         if self.kind is PresetKind.TIMELINE and not (self.clips or self.speech):
-            raise ParameterError("preset", "must contain at least one clip or speech", self.kind)
+            raise ParameterError("preset", "must contain at least one clip or speech", str(self.kind))
         for name, value in self.contractions.items():
             if not 0.0 <= value <= 1.0:
                 raise ParameterError(f"contraction of {name}", "must be in 0..1", value)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -11,6 +12,7 @@ import numpy as np
 from ..arrays import Floats
 from ..mpeg4 import ANGLE_UNIT, FAP_COUNT, Liveliness, Overlay, Ramp
 from ..tables import read_toml
+from .articulation.closures import span
 from .phonemes import FOLDER
 from .utterance import Sound, Utterance
 
@@ -75,9 +77,10 @@ def _beats(utterance: Utterance, liveliness: Liveliness, times: Floats) -> Float
         chance, strength = rng.random(), rng.uniform(0.6, 1.2)
         if chance < how.share and sound.middle - last >= how.least:
             last = sound.middle
-            up = Ramp.MINIMUM_JERK.at(times - sound.middle + how.rise, how.rise)
-            down = Ramp.MINIMUM_JERK.at(times - sound.middle, how.fall)
-            size = np.maximum(size, strength * (up - down))
+            near = span(times, sound.middle - how.rise, sound.middle + how.fall)
+            up = Ramp.MINIMUM_JERK.at(times[near] - sound.middle + how.rise, how.rise)
+            down = Ramp.MINIMUM_JERK.at(times[near] - sound.middle, how.fall)
+            size[near] = np.maximum(size[near], strength * (up - down))
     if size.any():
         for numbers, units in zip(BROWS, how.brows, strict=True):
             frames[:, [number - 1 for number in numbers]] = amount * units * size[:, None]
@@ -90,9 +93,9 @@ def stressed(utterance: Utterance) -> list[Sound]:
     vowels = [sound for sound in utterance.sounds if sound.phoneme.vowel]
     if is_marked(utterance):
         return [sound for sound in vowels if sound.stress == 1.0]
-    found = []
+    found, middles = [], [sound.middle for sound in vowels]
     for word in utterance.words:
-        within = [sound for sound in vowels if word.start <= sound.middle <= word.end]
+        within = vowels[bisect_left(middles, word.start) : bisect_right(middles, word.end)]
         if within and sum(letter.isalpha() for letter in word.text) >= CONTENT:
             found.append(max(within, key=lambda sound: sound.duration))
     return found

@@ -13,7 +13,7 @@ from ..errors import ParameterError
 from ..mpeg4 import FAP_COUNT
 from ..tables import KeyedTable, read_toml
 from .articulation.blending import Aim
-from .articulation.closures import closing
+from .articulation.closures import closing, reached, span
 from .articulation.parts import FAPS_OF, Manner, MouthPart, beside_jaw, carried_by_jaw, manner
 from .phonemes import FOLDER
 from .utterance import Utterance
@@ -102,8 +102,9 @@ def _speaking(utterance: Utterance, times: Floats, turn: float, pause: float) ->
     """(T,) how far the mouth is speech's: 1 while sounds last, 0 in pauses, evenly between."""
     share = np.zeros(len(times))
     for start, end in _runs(utterance, pause):
-        away = np.maximum(np.maximum(start - times, times - end), 0.0)
-        share = np.maximum(share, 0.5 + 0.5 * np.cos(np.pi * np.clip(away / turn, 0.0, 1.0)))
+        near = span(times, start - turn, end + turn)
+        away = np.maximum(np.maximum(start - times[near], times[near] - end), 0.0)
+        share[near] = np.maximum(share[near], 0.5 + 0.5 * np.cos(np.pi * np.clip(away / turn, 0.0, 1.0)))
     return share
 
 
@@ -125,5 +126,6 @@ def _closure(utterance: Utterance, times: Floats, how: Manner) -> Floats:
     for sound in utterance.sounds:
         if sound.phoneme.own and (closure := how.closures.get(sound.phoneme.viseme)) is not None:
             aim = Aim(sound.start, sound.end, sound.phoneme.viseme, np.empty(0), min(sound.strength, 1.0))
-            share = np.maximum(share, closing(aim, closure, times, step))
+            near = span(times, *reached(aim, closure, step))
+            share[near] = np.maximum(share[near], closing(aim, closure, times[near], step))
     return share

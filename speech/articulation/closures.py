@@ -25,9 +25,21 @@ def closed(frames: Floats, aims: Sequence[Aim], times: Floats, manner: Manner) -
         share = np.zeros(len(times))
         for aim in aims:
             if aim.viseme == viseme:
-                share = np.maximum(share, closing(aim, closure, times, step))
+                near = span(times, *reached(aim, closure, step))
+                share[near] = np.maximum(share[near], closing(aim, closure, times[near], step))
         moved = _drawn(moved, share, viseme, closure)
     return moved
+
+
+def span(times: Floats, first: float, last: float) -> slice:
+    """Which of some times, ascending, lie from one to another: what is far away is not looked at, be it an hour."""
+    return slice(int(np.searchsorted(times, first)), int(np.searchsorted(times, last, side="right")))
+
+
+def reached(aim: Aim, closure: Closure, step: float) -> tuple[float, float]:
+    """From when to when a closure shows."""
+    middle, held = 0.5 * (aim.start + aim.end), max(0.5 * closure.hold * (aim.end - aim.start), 0.5 * step)
+    return middle - held - closure.ramp, middle + held + closure.ramp
 
 
 def closing(aim: Aim, closure: Closure, times: Floats, step: float) -> Floats:

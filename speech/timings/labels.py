@@ -74,6 +74,10 @@ def utterance_of(timings: Timings, alphabet: Alphabet | None = None) -> Utteranc
     sounds = [sound for label in labels for sound in _sounds(label, read)]
     unread = _distinct(label.text for label in labels if not read(label.text))
     if len(unread) == len({label.text for label in labels}):
+        if timings.read is None and alphabet is None:
+            known = ", ".join(_named(each) for each in Alphabet)
+            unknown = f"is no symbol of any of {known}: convert the symbols to one of them, or choose another tier"
+            raise FormatError(timings.path, f"has no sound that is known: {unread[0]!r} {unknown}")
         problem = f"has no sound that is known: {unread[0]!r} {unknown}; choose another alphabet or tier"
         raise FormatError(timings.path, problem)
     if unread:

@@ -32,6 +32,12 @@ def is_wav(data: bytes) -> bool:
     return data[:4] == b"RIFF" and data[8:12] == b"WAVE"
 
 
+def is_other_sound(data: bytes) -> bool:
+    """Whether bytes begin as a sound does that is no WAV file: Ogg, FLAC, MP3, MP4, AIFF."""
+    begins = data[:4] in (b"OggS", b"fLaC", b"FORM") or data[:3] == b"ID3" or data[4:8] == b"ftyp"
+    return begins or (data[:1] == b"\xff" and data[1:2] in (b"\xfb", b"\xf3", b"\xf2"))
+
+
 def loudness_utterance(path: str | Path) -> Utterance:
     """An open mouth for each syllable that is heard in a WAV file, as wide as it is loud.
 

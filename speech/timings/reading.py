@@ -15,7 +15,7 @@ from ..phonemes import Alphabet
 from ..utterance import Utterance
 from .documents import json_timings
 from .labels import Timings, utterance_of
-from .loudness import is_wav, loudness_utterance
+from .loudness import is_other_sound, is_wav, loudness_utterance
 from .presets import is_preset, preset_utterance
 from .rhubarb import is_rhubarb_tsv, rhubarb_from_tsv, rhubarb_from_xml
 from .tabular import has_no_heading, label_file, table_timings
@@ -52,8 +52,10 @@ def read_timings(path: str | Path, *, tier: str | None = None, alphabet: str | A
     file = Path(path)
     if alphabet is not None and alphabet not in list(Alphabet):
         raise ParameterError("alphabet", f"must be one of {', '.join(Alphabet)}", str(alphabet))
-    if is_wav(read_bytes(file)):
+    if is_wav(data := read_bytes(file)):
         return loudness_utterance(file)
+    if is_other_sound(data):
+        raise FormatError(file, "is a sound, but not WAV: convert it to WAV, or give the times of its sounds")
     if file.suffix.lower() == ".toml" and is_preset(decoded(read_bytes(file)) or ""):
         return preset_utterance(file)
     timings = _opened(file, tier)

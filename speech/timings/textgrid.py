@@ -131,6 +131,8 @@ def _sound_tier(path: Path, tiers: Sequence[Tier], wanted: str | None) -> tuple[
         )
     if any(tier.kind in WORD_TIERS and _says_something(tier) for tier in tiers):
         raise FormatError(path, f"has words but no sounds ({names}): align them with a forced aligner first")
+    if not any(_says_something(tier) for tier in tiers):
+        raise FormatError(path, f"has only empty tiers ({names}): it needs one that says when sounds are")
     raise FormatError(path, f"has no tier of sounds ({names}): choose the tier that holds them")
 
 

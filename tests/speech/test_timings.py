@@ -224,8 +224,11 @@ def test_bad_files_are_refused_with_the_place_and_the_remedy(tmp_path: Path, nam
 
 
 def test_binary_files_are_refused(tmp_path: Path) -> None:
-    (tmp_path / "a.mp3").write_bytes(b"ID3\x04\xff\xfe\x90")
+    (tmp_path / "a.bin").write_bytes(b"RUB\x04\xff\xfe\x90")
     with pytest.raises(FormatError, match="is no text: it must be a TextGrid"):
+        read_timings(tmp_path / "a.bin")
+    (tmp_path / "a.mp3").write_bytes(b"ID3\x04\xff\xfe\x90")
+    with pytest.raises(FormatError, match="is a sound, but not WAV"):
         read_timings(tmp_path / "a.mp3")
 
 
@@ -292,3 +295,25 @@ def test_a_wrong_alphabet_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="must be one of ipa, arpabet, xsampa"):
         read_timings(tmp_path / "a.txt", alphabet=wrong)
     assert said(read_timings(tmp_path / "a.txt", alphabet="xsampa")) == "p a"
+
+
+def test_empty_tiers_other_alphabets_and_other_sounds_are_told_apart(tmp_path: Path) -> None:
+    kana, ogg, empty = tmp_path / "kana.txt", tmp_path / "line.ogg", tmp_path / "empty.TextGrid"
+    kana.write_text("0.0 0.2 か\n0.2 0.4 ん\n", encoding="utf-8")
+    with pytest.raises(FormatError, match="is no symbol of any of IPA, ARPAbet, X-SAMPA: convert the symbols"):
+        read_timings(kana)
+    with pytest.raises(FormatError, match="is no symbol of IPA; choose another alphabet or tier"):
+        read_timings(kana, alphabet="ipa")
+    ogg.write_bytes(b"OggS\x00\x02" + bytes(40))
+    with pytest.raises(FormatError, match="is a sound, but not WAV: convert it to WAV"):
+        read_timings(ogg)
+    head = 'File type = "ooTextFile"\nObject class = "TextGrid"\n\nxmin = 0\nxmax = 1\ntiers? <exists>\n'
+    head += "size = 1\nitem []:\n"
+    tier = (
+        '    item [1]:\n        class = "IntervalTier"\n        name = "phones"\n        xmin = 0\n        xmax = 1\n'
+    )
+    marks = "        intervals: size = 1\n        intervals [1]:\n            xmin = 0\n            xmax = 1\n"
+    marks += '            text = ""\n'
+    empty.write_text(head + tier + marks, encoding="utf-8")
+    with pytest.raises(FormatError, match="has only empty tiers"):
+        read_timings(empty)
