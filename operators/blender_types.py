@@ -176,8 +176,6 @@ class Timer(Protocol):
 class WindowManager(scene_types.WindowManager, Protocol):
     """All windows, with how things are shown in them."""
 
-    clipboard: str
-
     @property
     def risorius(self) -> RISORIUS_PG_window: ...
     @property

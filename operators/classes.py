@@ -69,7 +69,6 @@ from .speech.props import RISORIUS_PG_speech
 from .speech.strip_ops import (
     RISORIUS_OT_add_speech,
     RISORIUS_OT_fit_speech_sound,
-    RISORIUS_OT_paste_speech,
     RISORIUS_OT_remove_speech,
     RISORIUS_OT_stretch_speech,
 )
@@ -198,7 +197,6 @@ OPERATORS = (
     RISORIUS_OT_import_fap,
     RISORIUS_OT_speak,
     RISORIUS_OT_add_speech,
-    RISORIUS_OT_paste_speech,
     RISORIUS_OT_remove_speech,
     RISORIUS_OT_fit_speech_sound,
     RISORIUS_OT_stretch_speech,

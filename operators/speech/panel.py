@@ -10,7 +10,6 @@ from .props import RISORIUS_PG_speech
 from .strip_ops import (
     RISORIUS_OT_add_speech,
     RISORIUS_OT_fit_speech_sound,
-    RISORIUS_OT_paste_speech,
     RISORIUS_OT_remove_speech,
     chosen_strip,
     sound_is_off,
@@ -66,7 +65,6 @@ class RISORIUS_PT_speech(MeshSidebar, Panel):
         row = layout.row(align=True)
         row.scale_y = 1.3
         row.operator(RISORIUS_OT_add_speech.bl_idname, icon="ADD")
-        row.operator(RISORIUS_OT_paste_speech.bl_idname, text="", icon="PASTEDOWN")
         if not chosen.strips:
             return
         self._draw_strips(layout, context, chosen)

@@ -1,9 +1,6 @@
-"""Operators on speech on the timeline: added, pasted, copied, removed, and its sound fitted to its length."""
+"""Operators on speech on the timeline: added, copied, removed, and its sound fitted to its length."""
 
 from __future__ import annotations
-
-import tempfile
-from pathlib import Path
 
 import bpy
 from bpy.props import FloatProperty
@@ -20,7 +17,7 @@ from .fitting import fit_sound
 from .heard import Heard, heard, nothing_said
 from .placing import place_strip
 from .strip_props import STRETCH, RISORIUS_PG_speech_strip, active_strip, edited
-from .strips import length_of, shortened, title_of_strip
+from .strips import length_of, title_of_strip
 
 #: Seconds by which a sound may be shorter than what is said in it.
 SHORTER = 0.1
@@ -101,34 +98,6 @@ class RISORIUS_OT_add_speech(RisoriusOperator, Operator):
     def run(self, context: Context) -> str:
         """Speak or read it, and add it."""
         return add_strip(self, context, heard(active_object(context).risorius.speech))
-
-
-class RISORIUS_OT_paste_speech(RisoriusOperator, Operator):
-    """Put timings from the clipboard on the timeline, starting at the current frame: lines of start, end and sound, a \
-TextGrid, or Rhubarb's JSON, TSV or XML"""
-
-    bl_idname = "risorius.paste_speech"
-    bl_label = "Paste Timings"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def refusal(cls, context: Context) -> str | None:
-        """Only on a face."""
-        return face_reason(context.object)
-
-    def run(self, context: Context) -> str:
-        """Read them as a file's."""
-        from ... import api
-
-        text = str(context.window_manager.clipboard)
-        if not text.strip():
-            raise SceneError("Clipboard", "is empty: copy timings first")
-        with tempfile.TemporaryDirectory(prefix="risorius-", ignore_cleanup_errors=True) as folder:
-            path = Path(folder) / "clipboard"
-            path.write_text(text, encoding="utf-8")
-            utterance = api.read_timings(path)
-        title = shortened(" ".join(word.text for word in utterance.words)) or "pasted"
-        return add_strip(self, context, Heard(title, utterance))
 
 
 class RISORIUS_OT_remove_speech(StripOperator, Operator):

@@ -178,19 +178,6 @@ def test_a_sound_that_cannot_be_played_does_not_take_the_speech_away(
     assert "Without sound:" in said.out + said.err
 
 
-def test_what_is_on_the_clipboard_is_said(head: Any) -> None:
-    class Clipboard:
-        clipboard = TIMINGS
-
-    from types import SimpleNamespace
-
-    from risorius.operators.speech import strip_ops
-
-    context = SimpleNamespace(object=head, scene=bpy.context.scene, window_manager=Clipboard)
-    operator = SimpleNamespace(report=lambda *_: None)
-    said = strip_ops.RISORIUS_OT_paste_speech.run(operator, context)
-    assert said == "Added me up at frame 1: 2 words, 0.6 s"
-
 
 def test_a_preset_keeps_it_with_its_sound(
     speech: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
