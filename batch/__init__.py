@@ -4,6 +4,7 @@ columns     what a row may say: each column with its default, unit and range
 values      one cell read by its column's rule
 table       the rows of a CSV or TOML file; what is wrong with a row, cell by cell
 jobs        one row as a job: its name, what it was made from, what it is to make
+design      factors and levels as the rows of a table
 claims      one job is made by one process at a time
 place       the folder of a set: jobs done, in work, failed, put aside
 records     what is written down of a job that is done, and whether it is still there, byte for byte

@@ -98,7 +98,7 @@ def name_problem(name: str) -> str | None:
     """Why a name cannot be an id, and what can."""
     if not NAME.fullmatch(name) or name.endswith("."):
         return "must begin with a letter or digit and hold letters, digits, '.', '_' and '-' only, at most 100"
-    if name.split(".")[0].lower() in DEVICES or name.lower() == "manifest.jsonl":
+    if name.split(".")[0].lower() in DEVICES or name.lower() in ("manifest.jsonl", "jobs.csv"):
         return "must not be a name that is taken: choose another"
     return None
 

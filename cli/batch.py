@@ -6,6 +6,7 @@ import argparse
 import contextlib
 import signal
 import sys
+import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -33,7 +34,12 @@ def add_batch_verb(verbs: Verbs) -> None:
     """Add batch to the verbs."""
     batch = verb(verbs, "batch", _batch)
     about = "a row for each clip or still, .csv or .toml; docs/batch.md lists the columns"
-    batch.add_argument("table", type=Path, metavar="TABLE", help=about)
+    batch.add_argument("table", type=Path, nargs="?", metavar="TABLE", help=about)
+    about = (
+        'instead: factors and levels, as a .toml file or a line: "emotion=joy,fear yaw=-30..30 seed=0..999 kind=random '
+        'count=100"; the table that it stands for is written to jobs.csv in the folder of the set'
+    )
+    batch.add_argument("--design", metavar="DESIGN", help=about)
     batch.add_argument("--out", type=Path, required=True, help="the folder of the set; started again, it goes on there")
     about = "only this part of the jobs, as 3/10: for the job arrays of a cluster"
     batch.add_argument("--shard", metavar="PART/PARTS", help=about)
@@ -56,7 +62,8 @@ def _batch(arguments: argparse.Namespace) -> Result:
         raise UsageError("--processes must be 1 or more, and --memory above 0")
     if arguments.dask is not None and arguments.processes != 1:
         raise UsageError("--processes is for this computer alone: leave it out with --dask")
-    table = read_jobs(arguments.table)
+    with _table_of(arguments) as path:
+        table = read_jobs(path)
     jobs = list(table.jobs) if arguments.shard is None else shard(table.jobs, arguments.shard)
     place = JobSet(arguments.out)
     for problem in table.problems:
@@ -70,6 +77,24 @@ def _batch(arguments: argparse.Namespace) -> Result:
             ready_blender(place.heads)
     place.prepare()
     return _worked_off(arguments, table, jobs, place)
+
+
+@contextlib.contextmanager
+def _table_of(arguments: argparse.Namespace) -> Iterator[Path]:
+    """The table: as given, or the one that a design stands for, which a dry run keeps nowhere."""
+    from ..batch.design import read_design, write_design
+
+    if (arguments.table is None) == (arguments.design is None):
+        raise UsageError("give either a table, or --design")
+    if arguments.design is None:
+        yield arguments.table
+        return
+    design = read_design(arguments.design)
+    with tempfile.TemporaryDirectory(prefix="risorius-") as temporary:
+        folder = Path(temporary) if arguments.dry_run else arguments.out
+        folder.mkdir(parents=True, exist_ok=True)
+        write_design(design, folder / "jobs.csv")
+        yield folder / "jobs.csv"
 
 
 def _foretold(table: JobTable, jobs: Sequence[Job], place: JobSet) -> Result:

@@ -72,11 +72,16 @@ def write_csv(path: str | Path, heading: Sequence[str], rows: Iterable[Sequence[
     ------
     FormatError : it cannot be written.
     """
+    write_whole(path, csv_text(heading, rows))
+
+
+def csv_text(heading: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """What `write_csv` writes."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(heading)
     writer.writerows(rows)
-    write_whole(path, out.getvalue())
+    return out.getvalue()
 
 
 def numbered_lines(text: str) -> list[tuple[int, str]]:
