@@ -38,6 +38,21 @@ def test_a_counterbalanced_design_has_every_level_as_often_after_any_number_of_r
         assert max(counts) - min(counts) <= 2, (first, second)
 
 
+@pytest.mark.parametrize("draw", range(5))
+def test_levels_come_as_often_where_pairs_leave_it_open(draw: int) -> None:
+    levels = {
+        "emotion": ("joy", "fear", "anger", "sad", "disgust"),
+        "yaw": tuple(map(str, range(7))),
+        "pitch": ("1", "2"),
+    }
+    for count in (4, 5, 6, 9, 13):
+        rows = list(rows_of(Design(levels, {}, Kind.COUNTERBALANCED, count, draw=draw)))
+        for name, each in levels.items():
+            times = Counter(row[name] for row in rows)
+            counts = [times[level] for level in each]
+            assert max(counts) - min(counts) <= 1
+
+
 def test_a_random_design_gives_each_cell_once_before_any_comes_again() -> None:
     rows = list(rows_of(Design({**LEVELS, "pitch": Drawn(-5.0, 5.0, False)}, {}, Kind.RANDOM, 30)))
     cells = [tuple(row[name] for name in LEVELS) for row in rows]

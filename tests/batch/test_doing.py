@@ -8,8 +8,10 @@ import os
 import shutil
 from collections.abc import Callable
 from pathlib import Path
+from typing import IO
 
 import pytest
+import risorius.batch.claims as claims
 import risorius.batch.doing as doing
 import risorius.batch.place as places
 from risorius.batch.claims import Claim, claimed
@@ -213,6 +215,25 @@ def test_a_claim_is_free_again_after_its_block_whatever_happens(tmp_path: Path) 
     assert not lock.exists()
     with claimed(lock) as first, claimed(lock) as second:
         assert (first, second) == (Claim.HELD, Claim.TAKEN)
+
+
+def test_a_claim_that_was_given_up_meanwhile_is_not_taken_for_held(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its last owner removes the file between our opening it and locking it: the lock would be one on nothing."""
+    lock, usual, given_up = tmp_path / "a.lock", claims._lock, list[bool]()
+
+    def remove_first(file: IO[bytes]) -> None:
+        if not given_up:
+            given_up.append(True)
+            lock.unlink()
+        usual(file)
+
+    monkeypatch.setattr(claims, "_lock", remove_first)
+    with claimed(lock) as first:
+        assert first is Claim.HELD
+        with claimed(lock) as second:
+            assert second is Claim.TAKEN
 
 
 def test_without_locks_two_processes_still_give_one_result(
