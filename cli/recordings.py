@@ -50,6 +50,8 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--aspect", type=_aspect, default=16.0 / 9.0, help="landmarks: WIDTH:HEIGHT of the image (default: 16:9)"
     )
+    about = "take out the trembling of a tracker; blinks and closing lips keep their time and their edge"
+    parser.add_argument("--steady", action="store_true", help=about)
     about = "time range in seconds with a neutral face, from which all is counted (default: the tracker's zero; of "
     about += "landmarks, the usual shape)"
     neutral = parser.add_mutually_exclusive_group()
@@ -82,6 +84,7 @@ def read_as_told(
         flip=arguments.flip,
         aspect=arguments.aspect,
         neutral=arguments.neutral_frame if arguments.neutral is None else tuple(arguments.neutral),
+        steady=arguments.steady,
         strict=strict,
         progress=when_slow(),
     )

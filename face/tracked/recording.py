@@ -7,7 +7,7 @@ does not say and had to be assumed, and what of it is damaged.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +24,7 @@ from .flipping import checked_flips, flipped
 from .formats import WRITABLE, StreamFormat
 from .neutral import Neutral, counted_from
 from .opening import Opened, open_stream
+from .steady import steadied
 from .trackers import ASPECT, Told
 
 
@@ -80,6 +81,7 @@ def read_recording(
     flip: Sequence[str] = (),
     aspect: float = ASPECT,
     neutral: Neutral | None = None,
+    steady: bool = False,
     strict: bool = False,
     progress: Report | None = None,
 ) -> Recording:
@@ -101,6 +103,7 @@ def read_recording(
     neutral : of a tracker's file, counted from its first row: seconds from and to which the face is neutral, or the
         number of one frame at the file's own rate. What shows there is taken off every frame; landmarks are measured
         from it. None: the tracker's zero; of landmarks, the face's usual shape.
+    steady : take out the trembling of a tracker; blinks and closing lips keep their time and their edge.
     strict : .fba only: refuse any damage.
     progress : .fba only: called as it is decoded.
 
@@ -117,10 +120,28 @@ def read_recording(
     openface 25.0
     """
     checked_rate(rate)
-    flips = checked_flips(flip)
+    told = Told(rate, start, face, aspect, neutral)
+    recording = _read(Path(path), format, fps, told, checked_flips(flip), strict, progress)
+    if not steady:
+        return recording
+    stream = recording.stream
+    return replace(recording, stream=replace(stream, frames=steadied(stream.frames, stream.fps)))
+
+
+def _read(
+    path: Path,
+    format: str | StreamFormat | None,
+    fps: float | None,
+    told: Told,
+    flips: tuple[str, ...],
+    strict: bool,
+    progress: Report | None,
+) -> Recording:
+    """See `read_recording`."""
     opened = open_stream(path, None if format is None else StreamFormat.of(format))
     if opened.samples is None:
-        _refuse_options({"rate": rate, "start": start, "face": face, "flip": flips or None, "neutral": neutral})
+        options = {name: getattr(told, name) for name in ("rate", "start", "face", "neutral")}
+        _refuse_options({**options, "flip": flips or None})
     if opened.format is StreamFormat.FBA:
         decoded = decode_fba(read_bytes(path), path=path, strict=strict, progress=progress)
         return Recording(_at(decoded.stream, fps), StreamFormat.FBA, damage=decoded.damage)
@@ -128,9 +149,9 @@ def read_recording(
         return Recording(_at(read_fap(path), fps), StreamFormat.FAP)
     if opened.samples is None:
         return Recording(_at(stream_of_document(path, opened.document), fps), StreamFormat.JSON)
-    samples = opened.samples(Told(rate, start, face, aspect, neutral))
-    if neutral is not None and opened.format is not StreamFormat.LANDMARKS:
-        samples = counted_from(samples, neutral)
+    samples = opened.samples(told)
+    if told.neutral is not None and opened.format is not StreamFormat.LANDMARKS:
+        samples = counted_from(samples, told.neutral)
     frames, per_second = samples.evenly(fps)
     frames = flipped(frames, flips)
     try:
@@ -151,6 +172,7 @@ def read_stream(
     flip: Sequence[str] = (),
     aspect: float = ASPECT,
     neutral: Neutral | None = None,
+    steady: bool = False,
 ) -> FapStream:
     """The stream of a file of any format; parameters and errors as `read_recording`.
 
@@ -161,7 +183,16 @@ def read_stream(
     [0.0, 468.0, 937.0]
     """
     return read_recording(
-        path, format, fps=fps, rate=rate, start=start, face=face, flip=flip, aspect=aspect, neutral=neutral
+        path,
+        format,
+        fps=fps,
+        rate=rate,
+        start=start,
+        face=face,
+        flip=flip,
+        aspect=aspect,
+        neutral=neutral,
+        steady=steady,
     ).stream
 
 

@@ -24,6 +24,7 @@ class Told(TypedDict):
     face: int | None
     neutral: int | None
     flip: tuple[str, ...]
+    steady: bool
 
 
 class RecordingFields:
@@ -98,6 +99,15 @@ class RecordingFields:
         ),
     ]
 
+    steady: Annotated[
+        bool,
+        BoolProperty(
+            name="Steady",
+            description="Take out the trembling of a tracker. Blinks and closing lips keep their time and their edge",
+            default=False,
+            options={"SKIP_SAVE"},
+        ),
+    ]
     inertia: Annotated[
         bool,
         BoolProperty(
@@ -117,6 +127,7 @@ class RecordingFields:
             "face": None if self.face < 0 else int(self.face),
             "neutral": None if self.neutral < 0 else int(self.neutral),
             "flip": tuple(sorted(self.flip)),
+            "steady": bool(self.steady),
         }
 
     def draw_fields(self, layout: UILayout, path: Path, obj: Object | None) -> None:
@@ -129,6 +140,7 @@ class RecordingFields:
             return
         if obj.risorius.timeline.clips:
             layout.prop(self, "with_timeline")
+        layout.prop(self, "steady")
         layout.prop(self, "inertia")
         layout.prop(obj.risorius.bake, "onto")
 

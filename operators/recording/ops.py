@@ -152,7 +152,7 @@ of a tracker (Live Link Face, OpenFace, MediaPipe, Audio2Face ...)"""
         """Run straight through; where the user was asked, between events like any bake, which is undone in one step."""
         if not self._was_asked_for:
             return super().run(context)
-        fields = {name: getattr(self, name) for name in (*OF_TRACKERS, "with_timeline", "inertia")}
+        fields = {name: getattr(self, name) for name in (*OF_TRACKERS, "with_timeline", "steady", "inertia")}
         bpy.ops.risorius.bake_recording("INVOKE_DEFAULT", filepath=self.filepath, **fields)
         return f"Importing {self.path.name}"
 

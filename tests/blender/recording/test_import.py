@@ -121,6 +121,17 @@ def test_inertia_is_added_to_what_was_computed_alone(
     assert f"Info: take.csv: {done}" in output.out + output.err
 
 
+def test_a_trembling_face_is_steadied_where_that_is_asked(
+    head: Any, played: list[FapMotion], tmp_path: Path
+) -> None:
+    rows = [f"{n / 25:.2f},{0.5 + 0.01 * (-1) ** n}" for n in range(60)]
+    (tmp_path / "take.csv").write_text("\n".join(["timestamp,jawOpen", *rows]))
+    imported(tmp_path / "take.csv")
+    imported(tmp_path / "take.csv", steady=True)
+    trembling, steady = (np.ptp(motion.stream[5:-5, JAW]) for motion in played)
+    assert steady < 0.5 * trembling
+
+
 def test_what_a_stream_states_cannot_be_overruled(head: Any, played: list[FapMotion], tmp_path: Path) -> None:
     api.write_stream(tmp_path / "a.fap", api.FapStream(np.zeros((3, 68)), fps=25.0))
     for fields in ({"rate": 30.0}, {"neutral": 1}, {"flip": {"yaw"}}):
@@ -209,13 +220,13 @@ def test_fields_show_where_they_apply(head: Any, tmp_path: Path) -> None:
     tracked.write_text(ARKIT)
     for stream in (own, tmp_path / "own.fba", tmp_path / "own.json"):
         api.write_stream(stream, api.FapStream(np.zeros((3, 68)), fps=25.0))
-        assert drawn(head, stream) == ["inertia", "onto"]
-    assert drawn(head, tracked) == [*OF_TRACKERS, "inertia", "onto"]
-    assert drawn(head, tmp_path / "gone.csv") == drawn(head, tmp_path) == ["inertia", "onto"]
+        assert drawn(head, stream) == ["steady", "inertia", "onto"]
+    assert drawn(head, tracked) == [*OF_TRACKERS, "steady", "inertia", "onto"]
+    assert drawn(head, tmp_path / "gone.csv") == drawn(head, tmp_path) == ["steady", "inertia", "onto"]
     head.risorius.timeline.clips.add()
-    assert drawn(head, own) == ["with_timeline", "inertia", "onto"]
+    assert drawn(head, own) == ["with_timeline", "steady", "inertia", "onto"]
     tracked.write_text(own.read_text())  # the content counts, as it is now
-    assert drawn(head, tracked) == ["with_timeline", "inertia", "onto"]
+    assert drawn(head, tracked) == ["with_timeline", "steady", "inertia", "onto"]
 
 
 @pytest.mark.slow
