@@ -2,8 +2,8 @@
 
 A tracker measures each image anew, and a face that keeps still trembles by what it errs. Each FAP is compared with
 parabolas through a fifth of a second about it (Savitzky and Golay 1964), which look ahead as far as back. Where the two
-differ by no more than the usual difference, the parabola counts; a blink or closing lips, which differ by more, stay but
-for that much. A recording that does not tremble stays as it is.
+differ by no more than they usually do, the parabola counts; a blink or closing lips, which differ by more, stay but for
+that much. A recording that does not tremble stays as it is.
 """
 
 from __future__ import annotations
