@@ -24,7 +24,7 @@ from .clip_balance import ClipBalance, clip_balance
 from .drive.plan import Plan
 from .jaw_follower import JawFollower, resting
 from .posture import Balance, Effort
-from .response.actuators import Amounts
+from .response.actuators import Actuators, Amounts
 from .response.sampled import farthest, foretelling
 from .response.spring_skin import spring_skin
 
@@ -114,13 +114,11 @@ class ReducedMotion:
     def along(self, course: Course) -> Iterator[tuple[Floats, Floats]]:
         """Displacements (s, n, 3) of the outer skin in head space, metres, and mandibles (s, 3), some at a time."""
         contact, rest = self.anatomy.contact, self.skin.rest
-        left_behind = LeftBehind(course)
+        left_behind = LeftBehind(course, self.anatomy.actuators)
         for steps, asked in course.clip.along():
-            jaws, lids = (each[steps].reshape(-1, each.shape[2]) for each in (course.jaws, course.lids))
-            carried = self.anatomy.actuators.carried_each(jaws, lids)
-            carried = carried.reshape(-1, self.substeps, *rest.shape)
+            carried = self.anatomy.actuators.carried_each(course.jaws[steps, -1], course.lids[steps, -1])
             added = asked.elastic + asked.pushed
-            shown = rest + carried[:, -1] + added + left_behind.displacements(steps, carried, added)
+            shown = rest + carried + added + left_behind.displacements(steps, added)
             at = Surroundings(course.jaws[steps, -1], asked.surroundings.looks)
             slack = contact.slack(asked.displacements, asked.surroundings)
             yield contact.held(shown, asked.lip_shares, at, slack) - rest, course.jaws[steps, -1]
@@ -138,25 +136,23 @@ class ReducedMotion:
 class LeftBehind:
     """How far the skin of one clip is left behind, some steps after the others."""
 
-    def __init__(self, course: Course) -> None:
-        self._course = course
-        self._state = np.empty(0) if course.reduced is None else course.reduced.at_rest()
+    def __init__(self, course: Course, actuators: Actuators) -> None:
+        self._course, self._actuators = course, actuators
+        if course.reduced is not None:
+            self._state, self._jaw = course.reduced.at_rest(), course.reduced.read(actuators.jaw_ways)
         self._added: Floats | None = None
         self._felt: Floats | None = None
 
-    def displacements(self, steps: slice[int, int, None], carried: Floats, added: Floats) -> Floats:
-        """(s, n, 3) metres at the ends of the next steps.
-
-        Parameters
-        ----------
-        carried : (s, substeps, n, 3) what jaw and lids do to the skin. added : (s, n, 3) the rest of its balance.
-        """
+    def displacements(self, steps: slice[int, int, None], added: Floats) -> Floats:
+        """(s, n, 3) metres at the ends of the next steps; `added` (s, n, 3) is their balance without jaw and lids."""
         reduced = self._course.reduced
         if reduced is None:
             return np.zeros_like(added)
         ends = reduced.read(added)
-        even = evenly(np.concatenate([ends[:1] if self._added is None else self._added, ends]), carried.shape[1])
-        states, felts = [], reduced.read(carried) + even[1:]
+        even = evenly(
+            np.concatenate([ends[:1] if self._added is None else self._added, ends]), self._course.jaws.shape[1]
+        )
+        states, felts = [], self._carried(reduced, steps) + even[1:]
         before = felts[0, 0] if self._felt is None else self._felt
         for shares, parts in zip(self._course.shares[steps], felts, strict=True):
             passage = np.tensordot(shares, self._course.passages, axes=1)
@@ -165,6 +161,14 @@ class LeftBehind:
             states.append(self._state)
         self._added, self._felt = ends[-1:], before
         return reduced.displacement(np.array(states))
+
+    def _carried(self, reduced: ReducedSkin, steps: slice[int, int, None]) -> Floats:
+        """(s, substeps, 2k) what the skin feels of being carried by jaw and lids."""
+        jaws, lids = self._course.jaws[steps], self._course.lids[steps]
+        felt = self._actuators.jaw.shares(jaws) @ self._jaw
+        for near, moved in self._actuators.lids_carried(lids.reshape(-1, lids.shape[2])):
+            felt += reduced.read(moved, near).reshape(felt.shape)
+        return np.asarray(felt)
 
 
 def evenly(values: Floats, parts: int) -> Floats:

@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import expm
 
-from ..arrays import Floats, Singles
+from ..arrays import Floats, Ints, Singles
 from ..errors import ParameterError
 from .elastic import Factor
 from .skin import Skin
@@ -72,10 +72,16 @@ class ReducedSkin:
         apart = [skin.springs.incidence @ np.ascontiguousarray(column) for column in columns]
         self._apart: Singles = np.array(apart, dtype=np.float32)  # half the traffic; rounding is far from telling
 
-    def read(self, balances: Floats) -> Floats:
-        """(..., 2k) what the skin feels of balances (..., n, 3), displacements in m: `F'M b` before `F'C b`."""
-        flat = balances.reshape(-1, self._felt.shape[1])  # one product of matrices, whatever the balances' shape
-        return np.asarray(flat @ self._felt.T).reshape(*balances.shape[:-2], -1)
+    def read(self, balances: Floats, nodes: Ints | None = None) -> Floats:
+        """(..., 2k) what the skin feels of balances (..., n, 3), m: `F'M b` before `F'C b`.
+
+        With `nodes` (m,), of balances (..., m, 3) that are given of these and 0 elsewhere.
+        """
+        felt = self._felt
+        if nodes is not None:
+            felt = felt.reshape(len(felt), -1, 3)[:, nodes].reshape(len(felt), -1)
+        flat = balances.reshape(-1, felt.shape[1])  # one product of matrices, whatever the balances' shape
+        return np.asarray(flat @ felt.T).reshape(*balances.shape[:-2], -1)
 
     def at_rest(self) -> Floats:
         """(3k,) the state of a skin that rests in its balance, which has not moved."""

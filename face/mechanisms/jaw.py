@@ -136,6 +136,23 @@ class Jaw:
         moved += np.maximum(np.sin(_figures(motion)[0]), 0.0)[..., None] ** 2 * self.bulge
         return moved
 
+    def ways(self, positions: Floats) -> Floats:
+        """(5, n, 3) fields that `skin` is a sum of, by `shares`."""
+        y, z = positions[:, 1] - self.hinge[1], positions[:, 2] - self.hinge[2]
+        ways = np.zeros((5, *positions.shape))
+        ways[0, :, 0] = ways[1, :, 2] = 1.0
+        ways[2, :, 1], ways[2, :, 2] = -z, y
+        ways[3, :, 1], ways[3, :, 2] = y, z
+        ways[:4] *= self.weights[:, None]
+        ways[4] = self.bulge
+        return ways
+
+    def shares(self, motions: Floats) -> Floats:
+        """(..., 5) how much of each of `ways` several motions (..., 3) are."""
+        angle, left, forward = np.moveaxis(motions, -1, 0)
+        sine = np.sin(angle)
+        return np.stack([left, forward, sine, np.cos(angle) - 1.0, np.maximum(sine, 0.0) ** 2], axis=-1)
+
     def derivatives(self, positions: Floats, motion: JawMotion) -> Floats:
         """(3, n, 3) change of `skin` per radian of opening and per metre of slide left and forward, at a motion."""
         cosine, sine = np.cos(motion.angle), np.sin(motion.angle)

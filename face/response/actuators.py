@@ -6,12 +6,13 @@ the chin. Amounts are what the inverse finds; contractions in [0, 1] are amounts
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ...arrays import Floats
+from ...arrays import Floats, Ints
 from ...physics.mesh import Sparse
 from ..figures import Length, read_figures
 from ..mechanism import Mechanism
@@ -121,11 +122,21 @@ class Actuators:
 
     def carried_each(self, jaws: Floats, lids: Floats) -> Floats:
         """(T, n, 3) as `carried`, by mandibles (T, 3) and lid moves (T, l)."""
-        moved: Floats = self.jaw.skin(self.skin.positions, jaws)
+        moved: Floats = np.tensordot(self.jaw.shares(jaws), self.jaw_ways, axes=1)
+        for near, by_lids in self.lids_carried(lids):
+            moved[:, near] += by_lids
+        return moved
+
+    @cached_property
+    def jaw_ways(self) -> Floats:
+        """(5, n, 3) fields of the outer skin that the jaw moves it in, by `Jaw.shares`."""
+        return self.jaw.ways(self.skin.positions)
+
+    def lids_carried(self, lids: Floats) -> Iterator[tuple[Ints, Floats]]:
+        """Of each eye the skin (k,) that its lids take along, and how (T, k, 3) by lid moves (T, l)."""
         for side in "lr" if self.lid_moves else "":
             moves = {move: lids[:, i] for i, (s, move) in enumerate(self.lid_moves) if s == side}
-            moved[:, self.eyes[side].near] += self.eyes[side].carried(self.skin.positions, moves)
-        return moved
+            yield self.eyes[side].near, self.eyes[side].carried(self.skin.positions, moves)
 
     def low_strain(self, amounts: Amounts) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, as if the skin were linear."""

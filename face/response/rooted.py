@@ -85,28 +85,27 @@ class RootedParts:
 
     def follow(self, displacements: Floats) -> None:
         """Fill in the rows of rooted vertices of displacement fields (..., V, 3), in place."""
-        if self._bound:
-            for displacement in displacements.reshape(-1, *displacements.shape[-2:]):
-                self._follow(displacement)
-
-    def _follow(self, displacement: Floats) -> None:
-        """Fill in the rows of rooted vertices of a displacement field (V, 3), in place."""
-        mean, *slopes = np.asarray(self._reader @ displacement[self._read]).reshape(4, -1, 3)
-        change = self._turns(np.stack(slopes, axis=2)) - np.eye(3)
-        shift = mean + (change @ self._above[:, :, None])[:, :, 0]
-        displacement[self._roots] = shift
+        if not self._bound:
+            return
+        moved = displacements.reshape(-1, *displacements.shape[-2:])
+        read = mesh.applied(self._reader, moved[:, self._read]).reshape(len(moved), 4, -1, 3)
+        change = self._turns(np.stack([read[:, 1], read[:, 2], read[:, 3]], axis=3)) - np.eye(3)
+        shift = read[:, 0] + (change @ self._above[:, :, None])[..., 0]
+        moved[:, self._roots] = shift
         if len(self._rest) == 0:
             return
-        about = shift - (change @ self._at[:, :, None])[:, :, 0]
-        motion = self._factor.solve(self._to_roots @ np.concatenate([change.reshape(-1, 9), about], axis=1))
-        turned = (motion[:, :9].reshape(-1, 3, 3) @ self._off[:, :, None])[:, :, 0]
-        displacement[self._rest] = turned + motion[:, 9:]
+        about = shift - (change @ self._at[:, :, None])[..., 0]
+        roots = np.concatenate([change.reshape(*about.shape[:2], 9), about], axis=2)
+        for each, wanted in zip(moved, roots, strict=True):
+            motion = self._factor.solve(self._to_roots @ wanted)
+            turned = (motion[:, :9].reshape(-1, 3, 3) @ self._off[:, :, None])[:, :, 0]
+            each[self._rest] = turned + motion[:, 9:]
 
     def _turns(self, sheared: Floats) -> Floats:
-        """(r, 3, 3) rotation of the carriers about each root, by their motion against their mean (r, 3, 3)."""
-        moving = np.flatnonzero((sheared != 0.0).any(axis=(1, 2)))
-        turns = np.tile(np.eye(3), (len(sheared), 1, 1))
-        turns[moving] = nearest_rotations(self._moment[moving] + sheared[moving])
+        """(T, r, 3, 3) rotations of the carriers about each root, by their motion against their mean (T, r, 3, 3)."""
+        moving = np.nonzero((sheared != 0.0).any(axis=(2, 3)))
+        turns = np.tile(np.eye(3), (*sheared.shape[:2], 1, 1))
+        turns[moving] = nearest_rotations(self._moment[moving[1]] + sheared[moving])
         return turns
 
 
