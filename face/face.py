@@ -373,7 +373,7 @@ class Face:
         >>> frames[:, 3 - 1] = 200.0 * (1.0 - np.cos(0.1 * np.arange(500.0)))  # open_jaw
         >>> work = face.long_motion(frames)
         >>> next(work).text
-        '0 of 35 frames posed'
+        'Finding the muscles behind the motion'
         """
         return long_motion(self._poser, checked_stream(frames), checked_drive(drive), planned=planned)
 

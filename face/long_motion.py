@@ -11,7 +11,7 @@ millimetre, told as `off`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,8 +19,9 @@ from scipy.linalg import cho_factor, cho_solve
 
 from ..arrays import Bools, Floats, Ints
 from ..mpeg4 import ANGLE_UNIT, FAP_COUNT, FAPS, Feeling
-from ..progress import Progress, Work
+from ..progress import Progress, Work, part_of
 from .anatomy import Anatomy
+from .clip_balance import clip_balance
 from .drive.request import Drive, Request
 from .mesh.fap_units import unit_length
 from .pose import Poser
@@ -43,6 +44,8 @@ LEVER = 12.0
 MM = 1e-3
 #: Positions are worked out for so many figures at once.
 BLOCK = 4_000_000
+#: How far the work is once what balances the posed frames is known.
+BALANCED = 0.7
 #: FAPs of the head's turn, as columns.
 TURN = slice(47, 50)
 
@@ -97,22 +100,28 @@ def long_motion(poser: Poser, frames: Floats, drive: Drive, *, planned: bool = F
     left = np.setdiff1d(np.arange(len(frames)), chosen)
     looked_at = left[:: max(1, len(left) // LOOKED_AT)][:LOOKED_AT]
     posed = np.concatenate([chosen, looked_at])
-    shapes = np.empty((len(posed), *anatomy.mesh.positions.shape))
-    for number, step in enumerate(posed):
-        yield Progress.counted(number, len(posed), "frames posed")
-        shapes[number] = _shape(poser, Request(asked[step], drive, Feeling({}) if planned else None))
+    requests = [Request(asked[step], drive, Feeling({}) if planned else None) for step in posed]
+    shapes = yield from _shapes(poser, requests)
     between = _weights(places[looked_at], places[chosen]) @ shapes[: len(chosen)].reshape(len(chosen), -1)
     apart = shapes[len(chosen) :] - between.reshape(len(looked_at), *shapes.shape[1:])
     off = np.linalg.norm(apart, axis=2).max(axis=1, initial=0.0) * anatomy.mesh.head_frame.scale
     return LongMotion(anatomy, frames, posed, shapes, _weights(places, places[posed]), off)
 
 
-def _shape(poser: Poser, request: Request) -> Floats:
-    """(V, 3) what a face is moved by, head space, metres."""
+def _shapes(poser: Poser, requests: Sequence[Request]) -> Work[Floats]:
+    """(S, V, 3) what a face is moved by in some requests of one drive, head space, metres."""
     mesh = poser.anatomy.mesh
-    posture = poser.balance.posture(poser.plan(request))
-    shown = poser.assembly.positions(posture.displacement, posture.amounts.jaw, request)
-    return mesh.head_frame.to_head(shown) - mesh.positions
+    shapes = np.empty((len(requests), *mesh.positions.shape))
+    if not len(requests):
+        return shapes
+    clip = yield from part_of(clip_balance(poser.balance, [poser.plan(request) for request in requests]), 0.0, BALANCED)
+    for steps, postures in clip.along():
+        jaws = np.asarray(postures.surroundings.jaw)
+        shown = poser.assembly.positions_each(postures.displacements, jaws, requests[steps])
+        for number, positions in enumerate(shown, start=steps.start):
+            shapes[number] = mesh.head_frame.to_head(positions) - mesh.positions
+        yield Progress(BALANCED + (1.0 - BALANCED) * steps.stop / len(requests), "Posing the frames that differ")
+    return shapes
 
 
 def _places(frames: Floats, anatomy: Anatomy) -> Floats:

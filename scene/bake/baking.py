@@ -185,12 +185,12 @@ def _simulated(
 def _missed(face: Face, asked: Floats, gathered: Gathered) -> Work[Mapping[int, str]]:
     """FAP number -> why it does not show, of FAPs asked (k, 68) of a motion that was gathered."""
     shown = [face.measure(face.vertices)]
-    missed = face.unmet_measured(asked, np.array(shown))
-    for number, step in enumerate(gathered.telling(MEASURED)):
+    missed, telling = face.unmet_measured(asked, np.array(shown)), gathered.telling(MEASURED)
+    for number, step in enumerate(telling[:, None]):
         if not missed:
             break
         yield Progress(number / MEASURED, "Measuring the motion")
-        shown.append(face.measure(face.vertices + gathered.frame(int(step))))
+        shown.append(face.measure(face.vertices + gathered.frames(step).reshape(-1, 3)))
         missed = face.unmet_measured(asked, np.array(shown))
     return missed
 

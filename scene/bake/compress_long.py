@@ -8,11 +8,12 @@ The whole motion is never in memory: five minutes are gigabytes.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...arrays import Floats, Ints
+from ...arrays import AnyFloats, Floats, Ints
 from ...progress import Progress, Work, part_of
 from .compress import TOLERANCE, Shapes, gathering, squeeze
 from .gathered import squares
@@ -56,9 +57,14 @@ def compress_long(
     # Rounded as Blender will hold them.
     shapes = (shapes * peaks[:, None, None]).astype(np.float32).astype(np.float64)
     weights = (weights / peaks).astype(np.float32).astype(np.float64)
-    seen = np.union1d(steps, _spread(len(motion), CHECKED, between=True))
-    off = yield from part_of(_farthest(motion, rest, seen, weights, shapes), 0.9, 1.0)
-    return Shapes(shapes, weights, off, packed.is_limited)
+    off = yield from part_of(_farthest(gathered.frames, np.arange(len(steps)), weights[steps], shapes), 0.9, 0.95)
+
+    def between(some: Ints) -> Floats:
+        return (motion.positions(some) - rest).reshape(len(some), -1)
+
+    others = np.setdiff1d(_spread(len(motion), CHECKED, between=True), steps)
+    also = yield from part_of(_farthest(between, others, weights[others], shapes), 0.95, 1.0)
+    return Shapes(shapes, weights, max(off + gathered.off, also), packed.is_limited)
 
 
 def _weights(motion: LongMotion, rest: Floats, shapes: Floats) -> Work[Floats]:
@@ -76,16 +82,21 @@ def _weights(motion: LongMotion, rest: Floats, shapes: Floats) -> Work[Floats]:
     return weights
 
 
-def _farthest(motion: LongMotion, rest: Floats, steps: Ints, weights: Floats, shapes: Floats) -> Work[float]:
-    """The largest distance of any vertex at some frames from what weights (T, K) of shapes make."""
-    farthest = 0.0
+def _farthest(frames: Callable[[Ints], AnyFloats], steps: Ints, weights: Floats, shapes: Floats) -> Work[float]:
+    """The largest distance of any vertex at some steps from what weights, one row for each, make of shapes, metres.
+
+    `frames` : steps (n,) -> (n, 3 V) displacements.
+    """
+    farthest, flat, weights32 = (
+        0.0,
+        shapes.reshape(len(shapes), 3 * shapes.shape[1]).astype(np.float32),
+        weights.astype(np.float32),
+    )
     for first in range(0, len(steps), AT_ONCE):
         yield Progress(first / len(steps), "Looking at frames between")
-        some = steps[first : first + AT_ONCE]
-        shown = np.tensordot(weights[some], shapes, axes=1)
-        apart = (motion.positions(some) - rest - shown).reshape(len(some), -1)
-        farthest = max(farthest, float(np.sqrt(squares(apart).max(initial=0.0))))
-    return farthest
+        some = slice(first, first + AT_ONCE)
+        farthest = max(farthest, float(squares(frames(steps[some]) - weights32[some] @ flat).max(initial=0.0)))
+    return float(np.sqrt(farthest))
 
 
 def _spread(count: int, wanted: int, *, between: bool = False) -> Ints:

@@ -24,11 +24,16 @@ ROUNDING, STAGES = 1e-6, 8
 
 
 class Gathered:
-    """A motion as ``displacement[t] = loadings[t] @ fields``, every vertex of every frame within so many metres."""
+    """A motion as ``displacement[t] = loadings[t] @ fields``, every vertex of every frame within so many metres.
+
+    Attributes
+    ----------
+    within : that bound. off : how far the vertex that is farthest off is.
+    """
 
     def __init__(self, vertex_count: int, *, within: float) -> None:
         """Begin without frames."""
-        self.within = within
+        self.within, self.off = within, 0.0
         self._fields: list[Singles] = [np.zeros((0, 3 * vertex_count), dtype=np.float32)]
         self._taken: list[Floats] = []
         self._waiting: list[Singles] = []
@@ -73,10 +78,9 @@ class Gathered:
         _, order = qr(self.loadings.T, mode="r", pivoting=True)
         return np.asarray(order[:count], dtype=np.int64)
 
-    def frame(self, step: int) -> Floats:
-        """(V, 3) of one frame, metres."""
-        shown = self.loadings[step].astype(np.float32) @ self.fields
-        return np.asarray(shown, dtype=np.float64).reshape(-1, 3)
+    def frames(self, steps: Ints) -> Singles:
+        """(n, 3 V) some frames, metres."""
+        return np.asarray(self.loadings[steps].astype(np.float32) @ self.fields)
 
     def _take_in(self) -> None:
         """Show the waiting frames by the fields so far, and by new ones as far as it takes."""
@@ -95,6 +99,8 @@ class Gathered:
             shown.append(share)
             _take_away(frames, share, fields)
         self._fields += [np.concatenate(new)] if new else []
+        left = [float(squares(frames[:, some]).max(initial=0.0)) for some in _blocks(frames)]
+        self.off = max(self.off, float(np.sqrt(max(left, default=0.0))))
         self._taken += list(np.concatenate(shown, axis=1).astype(np.float64))
         self._waiting = []
 
