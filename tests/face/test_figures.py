@@ -39,7 +39,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "drive/plan.py": (0.02, 0.1, 5.0, 0.1),  # when a goal is told as it was asked; when an emotion is against it
     "face.py": (25.0, 25.0, 25.0),  # frames per second
     "figures.py": (1e-3, 1e6, 180.0),  # units
-    "long_motion.py": (12.0, 0.1, 3.0, 12.0, 1e-3),  # a kernel: how far it reaches; a millimetre
+    "long_motion.py": (12.0, 0.1, 3.0, 12.0, 1e-3, 0.7),  # a kernel: how far it reaches; a millimetre; work done
     "mechanisms/bulge.py": (6.0,),  # a triangle's share of a divergence
     "mechanisms/hood.py": (1e-3,),  # what is too faint to be read
     "mechanisms/lids.py": (0.3,),  # shortest lever
