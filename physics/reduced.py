@@ -15,6 +15,8 @@ Graph. 37(4)).
 
 from __future__ import annotations
 
+from math import prod
+
 import numpy as np
 from scipy.linalg import expm
 
@@ -80,8 +82,9 @@ class ReducedSkin:
         felt = self._felt
         if nodes is not None:
             felt = felt.reshape(len(felt), -1, 3)[:, nodes].reshape(len(felt), -1)
-        flat = balances.reshape(-1, felt.shape[1])  # one product of matrices, whatever the balances' shape
-        return np.asarray(flat @ felt.T).reshape(*balances.shape[:-2], -1)
+        several = balances.shape[:-2]
+        flat = balances.reshape(prod(several), felt.shape[1])  # one product of matrices, whatever the balances' shape
+        return np.asarray(flat @ felt.T).reshape(*several, len(felt))
 
     def at_rest(self) -> Floats:
         """(3k,) the state of a skin that rests in its balance, which has not moved."""

@@ -67,6 +67,18 @@ def off(moving: Floats, reference: Floats) -> float:
     return float(np.linalg.norm(moving - reference, axis=2).max() / np.linalg.norm(reference, axis=2).max())
 
 
+def test_what_some_nodes_feel_is_what_all_feel_of_them(sheet: Skin) -> None:
+    """None at all included: lids of one eye may take no skin along."""
+    reduced = ReducedSkin(sheet, Factor(sheet.matrix()), pull(sheet)[None], STEP, count=5)
+    for nodes in (np.array([3, 77, 130]), np.empty(0, dtype=np.int64)):
+        some = np.random.default_rng(1).normal(size=(2, 4, len(nodes), 3))
+        every = np.zeros((2, 4, *sheet.rest.shape))
+        every[:, :, nodes] = some
+        felt = reduced.read(some, nodes)
+        assert felt.shape == (2, 4, 2 * len(reduced.fields))
+        np.testing.assert_allclose(felt, reduced.read(every), atol=1e-12)
+
+
 def test_a_few_fields_move_as_all_nodes_do(sheet: Skin) -> None:
     reference = node_by_node(sheet, 16)
     still = off(course()[:, None, None] * pull(sheet), reference)
