@@ -65,10 +65,11 @@ end of speech to stretch it. Esc cancels"""
             self._dragged.undo(obj)
             self._area.header_text_set(None)
             return {"CANCELLED"}
-        if event.type == "MOUSEMOVE":
+        is_released = event.type == "LEFTMOUSE" and event.value == "RELEASE"
+        if event.type == "MOUSEMOVE" or is_released:  # where it is let go counts, seen to move there or not
             said = self._dragged.by(obj, self._frame(event) - self._from, scene_fps(context.scene))
             self._area.header_text_set(f"{said}   Esc: Cancel")
-        if event.type == "LEFTMOUSE" and event.value == "RELEASE":
+        if is_released:
             self._area.header_text_set(None)
             try:
                 self._dragged.finish(obj, context.scene)
