@@ -121,9 +121,7 @@ def test_inertia_is_added_to_what_was_computed_alone(
     assert f"Info: take.csv: {done}" in output.out + output.err
 
 
-def test_a_trembling_face_is_steadied_where_that_is_asked(
-    head: Any, played: list[FapMotion], tmp_path: Path
-) -> None:
+def test_a_trembling_face_is_steadied_where_that_is_asked(head: Any, played: list[FapMotion], tmp_path: Path) -> None:
     rows = [f"{n / 25:.2f},{0.5 + 0.01 * (-1) ** n}" for n in range(60)]
     (tmp_path / "take.csv").write_text("\n".join(["timestamp,jawOpen", *rows]))
     imported(tmp_path / "take.csv")

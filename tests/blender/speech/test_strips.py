@@ -178,7 +178,6 @@ def test_a_sound_that_cannot_be_played_does_not_take_the_speech_away(
     assert "Without sound:" in said.out + said.err
 
 
-
 def test_a_preset_keeps_it_with_its_sound(
     speech: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
