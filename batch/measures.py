@@ -11,9 +11,9 @@ from .making import FPS
 from .values import pixels
 
 #: Seconds on one core of a desktop computer without a graphics card, as docs/batch.md tells them: Blender's start, the
-#: preparation of a head, a motion, a second of it, a picture, and what a picture of 512 x 512 pixels takes more.
-START, HEAD, MOTION, MOVED = 2.0, 12.0, 1.0, 1.0
-PICTURE, DRAWN = 0.1, {"WORKBENCH": 0.2, "EEVEE": 60.0, "CYCLES": 5.0}
+#: preparation of a head, a pose, a motion, a second of it, a picture, and what 512 x 512 pixels of it take more.
+START, HEAD, POSE, MOTION, MOVED = 1.2, 3.0, 1.9, 2.0, 1.0
+PICTURE, DRAWN = 0.23, {"WORKBENCH": 0.06, "EEVEE": 60.0, "CYCLES": 5.0}
 #: A still is drawn finer; pixels of the picture that is measured.
 FINE, MEASURED = 3.0, 512 * 512
 #: Seconds of a stream of FAPs whose length nobody has looked at; of speech, what comes before and after it.
@@ -45,9 +45,7 @@ def guessed(job: Job) -> float:
         drawn *= (job.whole("samples") or SAMPLES) / SAMPLES
     seconds = seconds_shown(job)
     frames = seconds * (job.maybe("fps") or FPS)
-    total = PICTURE
-    if {"film", "blend", "glb"} & set(job.outputs):
-        total += MOTION + MOVED * seconds
+    total = MOTION + MOVED * seconds if {"film", "blend", "glb"} & set(job.outputs) else POSE
     if "film" in job.outputs:
         total += frames * (PICTURE + drawn)
     if "still" in job.outputs:

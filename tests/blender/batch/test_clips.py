@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 from typing import Any
 
@@ -136,3 +137,38 @@ def test_a_bad_row_and_a_job_that_fails_are_told_and_the_rest_is_made(
     assert said["made"] == ["c"]
     assert list(said["failed"]) == ["b"]
     assert "line 2, column emotion" in said["bad_rows"][0]
+
+
+FARM = """
+    import sys
+    assert not [name for name in sys.modules if name.split(".")[0] == "risorius"]
+    import bpy
+    bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
+    scene = bpy.context.scene
+    scene.render.filepath = sys.argv[2]
+    scene.frame_start, scene.frame_end = (int(word) for word in sys.argv[3].split("-"))
+    bpy.ops.render.render(animation=True)
+    assert not [name for name in sys.modules if name.split(".")[0] == "risorius"]
+"""
+
+
+@pytest.mark.slow
+def test_a_farm_renders_a_clip_without_risorius(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """As a task of a farm does: open the .blend, set frames and where they go, render; nothing else."""
+    path = tmp_path / "jobs.csv"
+    path.write_text("id,emotion,outputs,size,apex,yaw\njoy,joy,blend still,64,0.1,20\n")
+    batch(path, tmp_path / "set", capsys=capsys)
+    clip, pictures = tmp_path / "set" / "joy" / "clip.blend", {}
+    bpy.ops.wm.open_mainfile(filepath=str(clip))
+    apex = int((0.2 + api.load_timings()["natural"].onset + 0.1) * 25.0) + bpy.context.scene.frame_start
+    for frame in (1, apex):
+        name = str(tmp_path / "farm" / "####")
+        command = [sys.executable, "-I", "-c", textwrap.dedent(FARM), str(clip), name, f"{frame}-{frame}"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        pictures[frame] = pictured(tmp_path / "farm" / f"{frame:04d}.png")
+    still = pictured(tmp_path / "set" / "joy" / "still.png")
+    finer, other = (float(np.abs(pictures[frame] - still).mean()) for frame in (apex, 1))
+    assert finer < 0.015  # the still is drawn finer
+    assert other > 1.4 * finer
+    assert np.abs(pictures[1] - pictures[apex]).max() > 0.2
