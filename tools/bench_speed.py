@@ -3,6 +3,7 @@
     python tools/bench_speed.py                                                all
     python tools/bench_speed.py solvers [--mesh HEAD.npz | --mesh grid] [--frames 50]
     python tools/bench_speed.py preview [--mesh HEAD.npz --points HEAD.fp.json] [--steps 40]
+    python tools/bench_speed.py playback                                       clips that are not baked
     python tools/bench_speed.py redraw [--objects 5000]
     python tools/bench_speed.py growth [--most 6]                              1,000 to 500,000 vertices
     python tools/bench_speed.py motion [--head ict.npz]                        every head, and how far it is off
@@ -19,7 +20,7 @@ from importlib import import_module
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy is imported
 
-PARTS = ("solvers", "preview", "redraw", "growth", "motion")
+PARTS = ("solvers", "preview", "playback", "redraw", "growth", "motion")
 #: Written from what those measured, by a Python that has matplotlib.
 PAGE = "page"
 

@@ -30,7 +30,7 @@ MOST = 20_000
 
 #: No two vertices are kept nearer to each other than the first beside the margins of lips and lids, and so much more
 #: by each metre from them, up to the last; metres.
-NEAREST, WIDENING, FARTHEST = 1.2 * MM, 0.1, 4.5 * MM
+NEAREST, WIDENING, FARTHEST = 0.8 * MM, 0.04, 2.2 * MM
 
 #: Vertices as near to a margin as this share of that distance are left out: the margin's own stand for them.
 BESIDE = 0.7

@@ -73,7 +73,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "response/sampled.py": (2e-3, 2e-5, 1e-4, 0.25),  # how near what is foretold comes; how many are tried at once
     "response/rooted.py": (0.02, 1e-3),  # ties that keep matrices regular
     "response/spring_skin.py": (3e-3,),  # when a sheet buckles
-    "skin/coarse.py": (1.2, 0.1, 4.5, 0.7, 0.05, 2.4, 0.05, 1e-3),  # how skin is thinned out; weights of its vertices
+    "skin/coarse.py": (0.8, 0.04, 2.2, 0.7, 0.05, 2.4, 0.05, 1e-3),  # how skin is thinned out; weights of its vertices
     "skin/fine.py": (6.0, 3.5),  # how finely skin is split
     "skin/lines.py": (0.1,),  # which place of a line is nearest
     "skin/outer.py": (3.0,),  # the smooth step

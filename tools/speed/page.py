@@ -57,8 +57,8 @@ moments at which a window draws its progress and sees Esc.
 THINNING = """### What the coarser skin changes
 
 Poses of the default head with {vertices:,} vertices, solved on {coarse:,} nodes as a denser head would be, against
-those solved on all {whole:,}, as shares of the largest displacement. It falls with the distance between nodes: on twice
-as many (9,888), measured once, joy is off by 6.4 % at the worst vertex, 3.0 % at 99 % of them and 0.7 % rms.
+those solved on all {whole:,}, as shares of the largest displacement. It falls with the distance between nodes: on 9,888
+of them, measured once, joy is off by 6.4 % at the worst vertex, 3.0 % at 99 % of them and 0.7 % rms.
 """
 
 FILES = """## Smaller results
