@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import textwrap
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, ClassVar, TypeVar, final
 
 import bpy
 
-from ..errors import RisoriusError
+from ..errors import RisoriusError, SceneError
 from ..progress import Progress, Work, run
 from ..scene.blender_types import Event
 from .blender_types import Context, Timer
@@ -34,6 +36,22 @@ INTERVAL = 0.01
 SHARE = 0.05
 #: Letters per line of a refusal that a window shows beside the mouse.
 LINE = 76
+
+
+@contextmanager
+def removed_meanwhile(title: str) -> Iterator[None]:
+    """Refuse in words what others have removed while work went on: Blender's own error names no object.
+
+    Raises
+    ------
+    SceneError : the object, mesh or action that it worked on is gone.
+    """
+    try:
+        yield
+    except ReferenceError as gone:
+        if "has been removed" not in str(gone):
+            raise
+        raise SceneError(title, "what it worked on was removed meanwhile; nothing has been changed") from gone
 
 
 class RisoriusOperator:
@@ -130,7 +148,8 @@ class WorkOperator(RisoriusOperator, Generic[T]):
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         try:
-            return self._advance(context)
+            with removed_meanwhile(self.title):
+                return self._advance(context)
         except RisoriusError as refusal:
             self.stop(context)
             self.report({"ERROR"}, " \n".join(textwrap.wrap(str(refusal), LINE)))

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import Floats, Ints
+from ..errors import SceneError
 from ..face.mesh.parts import Part, Told
 from ..face.mesh.point_files import PointTable
 from ..polygons import PolygonTable
@@ -25,7 +26,7 @@ from .fingerprint import Fingerprint, fingerprint
 from .points.stored import moved_points, stored_points
 from .points.stored import store_points as store_points
 from .posed import Posed, posed
-from .refusals import refuse_broken_vertices, refuse_unreadable
+from .refusals import refuse_broken_vertices, refuse_unreadable, refuse_unwritable
 from .shape_mix import Resting, resting_values, settle_drivers
 
 if TYPE_CHECKING:
@@ -134,6 +135,19 @@ class FaceSource:
     def objects(self) -> tuple[Object, ...]:
         """All objects of the face, the head first."""
         return tuple(piece.obj for piece in self.pieces)
+
+    def refuse_changed(self) -> None:
+        """Refuse to write on objects that others have changed since they were read; to be asked just before writing.
+
+        Raises
+        ------
+        SceneError : one cannot be written to any more, or its mesh has other vertices.
+        """
+        for piece in self.pieces:
+            refuse_unwritable(piece.obj, make_single_user=True)
+            if len(piece.obj.data.vertices) != len(piece.mix):
+                problem = "was changed while its face was computed: do it again; nothing has been written"
+                raise SceneError(piece.obj.name, problem)
 
 
 def read_face(

@@ -19,7 +19,7 @@ from ...arrays import Floats
 from ...errors import ParameterError
 from ...resources import STANDARD
 from ...tables import read_csv
-from ..standard import FAP_COUNT, Unit
+from ..standard import FAP_COUNT, FAP_LIMIT, Unit
 
 FEATURE_COUNT = 15
 
@@ -89,8 +89,10 @@ def faps_from_features(features: ArrayLike) -> Floats:
         When there are not 15 finite-or-NaN numbers.
     """
     values = np.asarray(features, dtype=np.float64)
-    if values.shape != (FEATURE_COUNT,) or np.isinf(values).any():
-        raise ParameterError("features", f"must be {FEATURE_COUNT} numbers (NaN where unknown)", values.shape)
+    if values.shape != (FEATURE_COUNT,) or (np.abs(values) > FAP_LIMIT).any():
+        raise ParameterError(
+            "features", f"must be {FEATURE_COUNT} numbers within ±{FAP_LIMIT:g} (NaN where unknown)", values.shape
+        )
     total, count = np.zeros(FAP_COUNT), np.zeros(FAP_COUNT)
     for feature, value in zip(FEATURES, values, strict=True):
         for number, share in feature.shares.items():

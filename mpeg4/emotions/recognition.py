@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Bools, Floats
 from ...errors import ParameterError
-from ..standard import FAP_COUNT
+from ..standard import FAP_COUNT, FAP_LIMIT
 from .beside import known_classes, known_profile
 from .expressions import expression
 from .features import FEATURE_COUNT, faps_from_features
@@ -238,8 +238,10 @@ def recognise_features(features: ArrayLike, *, rule: str | Rule = Rule.PAPER) ->
 def _checked(frame: ArrayLike) -> Floats:
     """A frame (68,) without infinite values."""
     values = np.asarray(frame, dtype=np.float64)
-    if values.shape != (FAP_COUNT,) or np.isinf(values).any():
-        raise ParameterError("frame", f"must be {FAP_COUNT} numbers (NaN where unknown)", values.shape)
+    if values.shape != (FAP_COUNT,) or (np.abs(values) > FAP_LIMIT).any():
+        raise ParameterError(
+            "frame", f"must be {FAP_COUNT} numbers within ±{FAP_LIMIT:g} (NaN where unknown)", values.shape
+        )
     return values
 
 

@@ -44,7 +44,9 @@ def write_baked(
     creases: Creases | None,
     note: Note | None = None,
 ) -> Written:
-    """Write a clip and its shape keys on all pieces of a face, in place of those it had; nothing can fail from here on.
+    """Write a clip and its shape keys on all pieces of a face, in place of those it had.
+
+    Nothing fails once writing has begun.
 
     Parameters
     ----------
@@ -52,7 +54,12 @@ def write_baked(
     slider_min : lowest value of the keys; the highest is 1.
     creases : of the head, or None to take them away.
     note : what is noted on the action.
+
+    Raises
+    ------
+    SceneError : an object was changed since it was read.
     """
+    source.refuse_changed()
     if target.make_single_user:
         for obj in source.objects:
             own_mesh(obj)
