@@ -1,0 +1,8 @@
+"""What detectors made by strangers see in rendered faces of which the truth is known.
+
+stills      what is pictured: an action unit or an emotion on a head, its strength, side and light; its FAPs
+pictures    the pictures and their truth (Blender)
+reading     what MediaPipe's face landmarker says of them: blend shapes, and FAPs by way of its landmarks
+figures     which detector sees what: rises over rest, correlations, verdicts
+page        docs/detectors.md; sheet: its picture (Blender)
+"""
