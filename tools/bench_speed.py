@@ -7,7 +7,8 @@
     python tools/bench_speed.py redraw [--objects 5000]
     python tools/bench_speed.py growth [--most 6]                              1,000 to 500,000 vertices
     python tools/bench_speed.py motion [--head ict.npz]                        every head, and how far it is off
-    python tools/bench_speed.py page                                           docs/performance.md from the last two
+    python tools/bench_speed.py films                                          before and after laid over one another
+    python tools/bench_speed.py page                                           docs/performance.md from the last three
 
 All but the solvers and the page need a Python that has bpy. Everything runs on one core.
 """
@@ -20,7 +21,7 @@ from importlib import import_module
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy is imported
 
-PARTS = ("solvers", "preview", "playback", "redraw", "growth", "motion")
+PARTS = ("solvers", "preview", "playback", "redraw", "growth", "motion", "films")
 #: Written from what those measured, by a Python that has matplotlib.
 PAGE = "page"
 

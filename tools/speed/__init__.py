@@ -5,6 +5,7 @@ preview    one update of the live preview (Blender)
 redraw     one redraw of the panel in a file of many objects (Blender)
 growth     time and memory of each phase from 1,000 to 500,000 vertices
 motion     a motion on every head, beside Blender's own solvers; how far it is off
+films      films of before and after laid over one another (Blender)
 xpbd       Blender's cloth on its XPBD solver node
 machine    how fast memory is
 page       docs/performance.md
