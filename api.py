@@ -43,6 +43,7 @@ from .face.products.blendshapes import arkit_shapes
 from .face.products.creases import Creases
 from .face.products.efforts import Efforts, explaining_units, performance_efforts, stream_efforts, unit_names
 from .face.products.head_motion import head_motion
+from .face.products.landmarks import Landmarks, face_landmarks
 from .face.products.playing import play
 from .face.retarget.controls import Controls
 from .face.retarget.retargeting import Retargeted, Retargeting, Take, retarget
@@ -166,6 +167,7 @@ __all__ = [
     "KeptFaces",
     "KeyShape",
     "LandmarkReading",
+    "Landmarks",
     "Liveliness",
     "Mechanism",
     "MeshFile",
@@ -211,6 +213,7 @@ __all__ = [
     "expression",
     "expression_frame",
     "face_animation_tables",
+    "face_landmarks",
     "fap",
     "find_points",
     "find_points_steps",

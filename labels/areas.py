@@ -117,6 +117,11 @@ class Areas:
         )
         return np.asarray(lips < np.minimum(*eyes))
 
+    def is_hair(self, shown: Shown) -> Bools:
+        """(T,) which triangles grow out of the face's skin: brows, lashes, a beard."""
+        corners = shown.source[shown.triangles[:, 0]]
+        return np.asarray((corners >= 0) & (self._of_vertex[corners] == Area.ON_SKIN))
+
     def of(self, shown: Shown, drawn: Drawn) -> Ints:
         """(height, width) numbers of `Area`."""
         areas = np.full(drawn.triangle.shape, int(Area.BACKGROUND), dtype=np.int64)

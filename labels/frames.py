@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 from ..arrays import Floats
 from ..face.face import Face
 from ..face.products.head_motion import head_motion
+from ..face.products.landmarks import face_landmarks
 from .areas import Areas
 from .geometry import Shown
 from .marks import Marks
@@ -26,8 +27,6 @@ FACING = np.diag([1.0, -1.0, -1.0])
 
 #: Middles of the upper and the lower lid, and both pupils.
 LIDS, PUPILS = {"left": ("3.1", "3.3"), "right": ("3.2", "3.4")}, ("3.5", "3.6")
-#: Feature points round the lips, from the right corner over the upper lip.
-LIP_BORDER = ("8.4", "8.6", "8.9", "8.1", "8.10", "8.5", "8.3", "8.7", "8.2", "8.8")
 #: FAPs that turn each eyeball: yaw and pitch; and a degree in units of theirs.
 EYES = {"left": (23, 25), "right": (24, 26)}
 DEGREE = 180.0 / np.pi * 1e-5
@@ -79,8 +78,9 @@ class Subject:
     @classmethod
     def of(cls, face: Face) -> Subject:
         """A face with all landmarks and areas there are."""
-        border = np.array([face.points[name].position for name in LIP_BORDER if name in face.points])
-        return cls(face, Marks.feature_points(face), Areas(face, border))
+        marks = face_landmarks(face)
+        border = np.asarray(marks.matrix[marks.lip_border] @ face.vertices)
+        return cls(face, Marks.of(face, marks), Areas(face, border))
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +116,8 @@ class Frame:
         """Rows of landmarks, but for the frame."""
         marks, face = self.subject.marks, self.subject.face
         places = marks.places(self.positions, *self._motion)
-        return marks.rows(face, self.positions, places, self.view, self._triangles, face.units.es0)
+        hiding = self._triangles.without(self.subject.areas.is_hair(self.shown))
+        return marks.rows(face, self.positions, places, self.view, hiding, face.units.es0)
 
     def row(self) -> Mapping[str, float]:
         """What the table of frames says of eyes and head."""

@@ -6,9 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import sparse
 
 from ..arrays import Floats
 from ..face.face import Face
+from ..face.products.landmarks import Landmarks
+from ..face.tracked.mediapipe_landmarks import landmark_numbers
 from ..mpeg4 import FEATURE_POINTS
 from ..physics.mesh import Sparse, vertex_normals
 from .raster import Triangles, nearest
@@ -19,18 +22,24 @@ from .view import View
 #: life-size head. A mark is the mean of several vertices and may lie that far under a curved skin.
 HIDDEN_BY = 1.0 / 63.0
 
-MPEG4 = "mpeg4"
+MPEG4, IBUG68, MEDIAPIPE478 = "mpeg4", "ibug68", "mediapipe478"
 
 COLUMNS = (
     Column("frame", Kind.INTEGER, "frame of the timeline, as in the table frames"),
     Column("set", Kind.TEXT, "which landmarks: mpeg4 (feature points), ibug68 or mediapipe478"),
     Column("index", Kind.INTEGER, "number within its set, from 0, as the set counts"),
-    Column("name", Kind.TEXT, "what the set calls it"),
+    Column(
+        "name",
+        Kind.TEXT,
+        "feature point that it is, if any; of ibug68, part of the face",
+    ),
     Column("x", Kind.NUMBER, "to the right from the left edge of the picture", "pixel", 3),
     Column("y", Kind.NUMBER, "down from the upper edge of the picture", "pixel", 3),
     Column("visible", Kind.FLAG, "in the picture and not hidden"),
     Column("in_picture", Kind.FLAG, "within the borders of the picture, before the camera"),
-    Column("hidden", Kind.FLAG, "something lies between the camera and it, by more than 1/63 of the eyes' distance"),
+    Column(
+        "hidden", Kind.FLAG, "something but brows, lashes, beard lies before it, by over 1/63 of the eyes' distance"
+    ),
     Column("facing", Kind.FLAG, "its surface faces the camera"),
     Column("camera_x", Kind.NUMBER, "in the camera's axes: to the right of the picture", "m", 6),
     Column("camera_y", Kind.NUMBER, "in the camera's axes: down the picture", "m", 6),
@@ -58,12 +67,21 @@ class Marks:
     rest: Floats
 
     @classmethod
+    def of(cls, face: Face, marks: Landmarks) -> Marks:
+        """All landmarks there are of a face: MPEG-4's feature points, iBUG's, MediaPipe's."""
+        named = {number: name for name, number in landmark_numbers().items()}
+        ibug = [(IBUG68, index, part) for index, part in enumerate(marks.parts)]
+        mediapipe = [(MEDIAPIPE478, index, named.get(index, "")) for index in range(marks.matrix.shape[0])]
+        points = cls.feature_points(face)
+        matrix = sparse.vstack([points.matrix, marks.matrix[marks.ibug68], marks.matrix], format="csr")
+        nowhere = np.full((len(ibug) + len(mediapipe), 3), np.nan)
+        return cls([*points.sets, *ibug, *mediapipe], matrix, np.concatenate([points.rest, nowhere]))
+
+    @classmethod
     def feature_points(cls, face: Face) -> Marks:
         """The feature points of MPEG-4, all of them; those off the surface go with the skull."""
         names = list(FEATURE_POINTS)
         have = face.points
-        from scipy import sparse
-
         rows = [row for row, name in enumerate(names) if name in have]
         held = sparse.coo_array(have.matrix([names[row] for row in rows]))
         matrix = sparse.coo_array(
@@ -78,19 +96,19 @@ class Marks:
         return np.where(held > 0.0, np.asarray(self.matrix @ positions), self.rest @ turn.T + shift)
 
     def rows(
-        self, face: Face, positions: Floats, places: Floats, view: View, drawn: Triangles, size: float
+        self, face: Face, positions: Floats, places: Floats, view: View, hiding: Triangles, size: float
     ) -> Mapping[str, Values]:
         """What a table says of them in one frame, but for the frame.
 
         Parameters
         ----------
         positions : (V, 3) of the face's vertices, places (n, 3) of the landmarks, in the world, metres.
-        drawn : all triangles before the camera. size : distance of the pupils, metres.
+        hiding : triangles that hide what lies behind them. size : distance of the pupils, metres.
         """
         before = view.before(places)
         pixels = view.pixels(before)
         inside = view.within(pixels) & (before[:, 2] > view.near) & (before[:, 2] < view.far)
-        hidden = nearest(drawn, np.where(inside[:, None], pixels, np.nan)) < before[:, 2] - HIDDEN_BY * size
+        hidden = nearest(hiding, np.where(inside[:, None], pixels, np.nan)) < before[:, 2] - HIDDEN_BY * size
         normals = np.asarray(self.matrix @ vertex_normals(positions, face.polygons))
         away = (normals @ view.rotation.T * view.toward(before)).sum(axis=1)
         return {

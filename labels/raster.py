@@ -83,6 +83,12 @@ class Triangles:
         kept = np.flatnonzero(solid & (high >= 0.0).all(axis=1) & (low <= size).all(axis=1))
         return cls(view, number[kept], inverse[kept], corners[kept][:, :, 2], low[kept], high[kept])
 
+    def without(self, some: Bools) -> Triangles:
+        """Those that are not among some of the mesh's (T,)."""
+        kept = ~some[self.number]
+        cut = (each[kept] for each in (self.number, self.inverse, self.depth, self.low, self.high))
+        return Triangles(self.view, *cut)
+
     def met(self, which: Ints, places: Floats) -> tuple[Bools, Floats, Floats]:
         """Which of n pairs of a triangle and a place in pixels (n, 2) meet; shares (m, 3) and depths (m,) of those."""
         x, y = places.T

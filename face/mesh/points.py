@@ -114,9 +114,10 @@ def closest_on_triangles(position: Floats, corners: Floats) -> tuple[Floats, Flo
 class _Surface:
     """Triangles that positions are bound to."""
 
-    def __init__(self, vertices: Floats, triangles: Ints) -> None:
+    def __init__(self, vertices: Floats, triangles: Ints, *, reach: float = FREE_DISTANCE) -> None:
+        """`reach`: how far away a position may lie, as a share of the diagonal of all vertices."""
         self._vertices, self.triangles = vertices, triangles
-        self._reach = FREE_DISTANCE * float(np.linalg.norm(np.ptp(vertices, axis=0)))
+        self._size, self._reach = float(np.linalg.norm(np.ptp(vertices, axis=0))), reach
 
     def bind(self, positions: Mapping[str, Floats]) -> dict[str, BoundPoint]:
         """Bind named positions to the closest triangles; those with none within reach stay free."""
@@ -141,9 +142,9 @@ class _Surface:
     def _bound(self, name: str, position: Floats, corners: Ints) -> BoundPoint:
         """A position bound to the closest of some triangles (t, 3), or free where that is beyond reach."""
         weights, distance = closest_on_triangles(position, self._vertices[corners])
-        if distance.min() > self._reach:
+        if distance.min() > self._reach * self._size:
             return _free(name, position)
-        closest = distance <= distance.min() + SAME_DISTANCE * self._reach
+        closest = distance <= distance.min() + SAME_DISTANCE * FREE_DISTANCE * self._size
         shares = np.bincount(corners[closest].ravel(), weights[closest].ravel()) / closest.sum()
         held = np.flatnonzero(shares > SAME_DISTANCE)
         return BoundPoint(name, position, held, shares[held] / shares[held].sum())
@@ -201,6 +202,13 @@ def bind_points(
     bound |= anywhere.bind({name: place for name, place in places.items() if not lies_on_skin(name)})
     bound = {name: bound[name] for name in points}
     return FeaturePoints(bound | _on_their_lips(bound, points, vertices, on_skin.triangles), len(vertices))
+
+
+def bound_places(places: Mapping[int, Floats], vertices: Floats, triangles: Ints) -> dict[int, BoundPoint]:
+    """Numbered places (3,) bound to the closest of some triangles (T, 3) between vertices (V, 3), however far it is."""
+    surface = _Surface(vertices, triangles, reach=np.inf)
+    bound = surface.bind({str(number): np.asarray(place) for number, place in places.items()})
+    return {int(name): point for name, point in bound.items()}
 
 
 def rebound(points: FeaturePoints, vertices: Floats, triangles: Ints, names: Sequence[str]) -> FeaturePoints:

@@ -6,6 +6,7 @@ blendshapes                                   shape keys that engines and tracke
 creases, crease_places, crease_table          where squeezed skin wrinkles, for renderers
 efforts                                       what a motion takes of muscles; action units that explain FAPs
 head_motion                                   where the skull has gone
+landmarks                                     MediaPipe's and iBUG's landmarks on any head
 lip_seam, mouth_room                          where sewn lips are to be cut open; mouths without an inside
 muscle_lines, trajectories                    muscles as lines; paths of the skin
 playing                                       a recording on a face as it is
