@@ -18,6 +18,8 @@ LIMITS = (
     "one face.",
     "Whether a landmark is hidden is told by meshes. Hair made of curves, volumes, glass and depth of field are not "
     "heeded.",
+    "Landmarks of MediaPipe and iBUG are marks on the skin that stay where they are on it. MediaPipe itself sees them "
+    "3 to 6 per cent of the eyes' distance away (docs/labels.md), more on outlines.",
     "Pictures of areas, objects, depth and normals show what the middle of each pixel meets; a render is smoothed over "
     "the whole pixel.",
 )
