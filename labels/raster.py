@@ -86,8 +86,8 @@ class Triangles:
     def without(self, some: Bools) -> Triangles:
         """Those that are not among some of the mesh's (T,)."""
         kept = ~some[self.number]
-        cut = (each[kept] for each in (self.number, self.inverse, self.depth, self.low, self.high))
-        return Triangles(self.view, *cut)
+        number, inverse, depth = self.number[kept], self.inverse[kept], self.depth[kept]
+        return Triangles(self.view, number, inverse, depth, self.low[kept], self.high[kept])
 
     def met(self, which: Ints, places: Floats) -> tuple[Bools, Floats, Floats]:
         """Which of n pairs of a triangle and a place in pixels (n, 2) meet; shares (m, 3) and depths (m,) of those."""
