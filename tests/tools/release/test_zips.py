@@ -18,7 +18,7 @@ from release.zips import build_zip, staged_manifest
 MANIFEST = (ROOT / "blender_manifest.toml").read_text(encoding="utf-8")
 
 #: What serves plain Python alone.
-OUTSIDE_BLENDER = ("track/", "__main__.py", "py.typed")
+OUTSIDE_BLENDER = ("batch/cluster.py", "track/", "__main__.py", "py.typed")
 
 
 def test_zip_holds_every_product_file_and_nothing_else(small_zip: Path, product: frozenset[str]) -> None:
