@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 from pathlib import Path
 
 from .errors import FormatError
@@ -60,3 +61,15 @@ def read_bytes(path: str | Path) -> bytes:
     if size > LARGEST_FILE or not left:
         raise FormatError(file, f"is larger than {LARGEST_FILE >> 30} GiB: cut it into parts")
     return pieces[0] if len(pieces) == 1 else b"".join(pieces)
+
+
+#: Names that Windows gives to devices, whatever ending stands behind them.
+DEVICES = {"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10))}
+#: Letters of a name that every file system takes, with its ending and what is put before it.
+LONGEST_NAME = 100
+
+
+def safe_stem(name: str, otherwise: str) -> str:
+    """A file's name without its ending, of what a user calls it: one that every system takes."""
+    stem = re.sub(r"[^\w\- ]", "_", name)[:LONGEST_NAME].strip() or otherwise
+    return f"{stem}_" if stem.casefold() in DEVICES else stem

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
 from ...errors import SceneError
+from ...files import safe_stem
 from ...mpeg4.preset_file import PresetKind, read_preset, write_preset
 from ...scene.blender_types import Event
 from ..active import active_object, face_reason
@@ -71,7 +71,7 @@ class RISORIUS_OT_save_preset(RisoriusOperator, Operator):
         folder = own_folder(create=True)
         if folder is None:
             raise SceneError("Blender", "has no folder for your presets: check the file paths in the preferences")
-        stem = re.sub(r"[^\w\- ]", "_", str(self.preset)).strip() or "Mine"
+        stem = safe_stem(str(self.preset), "Mine")
         path = folder / f"{stem}.toml"
         is_expression = self.kind == PresetKind.EXPRESSION
         held = expression_of(obj) if is_expression else timeline_of(obj, context.scene, path)

@@ -15,6 +15,7 @@ import bpy
 import numpy as np
 
 from ...errors import FormatError, SceneError
+from ...files import safe_stem
 from .. import mesh as meshes
 from ..blender_types import Object
 from .bound import followed
@@ -104,7 +105,7 @@ def save_preset(obj: Object, name: str) -> Path:
         raise SceneError(obj.name, "has no points on its surface: find or click them first")
     polygons = meshes.polygon_sequence(*meshes.polygon_arrays(obj.data))
     topology = topology_of(name.strip(), "saved in Blender", len(obj.data.vertices), polygons, points)
-    path = preset_folder(create=True) / f"{stem}.toml"
+    path = preset_folder(create=True) / f"{safe_stem(stem, 'mine')}.toml"
     write_topology(path, topology)
     return path
 
