@@ -140,5 +140,14 @@ def strips_work(obj: Object, scene: Scene, where: Destination | None = None) -> 
     ]
     target, drive = target_of(obj, scene), obj.risorius.emotion.drive
     if where.to is BakeTo.NEW:
-        return bake_strips(target, shapes, drive=drive, creases=creases_wanted(obj))
-    return bake_strips_onto(target, shapes, find_rig(where.to), onto=where.onto, drive=drive, noted=where.noted)
+        work = bake_strips(target, shapes, drive=drive, creases=creases_wanted(obj))
+    else:
+        rig = find_rig(where.to)
+        work = bake_strips_onto(target, shapes, rig, onto=where.onto, drive=drive, noted=where.noted)
+    return work if performance.speech is None else _unspoken(work)
+
+
+def _unspoken(work: Work[bake.BakeResult]) -> Work[bake.BakeResult]:
+    """A bake of clips alone, with what it leaves out."""
+    result = yield from work
+    return replace(result, remarks=(*result.remarks, "Speech is not in strips: Bake Motion shows it with the clips"))

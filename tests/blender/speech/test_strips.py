@@ -206,3 +206,12 @@ def test_a_preset_keeps_it_with_its_sound(
     assert len(speech.strips) == 1
     said = capfd.readouterr()
     assert "line: without sound:" in said.out + said.err
+
+
+@pytest.mark.slow
+def test_strips_of_clips_leave_speech_out_which_is_said(speech: Any, capfd: pytest.CaptureFixture[str]) -> None:
+    bpy.ops.risorius.add_clip()
+    add(speech)
+    assert bpy.ops.risorius.bake_strips() == {"FINISHED"}
+    said = capfd.readouterr()
+    assert "Speech is not in strips: Bake Motion shows it with the clips" in said.out + said.err
