@@ -122,7 +122,7 @@ class Actuators:
 
     def carried_each(self, jaws: Floats, lids: Floats) -> Floats:
         """(T, n, 3) as `carried`, by mandibles (T, 3) and lid moves (T, l)."""
-        moved: Floats = np.tensordot(self.jaw.shares(jaws), self.jaw_ways, axes=1)
+        moved: Floats = self.jaw.skin(self.skin.positions, jaws)  # to the bit, wherever in memory it is worked out
         for near, by_lids in self.lids_carried(lids):
             moved[:, near] += by_lids
         return moved
