@@ -2,6 +2,7 @@
 
 solvers    a frame of the skin's solvers
 preview    one update of the live preview (Blender)
+playback   playing clips that are not baked (Blender)
 redraw     one redraw of the panel in a file of many objects (Blender)
 growth     time and memory of each phase from 1,000 to 500,000 vertices
 motion     a motion on every head, beside Blender's own solvers; how far it is off
