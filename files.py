@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 
 from .errors import FormatError
-from .resources import PACKAGE
+from .resources import PRESETS, STANDARD
 
 #: Bytes of the largest file that is read: more than any of use has.
 LARGEST_FILE = 1 << 30
@@ -55,7 +55,8 @@ def read_bytes(path: str | Path) -> bytes:
     except (OSError, ValueError) as error:  # ValueError: a path with a null character
         remedy = "give a file that you may read"
         with contextlib.suppress(OSError, ValueError):
-            remedy = "install Risorius again" if file.resolve().is_relative_to(PACKAGE) else remedy
+            own = any(file.resolve().is_relative_to(tables) for tables in (PRESETS, STANDARD))
+            remedy = "install Risorius again" if own else remedy
         reason = error.strerror if isinstance(error, OSError) else error
         raise FormatError(file, f"cannot be read ({reason}): {remedy}") from error
     if size > LARGEST_FILE or not left:

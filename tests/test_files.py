@@ -47,3 +47,5 @@ def test_a_file_that_cannot_be_read_is_named_with_the_remedy(tmp_path: Path) -> 
         read_bytes(tmp_path / "absent")
     with pytest.raises(FormatError, match=r"cannot be read .*: install Risorius again"):
         read_bytes(PRESETS / "absent.toml")
+    with pytest.raises(FormatError, match=r"absent.csv: cannot be read .*: give a file"):
+        read_bytes(PRESETS.parent / "absent.csv")  # of somebody who works in a checkout

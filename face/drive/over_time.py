@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -64,8 +64,7 @@ def cue_plans(
     stream = sequence(cues, fps=fps)
     lively = liveliness or Liveliness()
     overlay = lively.over(len(stream), fps)
-    apexes = [Request(cue.profile.frame(cue.seed), drive, _felt(cue)) for cue in cues]
-    plans = [DRIVES[drive].plan(apex) for apex in apexes] if drive is Drive.NATURAL else []
+    plans = apex_plans(cues, drive) if drive is Drive.NATURAL else []
     for step, (faps, weights) in enumerate(zip(stream, strengths(cues, fps=fps), strict=True)):
         shares = (weights / max(1.0, weights.sum())).tolist()
         by_hand = tuple(ByHand(hand, share) for hand, share in zip(hands, shares, strict=True) if hand and share > 0.0)
@@ -75,6 +74,11 @@ def cue_plans(
             yield _laid_over(blended(request, plans, weights.tolist()), overlay, step)
         else:
             yield DRIVES[drive].plan(request)
+
+
+def apex_plans(cues: Iterable[Cue], drive: Drive) -> list[Plan]:
+    """Each cue's plan at the apex of its profile, drawn by the cue's seed."""
+    return [DRIVES[drive].plan(Request(cue.profile.frame(cue.seed), drive, _felt(cue))) for cue in cues]
 
 
 def _felt(cue: Cue) -> Feeling:

@@ -16,7 +16,7 @@ from ...arrays import Floats
 from ...mpeg4 import Cue, Feeling, Liveliness, strengths
 from ...progress import Progress, Report
 from ..drive.natural.planning import natural
-from ..drive.over_time import cue_plans, stream_plans
+from ..drive.over_time import apex_plans, cue_plans, stream_plans
 from ..drive.plan import Plan
 from ..drive.request import Drive, Request
 from ..face import Face
@@ -117,6 +117,16 @@ def explaining_units(faps: ArrayLike) -> dict[str, Floats]:
     """
     plans = [natural().plan(Request(each, Drive.NATURAL, Feeling({}))) for each in checked_stream(faps)]
     return _columns([plan.units for plan in plans], unit_names())
+
+
+def wanted_at_apexes(cues: Iterable[Cue], drive: str | Drive = Drive.NATURAL) -> Floats:
+    """(k, 68) FAPs that each cue asks for at its peak, FAP units; NaN where silent or its emotion is against it.
+
+    Joy that squints is not asked for the wide eyes of a profile of Table 5: the natural drive shows the squint.
+    """
+    cues = list(cues)
+    plans = apex_plans(cues, checked_drive(drive))
+    return np.stack([cue.peak * plan.wanted for cue, plan in zip(cues, plans, strict=True)])
 
 
 def _efforts(face: Face, plans: Iterable[Plan], count: int, progress: Report | None) -> Efforts:

@@ -178,7 +178,7 @@ def _simulated(
     for index, positions in enumerate(frames):
         gathered.add(positions - face.vertices)
         yield Progress(0.2 + 0.6 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
-    missed = yield from part_of(_missed(face, motion.asked, gathered), 0.8, 0.82)
+    missed = yield from part_of(_missed(face, motion.asked(drive), gathered), 0.8, 0.82)
     return (yield from part_of(squeeze(gathered, tolerance=tolerance, max_keys=max_keys), 0.82, 1.0)), missed
 
 

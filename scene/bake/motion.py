@@ -37,9 +37,8 @@ class Motion(Protocol):
         """Its frames between some that are posed, where it is long; None where each is simulated."""
         ...
 
-    @property
-    def asked(self) -> Floats:
-        """(k, 68) FAPs that it asks for at one time or another; NaN where silent."""
+    def asked(self, drive: str) -> Floats:
+        """(k, 68) FAPs that it asks of a face at one time or another; NaN where silent."""
         ...
 
 
@@ -75,10 +74,11 @@ class CueMotion:
         """Each frame is simulated."""
         return None
 
-    @property
-    def asked(self) -> Floats:
-        """Each expression at its peak."""
-        return np.stack([cue.peak * cue.profile.frame() for cue in self.cues])
+    def asked(self, drive: str) -> Floats:
+        """Each expression at its peak, as its seed draws it."""
+        from ...face.products.efforts import wanted_at_apexes
+
+        return wanted_at_apexes(self.cues, drive)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,8 +116,7 @@ class FapMotion:
             return None
         return face.long_motion(self.stream, drive=drive, planned=self.planned)
 
-    @property
-    def asked(self) -> Floats:
+    def asked(self, drive: str) -> Floats:
         """The stream."""
         return self.stream
 

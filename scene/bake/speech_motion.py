@@ -64,7 +64,6 @@ class SpeechMotion:
         """As of a stream."""
         return self.made.between(face, drive)
 
-    @property
-    def asked(self) -> Floats:
+    def asked(self, drive: str) -> Floats:
         """Its frames."""
-        return self.made.asked
+        return self.made.asked(drive)

@@ -182,7 +182,7 @@ def bake_motion_onto(
     for index, positions in enumerate(frames):
         take.add(positions)
         yield Progress(0.75 + 0.15 * (index + 1) / count, f"Simulating frame {index + 1} of {count}")
-    work = settled_values(rig, retargeting, take, fps=rate, requested=motion.asked, smooth=onto.smooth)
+    work = settled_values(rig, retargeting, take, fps=rate, requested=motion.asked(drive), smooth=onto.smooth)
     found = yield from part_of(work, 0.9, 1.0)
     values = rig.channel_values(found.names, found.values)
     keyframes = Keyframes(start + np.arange(count, dtype=np.float64), values, linear=True)
