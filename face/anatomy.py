@@ -18,14 +18,14 @@ from .bodies.contact import Contact, contact_steps
 from .bodies.eyeball import Eyeball, build_eyeball
 from .bodies.head_turn import HeadTurn, build_head_turn
 from .bodies.tongue import Tongue, build_tongue
-from .drive.inverse import Inverse, Kernel, kernel_of
+from .drive.inverse import Inverse, Kernel, kernel_steps
 from .mechanism import EVERY, MUSCLE_GROUPS, Mechanism
 from .mechanisms.jaw import Jaw, build_jaw
 from .mechanisms.lids import Eye, build_eye
 from .mesh.face_mesh import COPY, FaceMesh
 from .mesh.fap_rows import FapRows, displacement_rows
 from .mesh.fap_units import unit_length
-from .mesh.openings import OPENINGS, Opening, find_opening, outer_faces
+from .mesh.openings import OPENINGS, Opening, find_opening_steps, outer_faces
 from .mesh.parts import Part
 from .mesh.points import FeaturePoints, lies_on_skin, rebound
 from .mesh.reach import within_reach
@@ -111,8 +111,8 @@ class Anatomy:
         graph = mesh.adjacency(self.mesh.positions, self._skin_polygons, diagonals=False)
         found = dict[str, Opening]()
         for name, arcs in OPENINGS.items():
-            yield Progress(len(found) / len(OPENINGS), "Preparing the skin")
-            found[name] = find_opening(graph, self.mesh.points.nearest, *arcs)
+            path = find_opening_steps(graph, self.mesh.points.nearest, *arcs)
+            found[name] = yield from part_of(path, len(found) / len(OPENINGS), (len(found) + 1) / len(OPENINGS))
         return found
 
     @stepwise
@@ -287,14 +287,15 @@ class Anatomy:
         """Those of `skin_rows`, and the lips' middles."""
         return self.skin_rows.with_lip_middles() if Mechanism.LIP_MIDDLE in self.mechanisms else self.skin_rows
 
-    @cached_property
-    def kernel(self) -> Kernel:
+    @stepwise
+    def kernel(self) -> Work[Kernel]:
         """How the skin answers loads on the rows."""
         rows = self.inverse_rows
         if self._same_skin is not None:
+            yield from worked_out(self._same_skin, "kernel")
             return self._same_skin.kernel.first(len(rows))
         own = self.points.matrix(rows.names)[:, self.given_skin.index]
-        return kernel_of(rows, sparse.csr_array(own @ self.carry), self.sheet)
+        return (yield from kernel_steps(rows, sparse.csr_array(own @ self.carry), self.sheet))
 
     @cached_property
     def inverse(self) -> Inverse:
@@ -312,8 +313,8 @@ class Anatomy:
         read = self.points.matrix(self.inverse_rows.names)[:, self.given_skin.index]
         return np.unique(read.indices).astype(np.int64)
 
-    @cached_property
-    def inner_skin(self) -> InnerSkin:
+    @stepwise
+    def inner_skin(self) -> Work[InnerSkin]:
         """Mouth cavity and eye sockets."""
         inner: Bools = self.mesh.parts == Part.SKIN
         inner[self.still_skin] = False
@@ -321,14 +322,15 @@ class Anatomy:
         polygons = self._skin_polygons
         about = polygons.kept(polygons.touching(inner))
         before = self.given_skin if self._thinning is None else self.skin
-        return InnerSkin(self.mesh.positions, about, inner, before)
+        return (yield from InnerSkin.steps(self.mesh.positions, about, inner, before))
 
-    @cached_property
-    def rooted_parts(self) -> RootedParts:
+    @stepwise
+    def rooted_parts(self) -> Work[RootedParts]:
         """Brows, lashes and whatever has no part of its own: they grow out of outer skin and teeth."""
         teeth = (self._part(Part.TEETH_UPPER), self._part(Part.TEETH_LOWER))
         carriers = np.unique(np.concatenate([self.given_skin.index, self.still_skin, *teeth]))
-        return RootedParts(self.mesh.positions, self.mesh.polygons, self._part(Part.OTHER), carriers)
+        place = self.mesh.positions, self.mesh.polygons
+        return (yield from RootedParts.steps(*place, self._part(Part.OTHER), carriers))
 
     def _fap_unit(self, number: int) -> float:
         """One unit of a FAP that is a length, metres of head space."""

@@ -16,6 +16,9 @@ from .mechanism import Mechanism
 from .mechanisms.jaw import JawMotion
 from .response.folds import Folds
 
+#: Frames are worked out together as long as they have no more figures than this, so that none takes long to come.
+TOGETHER = 4_000_000
+
 
 class Assembly:
     """Puts one face together; with folds where the drive has them, unless told otherwise."""
@@ -43,6 +46,13 @@ class Assembly:
 
     def positions_each(self, displacements: Floats, jaws: Floats, requests: Sequence[Request]) -> Iterator[Floats]:
         """As `positions`, one after the other, of displacements (T, n, 3), mandibles (T, 3) and requests of a drive."""
+        count = max(1, TOGETHER // self.anatomy.mesh.positions.size)
+        for first in range(0, len(requests), count):
+            some = slice(first, first + count)
+            yield from self._positions_together(displacements[some], jaws[some], requests[some])
+
+    def _positions_together(self, displacements: Floats, jaws: Floats, requests: Sequence[Request]) -> Iterator[Floats]:
+        """As `positions_each`, worked out all at once."""
         anatomy = self.anatomy
         rest, seams = anatomy.mesh.positions, anatomy.mesh.seams
         moved = np.zeros((len(requests), *rest.shape))

@@ -102,6 +102,7 @@ class Face:
         yield Progress(0.0, "Checking the mesh")
         array = checked_vertices(vertices)
         faces = checked_polygons(polygons, len(array))
+        yield Progress(0.0, "Checking the mesh")
         return cls(array, faces, Anatomy((yield from face_mesh_steps(array, faces, points, parts, axes))))
 
     def without(self, *mechanisms: str | Mechanism) -> Face:

@@ -15,11 +15,12 @@ from scipy import linalg
 
 from ...arrays import Floats
 from ...physics.mesh import Sparse
+from ...progress import Progress, Work
 from ..figures import Length, Share, read_figures
 from ..mechanisms.jaw import Jaw, JawMotion
 from ..mesh.fap_rows import FapRows
 from ..response.actuators import OPENING, SLIDES, Actuators, Amounts
-from ..response.sheet import ElasticSheet
+from ..response.sheet import ElasticSheet, blocks
 from .bounded_least_squares import bounded_least_squares
 from .targets import Targets
 
@@ -78,11 +79,15 @@ class Kernel(NamedTuple):
         return Kernel(self.matrix[:count], self.responses[:count])
 
 
-def kernel_of(rows: FapRows, reader: Sparse, sheet: ElasticSheet) -> Kernel:
-    """The kernel of rows whose points a (m, n) `reader` reads off the outer skin."""
+def kernel_steps(rows: FapRows, reader: Sparse, sheet: ElasticSheet) -> Work[Kernel]:
+    """The kernel of rows whose points a (m, n) `reader` reads off the outer skin, some rows at a time."""
     matrix = rows.matrix(reader)
     loads = np.asarray(matrix.todense()).reshape(len(rows), sheet.skin.vertex_count, 3)
-    return Kernel(matrix, np.ascontiguousarray(sheet.point_responses(loads)))
+    responses = np.empty_like(loads)
+    for some in blocks(len(rows)):
+        yield Progress(some.start / len(rows), "Relating muscles to FAPs")
+        responses[some] = sheet.point_responses(loads[some])
+    return Kernel(matrix, responses)
 
 
 class Inverse:

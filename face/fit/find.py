@@ -240,10 +240,11 @@ def _fitted_points(
     """Bend the template onto the head and carry its points over."""
     located = start.place
     pose, template = located.pose, located.template
-    target = head_target(located.surface, pose)
+    target = yield from part_of(head_target(located.surface, pose), 0.0, 0.2)
     wishes = [click_wishes(clicked, pose, template)] if clicked else []
-    fitted = yield from part_of(fit(template, target, wishes, start=starting_bend(template, start.flow)), 0.0, 0.95)
+    fitted = yield from part_of(fit(template, target, wishes, start=starting_bend(template, start.flow)), 0.2, 0.95)
     score = located.score.value
+    yield Progress(0.95, "Placing the feature points")
     pieces = _with_beside(located.surface, pose, beside)
     carried = carry(template, target, fitted, score, pieces, _seen(paint, pose))
     positions = {name: pose.to_mesh(place) for name, place in carried.positions.items()}

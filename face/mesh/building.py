@@ -34,8 +34,10 @@ def face_mesh_steps(
     seams = yield from part_of(weld_steps(vertices, polygons), 0.0, 0.5)
     yield Progress(0.5, "Placing the feature points")
     sources, triangles = seams.of_leads(with_pupils(points, vertices)), fans(seams.polygons)[0]
+    yield Progress(0.5, "Placing the feature points")
     told = checked_parts(parts, len(vertices))
-    bound = bind_points(sources, vertices, triangles, np.isin(told, (Part.SKIN, Told.ANYTHING)))
+    may_be_skin = np.isin(told, (Part.SKIN, Told.ANYTHING))
+    bound = yield from part_of(bind_points(sources, vertices, triangles, may_be_skin), 0.5, 0.5)
     positions = bound.positions()
     head_frame = head_frame_of(positions, None if axes is None else checked_axes(axes))
     landmarks = {name: head_frame.to_head(position) for name, position in positions.items()}
@@ -45,7 +47,7 @@ def face_mesh_steps(
     given = known_parts(told, head, seams.polygons, landmarks, bound)
     yield Progress(0.5, "Placing the feature points")
     if (told < 0).any():
-        bound = bind_points(sources, vertices, triangles, given == Part.SKIN)
+        bound = yield from part_of(bind_points(sources, vertices, triangles, given == Part.SKIN), 0.5, 1.0)
     given[seams.copies] = COPY
     return FaceMesh(head, seams.polygons, given, bound, landmarks, head_frame, units, seams)
 

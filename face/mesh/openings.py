@@ -18,6 +18,7 @@ from ...arrays import Bools, Ints
 from ...errors import ModelError
 from ...physics.mesh import Polygons, Sparse, pair_keys
 from ...polygons import PolygonTable
+from ...progress import Progress, Work, part_of, run
 
 #: Closed path through the lips: upper arc from the left corner to the right one, then the lower arc back.
 LIP_UPPER = ("2.4", "2.6", "2.2", "2.7", "2.5")
@@ -46,12 +47,14 @@ class Opening:
         return np.asarray(np.unique(np.concatenate([self.upper, self.lower])), dtype=np.int64)
 
 
-def _path(graph: Sparse, stops: Sequence[int], names: Sequence[str]) -> Ints:
+def _path(graph: Sparse, stops: Sequence[int], names: Sequence[str]) -> Work[Ints]:
     """Shortest path along edges through the given vertices, each vertex named once per leg."""
     steps = [stops[0]]
-    for start, end, a, b in zip(stops, stops[1:], names, names[1:], strict=False):
+    legs = list(zip(stops, stops[1:], names, names[1:], strict=False))
+    for number, (start, end, a, b) in enumerate(legs):
         if start == end:
             continue
+        yield Progress(number / len(legs), "Preparing the skin")
         distance, previous = dijkstra(graph, indices=np.array(end), return_predecessors=True)
         if not np.isfinite(distance[start]):
             raise ModelError(_on_separate_pieces(graph, (start, end), (a, b)))
@@ -86,10 +89,18 @@ def find_opening(graph: Sparse, nearest: Mapping[str, int], upper: Sequence[str]
     ------
     ModelError : when two of the points are not joined by edges.
     """
-    arcs = []
+    return run(find_opening_steps(graph, nearest, upper, lower))
+
+
+def find_opening_steps(
+    graph: Sparse, nearest: Mapping[str, int], upper: Sequence[str], lower: Sequence[str]
+) -> Work[Opening]:
+    """As `find_opening`, bit by bit: a step for each leg between two points."""
+    arcs = list[Ints]()
     for arc in (upper, lower):
         names = [name for name in arc if name in nearest]
-        arcs.append(_path(graph, [nearest[name] for name in names], names))
+        path = _path(graph, [nearest[name] for name in names], names)
+        arcs.append((yield from part_of(path, 0.5 * len(arcs), 0.5 * len(arcs) + 0.5)))
     return Opening(upper=arcs[0], lower=arcs[1])
 
 

@@ -14,6 +14,7 @@ from ...arrays import Bools, Floats, Ints
 from ...errors import ModelError
 from ...mpeg4 import FEATURE_POINTS
 from ...physics.mesh import Sparse
+from ...progress import Progress, Work
 from .own_lip import LIP_POINTS, own_lips
 
 #: What a caller may give for a feature point: a vertex index, or a position (3,) on the surface.
@@ -163,8 +164,8 @@ def lies_on_skin(name: str) -> bool:
 
 def bind_points(
     points: Mapping[str, PointSource], vertices: Floats, triangles: Ints, skin: Bools | None = None
-) -> FeaturePoints:
-    """Bind feature points to a mesh.
+) -> Work[FeaturePoints]:
+    """Bind feature points to a mesh, bit by bit.
 
     Parameters
     ----------
@@ -199,8 +200,10 @@ def bind_points(
             raise ModelError(f"feature point {name} must be a vertex index or three finite coordinates, not {source!r}")
         places[name] = position
     bound |= on_skin.bind({name: place for name, place in places.items() if lies_on_skin(name)})
+    yield Progress(0.5, "Placing the feature points")
     bound |= anywhere.bind({name: place for name, place in places.items() if not lies_on_skin(name)})
     bound = {name: bound[name] for name in points}
+    yield Progress(1.0, "Placing the feature points")
     return FeaturePoints(bound | _on_their_lips(bound, points, vertices, on_skin.triangles), len(vertices))
 
 

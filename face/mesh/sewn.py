@@ -69,7 +69,11 @@ def sewn_steps(
     ways = mesh.adjacency(positions, skin)
     yield Progress(0.5, "Preparing the skin")
     known = [name for name, across in ACROSS.items() if all(point in nearest for point in across)]
-    whole = [name for name in known if _leads_across(positions, ways, nearest, name)]
+    whole = list[str]()
+    for number, name in enumerate(known):
+        yield Progress(0.5 + 0.5 * number / len(known), "Preparing the skin")
+        if _leads_across(positions, ways, nearest, name):
+            whole.append(name)
     eyes = [name for name in whole if name in LIDS]
     if eyes:
         yield Progress(1.0, "Preparing the skin")

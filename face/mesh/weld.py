@@ -78,7 +78,9 @@ def weld_steps(vertices: Floats, polygons: Polygons) -> Work[Weld]:
     loops, sizes = corners(polygons, len(vertices))
     lengths = np.linalg.norm(vertices[loops] - vertices[_next(loops, sizes)], axis=1)
     usual = float(np.median(lengths[lengths > 0.0])) if lengths.any() else 0.0
+    yield Progress(0.0, "Checking the mesh")
     place = _places(vertices, ONE_PLACE * usual)
+    yield Progress(0.5, "Checking the mesh")
     doubles, covering = _covering(place, loops, sizes)
     if doubles.mean() < DOUBLED:
         doubles, covering = np.zeros_like(doubles), covering[:0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from scipy import sparse
@@ -12,11 +13,15 @@ from ...arrays import Bools, Floats, Ints
 from ...physics.elastic import Factor, diagonal_matrix, laplacian
 from ...physics.mesh import Sparse, applied, vertex_areas
 from ...polygons import PolygonTable
+from ...progress import Progress, Work, run
 from ..figures import Length, read_figures
 from ..skin.outer import OuterSkin
 
 #: Inner skin is tied to rest as weakly as this, relative to its neighbours, so that loose pieces stay put.
 REST_TIE = 1e-4
+
+#: Inner vertices that are tied to the outer skin at once, and what is said meanwhile.
+AT_ONCE, FOLLOWING = 4000, "Preparing what follows the skin"
 
 
 @dataclass(frozen=True)
@@ -42,16 +47,30 @@ class InnerSkin:
 
         Lengths are metres of head space. Polygons without a vertex that follows may be left out.
         """
+        run(self._bind(positions, polygons, inner, outer))
+
+    @classmethod
+    def steps(cls, positions: Floats, polygons: PolygonTable, inner: Bools, outer: OuterSkin) -> Work[Self]:
+        """As the class, bit by bit."""
+        made = cls.__new__(cls)
+        yield from made._bind(positions, polygons, inner, outer)
+        return made
+
+    def _bind(self, positions: Floats, polygons: PolygonTable, inner: Bools, outer: OuterSkin) -> Work[None]:
+        """Work out what follows what."""
         self.index: Ints = np.flatnonzero(inner)
         if len(self.index) == 0:
             return
         areas = vertex_areas(positions, polygons)
         rows: Sparse = laplacian(positions, polygons)[self.index]
         own: Sparse = rows[:, self.index]
+        yield Progress(0.0, FOLLOWING)
         diagonal = own.diagonal()
         rest = REST_TIE * np.where(diagonal > 0, diagonal, 1.0)
-        flesh = _flesh(positions[self.index], areas[self.index], outer, len(positions))
+        flesh = yield from _flesh(positions[self.index], areas[self.index], outer, len(positions))
+        yield Progress(1.0, FOLLOWING)
         self._factor = Factor(own + diagonal_matrix(rest + np.asarray(flesh.sum(axis=1)).ravel()))
+        yield Progress(1.0, FOLLOWING)
         keep = np.ones(len(positions))
         keep[self.index] = 0.0
         coupling: Sparse = (flesh - rows @ diagonal_matrix(keep)).tocsr()
@@ -67,13 +86,23 @@ class InnerSkin:
             displacements[..., self.index, :] = np.reshape(followed, (*displacements.shape[:-2], -1, 3))
 
 
-def _flesh(inner: Floats, areas: Floats, outer: OuterSkin, count: int) -> Sparse:
+def _flesh(inner: Floats, areas: Floats, outer: OuterSkin, count: int) -> Work[Sparse]:
     """(i, count) how firmly each inner vertex is tied to the outer skin that it lies behind.
 
     Summed over the outer skin within reach by its area, so that neither density nor the order of neighbours matters;
     before a flat skin at depth h the sum is (1 - (h / reach)^2)^4.
     """
-    pairs = cKDTree(inner).sparse_distance_matrix(cKDTree(outer.positions), FLESH.reach, output_type="coo_matrix")
+    tree, ties = cKDTree(outer.positions), list[Sparse]()
+    for first in range(0, len(inner), AT_ONCE):
+        yield Progress(first / len(inner), FOLLOWING)
+        some = slice(first, first + AT_ONCE)
+        ties.append(_ties(inner[some], areas[some], outer, tree, count))
+    return sparse.csr_array(sparse.vstack(ties))
+
+
+def _ties(inner: Floats, areas: Floats, outer: OuterSkin, tree: cKDTree, count: int) -> Sparse:
+    """The rows of `_flesh` of some inner vertices; `tree` is of the outer skin."""
+    pairs = cKDTree(inner).sparse_distance_matrix(tree, FLESH.reach, output_type="coo_matrix")
     own, other, distance = pairs.row, pairs.col, pairs.data
     away = outer.positions[other] - inner[own]
     behind = np.maximum((away * outer.normals[other]).sum(axis=1) / np.maximum(distance, 1e-9), 0.0) ** 2

@@ -14,7 +14,7 @@ from ..muscles.insertion import force_density
 from ..muscles.placement import PlacedMuscle
 from ..skin.fine import SUMMED, fine_skin
 from ..skin.outer import OuterSkin
-from .sheet import ElasticSheet
+from .sheet import ElasticSheet, blocks
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,9 +47,12 @@ def pulls_steps(skin: OuterSkin, sheet: ElasticSheet, muscles: Sequence[PlacedMu
     """As `pulls_of`, bit by bit."""
     forces = yield from part_of(_forces(skin, muscles), 0.0, 0.5)
     yield Progress(0.5, "Computing what each muscle does")
-    sheets = sheet.relax(forces)
-    yield Progress(1.0, "Computing what each muscle does")
-    shown = sheet.show(sheets)
+    yield from worked_out(sheet, "hood")
+    sheets, shown = np.empty_like(forces), np.empty_like(forces)
+    for some in blocks(len(forces)):
+        yield Progress(0.5 + 0.5 * some.start / len(forces), "Computing what each muscle does")
+        sheets[some] = sheet.relax(forces[some])
+        shown[some] = sheet.show(sheets[some])
     peak = np.linalg.norm(shown, axis=2).max(axis=1)
     alive = peak > 0.0
     scale = (1.0 / peak[alive])[:, None, None]

@@ -10,6 +10,7 @@ Limitations: a piece is as stiff as that everywhere; long hair does not hang, an
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from scipy import sparse
@@ -21,6 +22,7 @@ from ...physics import mesh
 from ...physics.elastic import Factor, diagonal_matrix
 from ...physics.mesh import Sparse
 from ...polygons import PolygonTable
+from ...progress import Progress, Work, run
 from ..figures import Length, read_figures
 from .rotations import nearest_rotations
 
@@ -35,6 +37,9 @@ CLOSE = 4
 
 #: Paths along the carriers are searched from this many places at once.
 AT_ONCE = 256
+
+#: What is said meanwhile.
+FOLLOWING = "Preparing what follows the skin"
 
 
 @dataclass(frozen=True)
@@ -54,6 +59,17 @@ class RootedParts:
 
     def __init__(self, positions: Floats, polygons: PolygonTable, rooted: Ints, carriers: Ints) -> None:
         """Bind vertices `rooted` to `carriers`, both indices into positions (V, 3); head space, metres."""
+        run(self._bind(positions, polygons, rooted, carriers))
+
+    @classmethod
+    def steps(cls, positions: Floats, polygons: PolygonTable, rooted: Ints, carriers: Ints) -> Work[Self]:
+        """As the class, bit by bit."""
+        made = cls.__new__(cls)
+        yield from made._bind(positions, polygons, rooted, carriers)
+        return made
+
+    def _bind(self, positions: Floats, polygons: PolygonTable, rooted: Ints, carriers: Ints) -> Work[None]:
+        """Work out what follows what."""
         self._bound = len(rooted) > 0 and len(carriers) > 0
         if not self._bound:
             return
@@ -61,7 +77,9 @@ class RootedParts:
         touching = _touching(_distance(positions, polygons, rooted, carriers), edges)
         self._roots, self._rest = rooted[touching], rooted[~touching]
         self._at, self._off = positions[self._roots], positions[self._rest]
-        around, length = _around(positions, polygons, carriers, self._at)
+        yield Progress(0.0, FOLLOWING)
+        around, length = yield from _around(positions, polygons, carriers, self._at)
+        yield Progress(1.0, FOLLOWING)
         carried = carriers[around]
         away = positions[carried] - self._at[:, None]
         reach = np.where(np.isfinite(length), length, 0.0).max(axis=1, keepdims=True)
@@ -78,6 +96,7 @@ class RootedParts:
         read = sparse.vstack(readers).tocsc()
         self._read: Ints = np.flatnonzero(np.diff(read.indptr))
         self._reader: Sparse = read[:, self._read].tocsr()
+        yield Progress(1.0, FOLLOWING)
         if len(self._rest):
             own = edges[~touching]
             self._factor = Factor(diagonal_matrix(np.asarray(own.sum(axis=1)).ravel()) - own[:, ~touching])
@@ -144,7 +163,7 @@ def _touching(distance: Floats, edges: Sparse) -> Bools:
     return np.asarray(distance <= np.maximum(ROOTS.touch, ROOTS.nearest * least[labels]))
 
 
-def _around(mesh_positions: Floats, polygons: PolygonTable, carriers: Ints, roots: Floats) -> tuple[Ints, Floats]:
+def _around(mesh_positions: Floats, polygons: PolygonTable, carriers: Ints, roots: Floats) -> Work[tuple[Ints, Floats]]:
     """(r, k) carriers about each root (r, 3), the nearest first, and their distances, infinite for what is another lip.
 
     Carriers are called by their number among them. Another lip is what cannot be reached from the nearest carrier by a
@@ -159,9 +178,11 @@ def _around(mesh_positions: Floats, polygons: PolygonTable, carriers: Ints, root
     reached = np.flatnonzero(cKDTree(positions[places]).query(positions, distance_upper_bound=limit)[0] < np.inf)
     local = np.full(len(positions), -1, dtype=np.int64)
     local[reached] = np.arange(len(reached))
+    yield Progress(0.0, FOLLOWING)
     lengths = _lengths(mesh_positions, polygons, carriers, reached)
     way = np.empty(found.shape)
     for first in range(0, len(places), AT_ONCE):
+        yield Progress(first / len(places), FOLLOWING)
         searched = dijkstra(lengths, directed=False, indices=local[places[first : first + AT_ONCE]], limit=limit)
         mine = np.flatnonzero((of >= first) & (of < first + AT_ONCE))
         way[mine] = np.take_along_axis(searched[of[mine] - first], local[found[mine]], axis=1)

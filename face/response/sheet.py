@@ -7,6 +7,7 @@ squeezed, and goes with the brow where it hangs on it. Every muscle field and ev
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +20,14 @@ from ..mechanisms.hood import Hood
 from ..mechanisms.sliding import sliding
 from ..skin.outer import OuterSkin
 from . import regions
+
+#: Fields that are solved at once: three columns each, as many as the factor takes together.
+AT_ONCE = 8
+
+
+def blocks(count: int) -> Iterator[slice]:
+    """So many fields, as many at a time as are solved at once."""
+    return (slice(first, min(first + AT_ONCE, count)) for first in range(0, count, AT_ONCE))
 
 
 class ElasticSheet:

@@ -55,6 +55,9 @@ AT_ONCE = 4000
 #: Vertices that are first compared with each other; each later batch is twice as large.
 FIRST_BATCH = 1000
 
+#: Vertices that are compared with a batch at once.
+COMPARED = 50_000
+
 
 @dataclass(frozen=True, eq=False)
 class Places:
@@ -137,13 +140,13 @@ class Thinning:
     def _webs(self) -> PolygonTable:
         return self.given.polygons[len(self.given.polygons) - self.given.web :]
 
-    @cached_property
-    def chosen(self) -> Ints:
+    @stepwise
+    def chosen(self) -> Work[Ints]:
         """(M,) vertices that are far enough from each other."""
         positions = self.given.positions
         arcs = [_thinned(positions, arc) for opening in self._openings for arc in (opening.upper, opening.lower)]
         stay = np.unique(np.concatenate([*arcs, self._webs.loops]))
-        return _chosen(positions, self._apart, stay, self._places.off > BESIDE * self._apart)
+        return (yield from _chosen(positions, self._apart, stay, self._places.off > BESIDE * self._apart))
 
     @stepwise
     def cells(self) -> Work[Cells]:
@@ -158,6 +161,7 @@ class Thinning:
             yield Progress(1.0, "Preparing the skin")
             found = dijkstra(self._graph, directed=False, indices=kept, min_only=True, return_predecessors=True)
             owners = np.searchsorted(kept, found[2])
+            yield Progress(1.0, "Preparing the skin")
             triangles, web = _dual(owners[self._triangles], first_web)
             surface = vertex_areas(self.given.positions[kept], triangles) > LEAST * self._apart[kept] ** 2
             if surface.all():
@@ -248,7 +252,7 @@ def _thinned(positions: Floats, arc: Ints) -> Ints:
     return np.unique(arc[places])
 
 
-def _chosen(positions: Floats, apart: Floats, stay: Ints, is_open: Bools) -> Ints:
+def _chosen(positions: Floats, apart: Floats, stay: Ints, is_open: Bools) -> Work[Ints]:
     """(N,) vertices that are kept: `stay`, and of those open to it as many as may be, no two nearer than `apart` (n,).
 
     They come in an order that is even over the skin and always the same; each is kept that is not too near to one that
@@ -263,7 +267,12 @@ def _chosen(positions: Floats, apart: Floats, stay: Ints, is_open: Bools) -> Int
         batch, queue = queue[:count], queue[count:]
         new = batch[_first_apart(positions[batch], apart[batch])]
         kept[new] = True
-        queue = queue[~_too_near(positions[queue], apart[queue], positions[new], apart[new])]
+        near = np.zeros(len(queue), dtype=bool)
+        for first in range(0, len(queue), COMPARED):
+            yield Progress(0.0, "Preparing the skin")
+            some = queue[first : first + COMPARED]
+            near[first : first + COMPARED] = _too_near(positions[some], apart[some], positions[new], apart[new])
+        queue = queue[~near]
         count *= 2
     kept[stay] = True
     return np.flatnonzero(kept)

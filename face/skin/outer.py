@@ -17,10 +17,10 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Floats, Ints
 from ...physics import mesh
-from ...physics.elastic import Factor, diagonal_matrix, laplacian
+from ...physics.elastic import Factor, diagonal_matrix, dirichlet_springs, pair_laplacian
 from ...physics.mesh import Sparse
 from ...polygons import PolygonTable
-from ...progress import Progress, Work, stepwise, worked_out
+from ...progress import Progress, Work, meanwhile, stepwise, worked_out
 from ..figures import Length, read_figures
 from ..mechanism import EVERY, Mechanism
 from ..mesh.openings import Opening
@@ -105,10 +105,12 @@ class OuterSkin:
         """(n,) area of skin that each vertex stands for, m^2."""
         return mesh.vertex_areas(self.positions, self.polygons)
 
-    @cached_property
-    def laplacian(self) -> Sparse:
+    @stepwise
+    def laplacian(self) -> Work[Sparse]:
         """(n, n) L with u'Lu the integral of |grad u|^2 over the skin."""
-        return laplacian(self.positions, self.polygons)
+        pairs, weights = dirichlet_springs(self.positions, self.polygons)
+        yield Progress(0.5, "Preparing the skin")
+        return pair_laplacian(pairs, weights, self.vertex_count)
 
     @cached_property
     def fans(self) -> tuple[Ints, Floats]:
@@ -158,8 +160,7 @@ class OuterSkin:
         right = self.areas[:, None] * self.raw_normals
         yield Progress(0.0, "Preparing the skin")
         yield from worked_out(self, "laplacian")
-        yield Progress(0.5, "Preparing the skin")
-        filtering = self.smoothing(SHEET.bone_over)
+        filtering = yield from meanwhile(lambda: self.smoothing(SHEET.bone_over), Progress(0.5, "Preparing the skin"))
         yield Progress(1.0, "Preparing the skin")
         smooth = filtering.solve(right)
         unit: Floats = smooth / np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)

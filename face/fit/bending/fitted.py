@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....arrays import Floats, Ints
-from ....progress import Progress, Work
+from ....progress import Progress, Work, part_of
 from ..surface.margins import Expected, Margin, find_eyes, find_mouth
 from ..template.template import FitTemplate, Ring
 from .bend import Stage, Wishes, bend
@@ -58,7 +58,8 @@ def fit(
     margins: dict[str, Margin] = {}
     for number, stage in enumerate((CLOSER, CLOSEST)):
         yield Progress(0.5 + 0.2 * number, "Fitting lids and lips")
-        margins = _margins(template, target, moved)
+        found = part_of(_margins(template, target, moved), 0.5 + 0.2 * number, 0.6 + 0.2 * number)
+        margins = yield from found
         rims = [_rim_wishes(template, template.rings[name], margin) for name, margin in margins.items()]
         yield Progress(0.6 + 0.2 * number, "Fitting the details")
         moved = bend(template, target, moved, stage, [*wishes, *rims])
@@ -80,12 +81,12 @@ def _stretched(template: FitTemplate, moved: Floats, ears: Sequence[Wishes]) -> 
     return np.asarray(moved + share[:, None] * off * np.array([0.0, 1.0, 0.0]))
 
 
-def _margins(template: FitTemplate, target: Target, moved: Floats) -> dict[str, Margin]:
+def _margins(template: FitTemplate, target: Target, moved: Floats) -> Work[dict[str, Margin]]:
     """The rims found where the template's lie now."""
     skin = template.skin.vertices + template.skin.cage_matrix @ moved
     expected = {name: Expected(skin[ring.margin], skin[ring.outside]) for name, ring in template.rings.items()}
-    mouth = find_mouth(target.surface, expected.pop("mouth"))
-    found = find_eyes(target.surface, expected)
+    mouth = yield from part_of(find_mouth(target.surface, expected.pop("mouth")), 0.0, 0.5)
+    found = yield from part_of(find_eyes(target.surface, expected), 0.5, 1.0)
     return found if mouth is None else found | {"mouth": mouth}
 
 

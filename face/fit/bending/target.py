@@ -8,10 +8,11 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ....arrays import Bools, Floats, Ints
+from ....progress import Progress, Work, part_of
 from ..locating.boxes import HEAD_BOX, box_cloud, in_box
 from ..locating.head_pose import HeadPose
 from ..surface.cloud import Cloud, Surface, first_hits
-from ..surface.pieces import skin_pieces
+from ..surface.pieces import skin_pieces_steps
 
 #: Points spread over the head.
 COUNT = 60_000
@@ -49,10 +50,12 @@ class Target:
     rim: Floats
 
 
-def head_target(surface: Surface, pose: HeadPose) -> Target:
+def head_target(surface: Surface, pose: HeadPose) -> Work[Target]:
     """The outside of the head that lies at a pose in a mesh."""
     local = Surface(pose.to_template(surface.vertices), surface.triangles, pose.normals_to_template(surface.normals))
-    skin = skin_pieces(local.part(in_box(surface, pose, HEAD_BOX)))
+    boxed = local.part(in_box(surface, pose, HEAD_BOX))
+    yield Progress(0.2, "Fitting the face")
+    skin = yield from part_of(skin_pieces_steps(boxed), 0.2, 0.7)
     cloud = box_cloud(skin, AT_HOME, HEAD_BOX, COUNT)
     x, y, z = cloud.positions.T
     normal = cloud.normals
@@ -63,6 +66,7 @@ def head_target(surface: Surface, pose: HeadPose) -> Target:
     ):  # fmt: skip
         seen |= first_hits(depth, across, up, pixel=PIXEL, tolerance=TOLERANCE) & (facing > 0.0)
     outside, front = cloud.take(seen), front[seen]
+    yield Progress(0.8, "Fitting the face")
     openings, rim = _open_edges(skin)
     return Target(skin, outside, front, _near(outside, openings, EDGE) | _near(outside, rim, RIM), rim)
 

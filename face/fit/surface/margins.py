@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ....arrays import Floats, Ints
+from ....progress import Progress, Work
 from .cloud import Surface, nearest, sample
 from .rims import Neighbourhood
 
@@ -39,6 +40,9 @@ SHALLOW = 6e-3
 #: A rim round an area below this share of its width's square, with no more than this behind it, metres, is no eye's:
 #: it is the fold of an upper lid over an eye that is one surface with it.
 FOLD, FOLD_DEPTH = 0.06, 2e-3
+
+#: What is said meanwhile.
+SOUGHT = "Fitting lids and lips"
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +85,7 @@ class Margin:
         return np.column_stack([np.interp(shares, along, line[:, k]) for k in range(3)])
 
 
-def find_mouth(surface: Surface, expected: Expected) -> Margin | None:
+def find_mouth(surface: Surface, expected: Expected) -> Work[Margin | None]:
     """Where the lips meet, or None where the mouth has no opening.
 
     Parameters
@@ -90,14 +94,15 @@ def find_mouth(surface: Surface, expected: Expected) -> Margin | None:
     expected : where the template's lips lie now.
     """
     near = Neighbourhood(surface, expected.margin.mean(axis=0), REACH["mouth"])
-    found = _candidates(near, np.array([0.0, -1.0, 0.0]), "mouth", expected, FACINGS["mouth"])
+    view = np.array([0.0, -1.0, 0.0])
+    found = yield from _candidates(near, view, "mouth", expected, FACINGS["mouth"])
     if not found:
         return None
     best = min(found, key=lambda margin: margin.misfit)
     return _met(_levelled(best, near), expected, right=True, left=True)
 
 
-def find_eyes(surface: Surface, expected: Mapping[str, Expected]) -> dict[str, Margin]:
+def find_eyes(surface: Surface, expected: Mapping[str, Expected]) -> Work[dict[str, Margin]]:
     """The lid margins that are found: of each eye the rim that is near to where it is expected and like the other's.
 
     Parameters
@@ -105,15 +110,15 @@ def find_eyes(surface: Surface, expected: Mapping[str, Expected]) -> dict[str, M
     surface : the head in template coordinates, normals outward.
     expected : "eye_l", "eye_r": where the template's lids lie now.
     """
-    near = {name: Neighbourhood(surface, eye.margin.mean(axis=0), REACH["eye"]) for name, eye in expected.items()}
-    found = {
-        name: _candidates(near[name], _view(name, 0.25), "eye", eye, FACINGS["eye"]) for name, eye in expected.items()
-    }
+    near, found = dict[str, Neighbourhood](), dict[str, list[Margin]]()
+    for name, eye in expected.items():
+        near[name] = Neighbourhood(surface, eye.margin.mean(axis=0), REACH["eye"])
+        found[name] = yield from _candidates(near[name], _view(name, 0.25), "eye", eye, FACINGS["eye"])
     chosen = _pair(found["eye_l"], found["eye_r"])
     eyes = {}
     for name, margin in chosen.items():
         met = _met(margin, expected[name], right=name == "eye_r", left=name == "eye_l")
-        eyes[name] = _with_inner_corner(near[name], met, name, expected[name])
+        eyes[name] = yield from _with_inner_corner(near[name], met, name, expected[name])
     return eyes
 
 
@@ -145,12 +150,13 @@ def _unevenness(left: Margin, right: Margin) -> float:
 
 def _candidates(
     near: Neighbourhood, view: Floats, kind: str, expected: Expected, facings: tuple[float, ...]
-) -> list[Margin]:
+) -> Work[list[Margin]]:
     """The rims that may be an opening's."""
     width = float(np.ptp(expected.margin[:, 0]))
     tree = cKDTree(expected.margin)
     found: list[Margin] = []
     for number, facing in enumerate(facings):
+        yield Progress(number / len(facings), SOUGHT)
         for line in near.rims(view, facing, expected.outside):
             places = near.vertices[line]
             if len(line) < 6 or not WIDTHS[kind][0] * width < np.ptp(places[:, 0]) < WIDTHS[kind][1] * width:
@@ -223,10 +229,10 @@ def _met(margin: Margin, expected: Expected, *, right: bool, left: bool) -> Marg
     return _cut(line, ends[0], ends[1], margin.misfit) or margin
 
 
-def _with_inner_corner(near: Neighbourhood, margin: Margin, eye: str, expected: Expected) -> Margin:
+def _with_inner_corner(near: Neighbourhood, margin: Margin, eye: str, expected: Expected) -> Work[Margin]:
     """An eye's rim with its inner corner, which hides behind the nose's root, taken from a view more to the middle."""
     side = 1.0 if eye == "eye_l" else -1.0
-    inner = _candidates(near, _view(eye, -0.3), "eye", expected, FACINGS["eye"][:1])
+    inner = yield from _candidates(near, _view(eye, -0.3), "eye", expected, FACINGS["eye"][:1])
     if not inner:
         return margin
     tree = cKDTree(_dense(margin.line()))

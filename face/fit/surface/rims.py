@@ -49,12 +49,13 @@ class Neighbourhood:
         base = int(self.triangles.max()) + 1
         keys = side_keys(self.triangles, base)
         on_rim = np.isin(keys, np.minimum(rim, ahead) * base + np.maximum(rim, ahead))
-        piece = joined_over(keys, ~on_rim)
+        _, number, users = np.unique(keys, return_inverse=True, return_counts=True)
+        side = number.reshape(keys.shape)
+        piece = joined_over(side, ~on_rim)
         following = np.roll(self.triangles, -1, axis=1)
         beyond = np.isin(self.triangles * base + following, ahead * base + rim).any(axis=1)
         enclosed = np.isin(piece, piece[beyond])
-        _, number, users = np.unique(keys, return_inverse=True, return_counts=True)
-        is_open = (users[number.reshape(keys.shape)] == 1)[enclosed].any()
+        is_open = (users[side] == 1)[enclosed].any()
         if is_open or not enclosed.any():
             return float("inf")
         return float(self.vertices[self.triangles[enclosed], 1].max() - self.vertices[rim, 1].max())
