@@ -118,7 +118,7 @@ from .mpeg4.streams.capture import CaptureShape, KeyShape, load_key_names, load_
 from .progress import Progress
 from .speech.phonemes import Alphabet, Phoneme
 from .speech.recorded import read_timings
-from .speech.saying import Saying, say
+from .speech.saying import Saying, say, say_steps
 from .speech.utterance import Sound, SpokenWord, Utterance
 from .speech.voice import Voiced, speak, voices
 
@@ -247,6 +247,7 @@ __all__ = [
     "retarget",
     "save_topology",
     "say",
+    "say_steps",
     "sequence",
     "shown_strength",
     "speak",

@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..progress import Work, run
 from .films import destination_of, in_blender, labels_of, lines_of, needing_blender
 from .options import (
     Verbs,
@@ -95,7 +96,7 @@ def _say(arguments: argparse.Namespace) -> Result:
         }
         if suffix in BLENDER:
             return _in_blender(arguments, say, sound, told)
-        saying = say(arguments.fps or 25.0)
+        saying = run(say(arguments.fps or 25.0), when_slow())
         stream, more = saying.stream, saying.assumed[len(utterance.assumed) :]
         for line in more:
             print(f"note: {line}", file=sys.stderr)
@@ -137,14 +138,14 @@ def _heard(arguments: argparse.Namespace) -> Iterator[tuple[Utterance, Path | No
         yield voiced.utterance, sound
 
 
-def _said(utterance: Utterance, arguments: argparse.Namespace, fps: float) -> Saying:
+def _said(utterance: Utterance, arguments: argparse.Namespace, fps: float) -> Work[Saying]:
     """What is said at a frame rate."""
     from .. import api
 
     felt = expression_of(arguments) if arguments.word is not None or arguments.angle is not None else None
     liveliness = None if arguments.still else api.Liveliness.usual(arguments.seed)
     numbers = {name: getattr(arguments, name) for name in ("articulation", "jaw", "lean", "seed")}
-    return api.say(utterance, emotion=felt, fps=fps, liveliness=liveliness, **numbers)
+    return api.say_steps(utterance, emotion=felt, fps=fps, liveliness=liveliness, **numbers)
 
 
 def _in_blender(arguments: argparse.Namespace, say: Any, sound: Path | None, told: dict[str, Any]) -> Result:

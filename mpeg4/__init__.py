@@ -75,7 +75,18 @@ from .streams.fap_json import read_fap_json, write_fap_json
 from .streams.fap_stream import FapStream
 from .streams.fba import Decoded, decode_fba, encode_fba, read_fba, write_fba
 from .streams.filling import Filling, fill
-from .timing import Cue, Ramp, Timing, emotion_weights, envelope, load_timings, sequence, sequence_at, strengths
+from .timing import (
+    Cue,
+    Ramp,
+    Timing,
+    emotion_weights,
+    envelope,
+    load_timings,
+    sequence,
+    sequence_at,
+    step_count,
+    strengths,
+)
 from .variation import Drawn, Liveliness, Overlay, drawn_within, way_drawn
 
 __all__ = [
@@ -171,6 +182,7 @@ __all__ = [
     "sequence",
     "sequence_at",
     "shown_strength",
+    "step_count",
     "strengths",
     "viseme_frame",
     "way_drawn",

@@ -292,14 +292,25 @@ def strengths(cues: Sequence[Cue], *, fps: float = DEFAULT_FPS) -> Floats:
     ParameterError
         As `sequence`.
     """
+    times = np.arange(step_count(cues, fps)) / fps
+    return np.stack([cue.strength(times) for cue in cues], axis=1)
+
+
+def step_count(cues: Sequence[Cue], fps: float) -> int:
+    """How many frames cues last: up to the first one at or after the last cue's end.
+
+    Raises
+    ------
+    ParameterError
+        As `sequence`.
+    """
     _check_fps(fps)
     if not cues:
         raise ParameterError("cues", "must contain at least one cue", 0)
     end = max(cue.start + cue.duration for cue in cues)
     if not end * fps < FRAMES_LIMIT:
         raise ParameterError("cues", f"must end within {FRAMES_LIMIT} frames", end * fps)
-    times = np.arange(math.ceil(end * fps - 1e-6) + 1) / fps  # a millionth of a frame is rounding, not time
-    return np.stack([cue.strength(times) for cue in cues], axis=1)
+    return math.ceil(end * fps - 1e-6) + 1  # a millionth of a frame is rounding, not time
 
 
 def load_timings(path: str | Path = TIMINGS) -> Mapping[str, Timing]:

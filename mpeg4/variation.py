@@ -7,7 +7,7 @@ shorter one. Figures and their sources stand in presets/variation.toml.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from pathlib import Path
@@ -167,6 +167,16 @@ class Liveliness:
                 result = np.where(np.isnan(turned), result, np.nan_to_num(result) + np.nan_to_num(turned))
         return result
 
+    def borne_all(self, frames: Floats, cues: Sequence[Cue], shares: Floats) -> Floats:
+        """Frames (T, 68) with the same, of cues in shares (T, C)."""
+        result = frames
+        for cue, share in zip(cues, shares.T, strict=True):
+            if cue.profile.bearing is not None:
+                full = cue.profile.bearing.frame(eyes=min(self.eyes.amount, 1.0), head=min(self.head.amount, 1.0))
+                turned = (share > 0.0)[:, None] & ~np.isnan(full)
+                result = np.where(turned, np.nan_to_num(result) + share[:, None] * np.nan_to_num(full), result)
+        return result
+
     def over(self, count: int, fps: float, habits: Habits | None = None) -> Overlay:
         """What is laid over `count` frames."""
         known = load_habits() if habits is None else habits
@@ -197,18 +207,20 @@ class Overlay:
 
     def upon(self, frame: Floats, number: int) -> Floats:
         """A frame (68,) with that of this number laid over it; NaN stays where neither says anything."""
-        added, closure = self.added[number], float(self.closure[number])
-        result: Floats = np.where(np.isnan(added), frame, np.nan_to_num(frame) + np.nan_to_num(added))
-        if closure > 0.0:
-            for lids, share in ((UPPER_LIDS, self.habit.upper), (LOWER_LIDS, self.habit.lower)):
-                place = [lid - 1 for lid in lids]
-                open_at = np.nan_to_num(result[place])
-                result[place] = open_at + closure * (np.maximum(share * GAP, open_at) - open_at)
-        return result
+        only = replace(self, added=self.added[number : number + 1], closure=self.closure[number : number + 1])
+        return np.asarray(only.upon_all(frame[None])[0])
 
     def upon_all(self, frames: Floats) -> Floats:
         """Frames (T, 68) with all of it laid over them."""
-        return np.stack([self.upon(frame, number) for number, frame in enumerate(frames)])
+        laid = np.where(np.isnan(self.added), frames, np.nan_to_num(frames) + np.nan_to_num(self.added))
+        shut = np.flatnonzero(self.closure > 0.0)
+        if not len(shut):
+            return laid
+        for lids, share in ((UPPER_LIDS, self.habit.upper), (LOWER_LIDS, self.habit.lower)):
+            place = np.ix_(shut, [lid - 1 for lid in lids])
+            open_at = np.nan_to_num(laid[place])
+            laid[place] = open_at + self.closure[shut, None] * (np.maximum(share * GAP, open_at) - open_at)
+        return laid
 
 
 def drawn_within(profile: Profile, drawn: Drawn) -> Profile:
@@ -314,7 +326,7 @@ def eye_motion(count: int, fps: float, eyes: Drawn, habit: EyesHabit) -> Floats:
         return frames
     times = _times(count, fps)
     rng = np.random.default_rng(eyes.seed)
-    gaze, here, begin = np.zeros((count, 2)), np.zeros(2), 0.0
+    gaze, held, here, begin = np.zeros((count, 2)), np.zeros((count + 1, 2)), np.zeros(2), 0.0
     end = times[-1] - habit.settle if count else 0.0
     while True:
         begin += float(rng.lognormal(math.log(habit.fixation), habit.fixation_spread))
@@ -322,11 +334,13 @@ def eye_motion(count: int, fps: float, eyes: Drawn, habit: EyesHabit) -> Floats:
         if begin >= end:
             begin, there = end, np.zeros(2)
         lasts = habit.shift_least + habit.shift_per_degree * float(np.linalg.norm(there - here))
-        later = slice(max(int(begin * fps), 0), None)
-        gaze[later] += Ramp.MINIMUM_JERK.at(times[later] - begin, lasts)[:, None] * (there - here)
+        near = slice(max(int(begin * fps), 0), min(max(int((begin + lasts) * fps) + 2, 0), count))
+        gaze[near] += Ramp.MINIMUM_JERK.at(times[near] - begin, lasts)[:, None] * (there - here)
+        held[near.stop] += there - here  # from then on, whatever follows
         if begin >= end:
             break
         here, begin = there, begin + lasts
+    gaze += np.cumsum(held[:count], axis=0)
     for numbers, axis in ((EYES_ASIDE, 0), (EYES_DOWN, 1)):
         frames[:, [number - 1 for number in numbers]] = _units(1.0) * gaze[:, axis, None]
     return frames

@@ -12,4 +12,5 @@ accompaniment  what lids, brows and head do with speech
 feeling        speech and emotion share a face
 recorded       timings, and mouths as they were recorded
 saying         the whole: what is said, with feeling, as a stream
+glimpse        one moment of it, told from what is near
 """

@@ -62,7 +62,8 @@ def accompanying(utterance: Utterance, liveliness: Liveliness, count: int, fps: 
     """
     overlay = liveliness.over(count, fps)
     beats = _beats(utterance, liveliness, np.arange(count) / fps)
-    added = np.where(np.isnan(beats), overlay.added, np.nan_to_num(overlay.added) + np.nan_to_num(beats))
+    beating, added = ~np.isnan(beats).all(axis=0), overlay.added.copy()
+    added[:, beating] = np.nan_to_num(added[:, beating]) + beats[:, beating]
     return replace(overlay, added=added, closure=_in_pauses(overlay.closure, utterance, fps))
 
 
@@ -101,6 +102,12 @@ def stressed(utterance: Utterance) -> list[Sound]:
     return found
 
 
+def by_rule(utterance: Utterance, liveliness: Liveliness | None) -> tuple[str, ...]:
+    """What is to be said where brows and head beat on words of which nobody has marked the stress."""
+    beats = liveliness is not None and liveliness.head.amount > 0.0
+    return (BY_RULE,) if beats and utterance.words and not is_marked(utterance) else ()
+
+
 def is_marked(utterance: Utterance) -> bool:
     """Whether its source says what is stressed."""
     return any(sound.stress for sound in utterance.sounds)
@@ -108,17 +115,19 @@ def is_marked(utterance: Utterance) -> bool:
 
 def _in_pauses(closure: Floats, utterance: Utterance, fps: float) -> Floats:
     """(T,) closures of blinks, each moved into the nearest pause in reach, where one is; two do not fall together."""
-    moved, taken = np.zeros(len(closure)), list[float]()
-    pauses = _pauses(utterance, len(closure) / fps)
+    moved = np.zeros(len(closure))
+    pauses, reach, taken = _pauses(utterance, len(closure) / fps), figures().reach, set[float]()
     shut = np.concatenate([[False], closure > 0.0, [False]])
     starts, ends = np.flatnonzero(~shut[:-1] & shut[1:]), np.flatnonzero(shut[:-1] & ~shut[1:])
     for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
         middle = 0.5 * (start + end) / fps
-        near = [pause for pause in pauses if abs(pause - middle) <= figures().reach and pause not in taken]
+        within = pauses[bisect_left(pauses, middle - reach) : bisect_right(pauses, middle + reach)]
+        near = [pause for pause in within if pause not in taken]
         shift = 0
         if near:
-            taken.append(min(near, key=lambda pause: abs(pause - middle)))
-            shift = round((taken[-1] - middle) * fps)
+            nearest = min(near, key=lambda pause: abs(pause - middle))
+            taken.add(nearest)
+            shift = round((nearest - middle) * fps)
         first = min(max(start + shift, 0), len(closure) - (end - start))
         place = slice(first, first + end - start)
         moved[place] = np.maximum(moved[place], closure[start:end])

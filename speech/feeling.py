@@ -11,8 +11,9 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ParameterError
 from ..mpeg4 import FAP_COUNT
+from ..progress import Progress, Work, part_of, run
 from ..tables import KeyedTable, read_toml
-from .articulation.blending import Aim
+from .articulation.blending import AT_ONCE, Aim
 from .articulation.closures import closing, reached, span
 from .articulation.parts import FAPS_OF, Manner, MouthPart, beside_jaw, carried_by_jaw, manner
 from .phonemes import FOLDER
@@ -70,19 +71,28 @@ def mixed(spoken: Floats, felt: Floats, utterance: Utterance, fps: float, *, lea
     ------
     ParameterError : shapes that differ, or a value outside its range.
     """
+    return run(mixed_steps(spoken, felt, utterance, fps, lean=lean))
+
+
+def mixed_steps(
+    spoken: Floats, felt: Floats, utterance: Utterance, fps: float, *, lean: float = 1.0
+) -> Work[Floats]:
+    """`mixed`, bit by bit."""
     if spoken.shape != felt.shape or spoken.shape[1:] != (FAP_COUNT,):
         raise ParameterError("felt", f"must have the shape of spoken, {spoken.shape}", felt.shape)
     if not 0.0 <= lean <= MOST:
         raise ParameterError("lean", f"must be from 0 to {MOST:g}", lean)
     how, figures = manner(), sharing()
     times = np.arange(len(spoken)) / fps
-    speaking, closure = _speaking(utterance, times, figures.turn, how.pause), _closure(utterance, times, how)
+    speaking = yield from part_of(_speaking(utterance, times, figures.turn, how.pause), 0.0, 0.4)
+    closure = yield from part_of(_closure(utterance, times, how), 0.4, 0.7)
     rounding = np.clip(
         np.nan_to_num(spoken[:, [number - 1 for number in FAPS_OF[MouthPart.ROUNDING]]]).mean(axis=1)
         / figures.rounded_full,
         0.0,
         1.0,
     )
+    yield Progress(0.7, "Speech and feeling mixed")
     frames, kept = np.where(np.isnan(spoken), felt, spoken), beside_jaw(np.nan_to_num(felt))
     for part in MouthPart:
         share = np.full(len(times), lean * figures.speaking[part])
@@ -90,6 +100,7 @@ def mixed(spoken: Floats, felt: Floats, utterance: Utterance, fps: float, *, lea
             share = share * (1.0 - rounding * (1.0 - figures.rounded_width))
         share = np.minimum(share * (1.0 - closure * (1.0 - figures.closed[part])), 1.0)
         kept[:, [number - 1 for number in FAPS_OF[part]]] *= (1.0 - speaking * (1.0 - share))[:, None]
+    yield Progress(0.9, "Speech and feeling mixed")
     # A jaw that opens less takes less of the lower lip along.
     both = np.nan_to_num(spoken) + carried_by_jaw(kept)
     shared = [number - 1 for part in MouthPart for number in FAPS_OF[part]]
@@ -98,10 +109,13 @@ def mixed(spoken: Floats, felt: Floats, utterance: Utterance, fps: float, *, lea
     return frames
 
 
-def _speaking(utterance: Utterance, times: Floats, turn: float, pause: float) -> Floats:
+def _speaking(utterance: Utterance, times: Floats, turn: float, pause: float) -> Work[Floats]:
     """(T,) how far the mouth is speech's: 1 while sounds last, 0 in pauses, evenly between."""
     share = np.zeros(len(times))
-    for start, end in _runs(utterance, pause):
+    runs = _runs(utterance, pause)
+    for number, (start, end) in enumerate(runs):
+        if number % AT_ONCE == 0:
+            yield Progress.counted(number, len(runs), "stretches of speech found")
         near = span(times, start - turn, end + turn)
         away = np.maximum(np.maximum(start - times[near], times[near] - end), 0.0)
         share[near] = np.maximum(share[near], 0.5 + 0.5 * np.cos(np.pi * np.clip(away / turn, 0.0, 1.0)))
@@ -119,11 +133,13 @@ def _runs(utterance: Utterance, pause: float) -> list[tuple[float, float]]:
     return runs
 
 
-def _closure(utterance: Utterance, times: Floats, how: Manner) -> Floats:
+def _closure(utterance: Utterance, times: Floats, how: Manner) -> Work[Floats]:
     """(T,) how far lips are held closed or at the teeth."""
     step = float(times[1] - times[0]) if len(times) > 1 else 0.0
     share = np.zeros(len(times))
-    for sound in utterance.sounds:
+    for number, sound in enumerate(utterance.sounds):
+        if number % AT_ONCE == 0:
+            yield Progress.counted(number, len(utterance.sounds), "closures found")
         if sound.phoneme.own and (closure := how.closures.get(sound.phoneme.viseme)) is not None:
             aim = Aim(sound.start, sound.end, sound.phoneme.viseme, np.empty(0), min(sound.strength, 1.0))
             near = span(times, *reached(aim, closure, step))

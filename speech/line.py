@@ -169,11 +169,8 @@ def together(parts: Iterable[tuple[float, float, Line]], assumed: tuple[str, ...
         until = _first(*spoken[number + 1]) if number + 1 < len(spoken) else float("inf")
         end = max(end, min(start + scale * line.duration, until))
         for word in line.words:
-            timed = [
-                replace(s, start=start + scale * s.start, end=min(start + scale * s.end, until), strength=s.strength)
-                for s in _at(word)
-            ]
-            timed = [sound for sound in timed if sound.end - sound.start > 1e-6]
+            times = [(s, start + scale * s.start, min(start + scale * s.end, until)) for s in _at(word)]
+            timed = [_timed(sound, first, last) for sound, first, last in times if last - first > 1e-6]
             if timed and word.text:
                 words.append(SpokenWord(timed[0].start, timed[-1].end, word.text))
             sounds += timed
@@ -200,7 +197,14 @@ def _first(start: float, scale: float, line: Line) -> float:
 
 def _at(word: LineWord) -> tuple[Sound, ...]:
     """A word's sounds, as distinct as the word is said."""
+    if word.strength == 1.0:
+        return word.sounds
     return tuple(replace(s, strength=min(s.strength * word.strength, STRONGEST)) for s in word.sounds)
+
+
+def _timed(sound: Sound, start: float, end: float) -> Sound:
+    """A sound at another time; itself where it is there already: an hour has tens of thousands."""
+    return sound if (sound.start, sound.end) == (start, end) else replace(sound, start=start, end=end)
 
 
 def _in_order(sounds: Iterable[Sound]) -> list[Sound]:
@@ -209,7 +213,7 @@ def _in_order(sounds: Iterable[Sound]) -> list[Sound]:
     for sound in sounds:
         start = max(sound.start, kept[-1].end) if kept else max(sound.start, 0.0)
         if sound.end - start > 1e-6:
-            kept.append(replace(sound, start=start))
+            kept.append(_timed(sound, start, sound.end))
     return kept
 
 

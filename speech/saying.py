@@ -10,12 +10,23 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError
-from ..face.drive.over_time import cue_plans
-from ..face.drive.request import Drive
-from ..mpeg4 import ARCHETYPES, FAP_COUNT, Cue, FapStream, Liveliness, Profile, emotion_weights, load_timings, strengths
-from .accompaniment import BY_RULE, accompanying, is_marked
-from .articulation import articulate
-from .feeling import mixed
+from ..face.drive.over_time import cue_goals
+from ..mpeg4 import (
+    ARCHETYPES,
+    FAP_COUNT,
+    Cue,
+    FapStream,
+    Liveliness,
+    Profile,
+    emotion_weights,
+    load_timings,
+    step_count,
+    strengths,
+)
+from ..progress import Progress, Report, Work, part_of, run
+from .accompaniment import accompanying, by_rule
+from .articulation import articulate_steps, spoken_frames
+from .feeling import mixed_steps
 from .phonemes import Alphabet
 from .recorded import read_timings
 from .utterance import Utterance
@@ -56,6 +67,7 @@ def say(
     seed: int | None = None,
     tier: str | None = None,
     alphabet: str | Alphabet | None = None,
+    progress: Report | None = None,
 ) -> Saying:
     """Say something, with feeling: lips, jaw and tongue from speech, brows and eyes from the emotion.
 
@@ -70,6 +82,7 @@ def say(
     liveliness : blinks, at pauses where there are some, small motions of head and eyes, and beats of brows and head on
         stressed words, as large as the head's motions.
     seed : draws the way in which the emotion is shown.
+    progress : called with each step; an hour of speech takes seconds.
 
     Raises
     ------
@@ -85,26 +98,66 @@ def say(
     >>> bool(lower_lip + upper_lip > 0.0)  # closed
     True
     """
+    work = say_steps(
+        said if isinstance(said, Utterance) else read_timings(said, tier=tier, alphabet=alphabet),
+        emotion=emotion,
+        cues=cues,
+        begin=begin,
+        fps=fps,
+        articulation=articulation,
+        jaw=jaw,
+        lean=lean,
+        liveliness=liveliness,
+        seed=seed,
+    )
+    return run(work, progress)
+
+
+def say_steps(
+    utterance: Utterance,
+    *,
+    emotion: Profile | None = None,
+    cues: Sequence[Cue] = (),
+    begin: float = 0.0,
+    fps: float = 25.0,
+    articulation: float = 1.0,
+    jaw: float = 1.0,
+    lean: float = 1.0,
+    liveliness: Liveliness | None = None,
+    seed: int | None = None,
+) -> Work[Saying]:
+    """`say` an utterance, bit by bit, for who shows progress or cancels.
+
+    Raises
+    ------
+    ParameterError : as `say`.
+    """
     if emotion is not None and cues:
         raise ParameterError("cues", "must be left out where an emotion is given", len(cues))
-    utterance = said if isinstance(said, Utterance) else read_timings(said, tier=tier, alphabet=alphabet)
-    spoken = articulate(utterance, fps, articulation=articulation, jaw=jaw)
     felt_cues = tuple(cues) if emotion is None else (_throughout(emotion, utterance, seed),)
-    ahead = round(begin * fps)
+    spoken = yield from part_of(articulate_steps(utterance, fps, articulation=articulation, jaw=jaw), 0.0, 0.6)
+    yield Progress(0.6, "Laying out the feeling")
+    ahead, count = round(begin * fps), frames_of(utterance, felt_cues, begin=begin, fps=fps)
     shown = emotion_weights(felt_cues, fps=fps) if felt_cues else np.zeros((0, len(ARCHETYPES)))
-    count = max(len(spoken), len(shown) - ahead)
     spoken = _lasting(spoken, count)
     emotions = _shifted(shown, ahead, count, 0.0)
-    felt = _shifted(_planned(felt_cues, fps), ahead, count, np.nan)
+    felt = _shifted((yield from part_of(_planned(felt_cues, fps), 0.6, 0.7)), ahead, count, np.nan)
     if liveliness is not None:
+        yield Progress(0.7, "Laying out blinks and beats")
         shares = strengths(felt_cues, fps=fps) if felt_cues else np.zeros((0, 0))
-        felt = _borne(felt, felt_cues, _shifted(shares, ahead, count, 0.0), liveliness)
-        felt = accompanying(utterance, liveliness, count, fps).upon_all(felt)
-    frames = mixed(spoken, felt, utterance, fps, lean=lean)
-    beats = liveliness is not None and liveliness.head.amount > 0.0
-    by_rule = (BY_RULE,) if beats and utterance.words and not is_marked(utterance) else ()
-    assumed = (*utterance.assumed, *by_rule)
+        felt = liveliness.borne_all(felt, felt_cues, _shifted(shares, ahead, count, 0.0))
+        laid = accompanying(utterance, liveliness, count, fps)
+        yield Progress(0.8, "Laying out blinks and beats")
+        felt = laid.upon_all(felt)
+    frames = yield from part_of(mixed_steps(spoken, felt, utterance, fps, lean=lean), 0.8, 1.0)
+    assumed = (*utterance.assumed, *by_rule(utterance, liveliness))
     return Saying(utterance, FapStream(frames, fps=fps, name="speech", assumed=assumed), emotions, assumed)
+
+
+def frames_of(utterance: Utterance, cues: Sequence[Cue] = (), *, begin: float = 0.0, fps: float = 25.0) -> int:
+    """How many frames speech with cues lasts (`say_steps`), without working it out."""
+    felt = step_count(cues, fps) - round(begin * fps) if cues else 0
+    return max(spoken_frames(utterance, fps), felt)
 
 
 def _throughout(emotion: Profile, utterance: Utterance, seed: int | None) -> Cue:
@@ -118,10 +171,9 @@ def _lasting(spoken: Floats, count: int) -> Floats:
     return np.concatenate([spoken, np.repeat(spoken[-1:], count - len(spoken), axis=0)])
 
 
-def _planned(cues: Sequence[Cue], fps: float) -> Floats:
+def _planned(cues: Sequence[Cue], fps: float) -> Work[Floats]:
     """(T, 68) what the natural drive plans for cues; NaN where nothing."""
-    plans = [plan.goal for plan in cue_plans(cues, fps, Drive.NATURAL)] if cues else []
-    return np.array(plans).reshape(len(plans), FAP_COUNT)
+    return (yield from cue_goals(cues, fps)) if cues else np.zeros((0, FAP_COUNT))
 
 
 def _shifted(rows: Floats, ahead: int, count: int, otherwise: float) -> Floats:
@@ -131,9 +183,3 @@ def _shifted(rows: Floats, ahead: int, count: int, otherwise: float) -> Floats:
     if last > first:
         result[first:last] = rows[first + ahead : last + ahead]
     return result
-
-
-def _borne(felt: Floats, cues: Sequence[Cue], shares: Floats, liveliness: Liveliness) -> Floats:
-    """(T, 68) with what words do with head and eyes; shares (T, C) of the cues."""
-    rows = zip(felt, shares, strict=True)
-    return np.array([liveliness.borne(faps, zip(cues, row.tolist(), strict=True)) for faps, row in rows])

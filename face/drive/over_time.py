@@ -18,9 +18,11 @@ from ...mpeg4 import (
     Liveliness,
     Overlay,
     sequence,
+    step_count,
     strengths,
     way_drawn,
 )
+from ...progress import Progress, Work
 from .drives import DRIVES
 from .natural.planning import LID_FAPS
 from .plan import Plan, blended
@@ -79,6 +81,33 @@ def cue_plans(
 def apex_plans(cues: Iterable[Cue], drive: Drive) -> list[Plan]:
     """Each cue's plan at the apex of its profile, drawn by the cue's seed."""
     return [DRIVES[drive].plan(Request(cue.profile.frame(cue.seed), drive, _felt(cue))) for cue in cues]
+
+
+def cue_goals(cues: Sequence[Cue], fps: float) -> Work[Floats]:
+    """(T, 68) the goals of `cue_plans` in the natural drive: where only these are asked, an hour takes a moment."""
+    return (yield from goals_at(cues, np.arange(step_count(cues, fps)) / fps))
+
+
+def goals_at(cues: Sequence[Cue], times: Floats) -> Work[Floats]:
+    """The same at any times (T,), seconds.
+
+    Returns
+    -------
+    (T, 68) float64, FAP units; NaN where nothing is known of the FAP at the time.
+    """
+    goals, found = np.empty((len(cues), FAP_COUNT)), dict[str, Floats]()
+    for number, cue in enumerate(cues):
+        alike = repr((cue.profile, cue.seed))
+        if alike not in found:
+            yield Progress.counted(number, len(cues), "expressions planned")
+            found[alike] = apex_plans([cue], Drive.NATURAL)[0].goal
+        goals[number] = found[alike]
+    weights = np.array([cue.strength(times) for cue in cues]).T
+    known, shown = ~np.isnan(goals), weights > 0.0
+    mixed = weights / np.maximum(weights.sum(axis=1, keepdims=True), 1.0) @ np.where(known, goals, 0.0)
+    # As a face at rest is planned where nothing shows; as `blended` has it.
+    asked = np.where(shown.any(axis=1)[:, None], shown.astype(np.float64) @ known > 0.0, known[0])
+    return np.where(asked, mixed, np.nan)
 
 
 def _felt(cue: Cue) -> Feeling:

@@ -12,6 +12,7 @@ from ...scene.bake.strips import ClipShape, bake_strips
 from ...scene.rig import bake_expression_onto, bake_motion_onto
 from ...scene.rig.destinations import BakeTo, find_rig
 from ...scene.rig.strips import bake_strips_onto
+from ...speech.accompaniment import by_rule
 from ..active import target_of
 from ..blender_types import Object, Scene
 from ..emotion.performance import Performance, performance_of
@@ -82,7 +83,8 @@ def motion_work(obj: Object, scene: Scene, where: Destination | None = None) -> 
 def _spoken(work: Work[bake.BakeResult], performance: Performance) -> Work[bake.BakeResult]:
     """A bake with what is to be said of its speech."""
     result = yield from work
-    said = () if performance.speech is None else performance.speech.remarks
+    speech = performance.speech
+    said = () if speech is None else (*speech.remarks, *by_rule(speech.utterance, performance.liveliness))
     return replace(result, remarks=(*result.remarks, *said, *unshown(performance)))
 
 

@@ -230,8 +230,9 @@ def _sketched(obj: Object, face: LiveFace, performance: Performance, motion: Mot
     """(V, 3) what shows at a frame of the scene, as far as it can be told without what was before; None at rest."""
     if isinstance(motion, SpeechMotion):
         step = round(frame - performance.first_frame)
-        said = motion.made.stream
-        return face.spoken(said[step], drive=obj.risorius.emotion.drive) if 0 <= step < len(said) else None
+        if not 0 <= step < motion.frame_count(performance.fps):
+            return None
+        return face.spoken(motion.at(step), drive=obj.risorius.emotion.drive)
     shares = performance.shares(frame)
     if not shares.any():
         return None

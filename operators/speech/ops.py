@@ -9,6 +9,7 @@ from ...scene.bake.motion import FapMotion
 from ...scene.bake.timing import scene_fps
 from ...scene.points.found import Finding
 from ...scene.sounds import add_sound, add_wav
+from ...speech.saying import say_steps
 from ..active import active_object
 from ..bake.destination import bake_reason
 from ..bake.ops import BakeOperator
@@ -18,8 +19,8 @@ from ..blender_types import Context, Scene
 from ..emotion.performance import performance_of
 from .heard import Heard, heard, nothing_said
 
-#: The share of finding out what is said in the whole.
-READING = 0.1
+#: The shares of finding out what is said in the whole, and of that and what the face does then.
+READING, SAYING = 0.1, 0.15
 
 
 class RISORIUS_OT_speak(BakeOperator, Operator):
@@ -47,8 +48,6 @@ class RISORIUS_OT_speak(BakeOperator, Operator):
 
     def baking(self, context: Context) -> Work[BakeResult]:
         """Find out what is said when, then bake it from the current frame on."""
-        from ... import api
-
         obj, scene = active_object(context), context.scene
         chosen, fps = obj.risorius.speech, scene_fps(scene)
         yield Progress(0.0, "Speaking the text" if chosen.source == "TEXT" else "Reading the timings")
@@ -56,7 +55,7 @@ class RISORIUS_OT_speak(BakeOperator, Operator):
         utterance = self._heard.utterance
         performance = performance_of(obj, scene)
         feels, clips = bool(chosen.with_feeling), bool(obj.risorius.timeline.clips)
-        saying = api.say(
+        work = say_steps(
             utterance,
             emotion=performance.wanted[0].profile if feels and not clips else None,
             cues=performance.cues if feels and clips else (),
@@ -68,11 +67,12 @@ class RISORIUS_OT_speak(BakeOperator, Operator):
             liveliness=performance.liveliness,
             seed=performance.cues[0].seed if feels and not clips else None,
         )
+        saying = yield from part_of(work, READING, SAYING)
         said = unshown(performance) if chosen.with_feeling else ()
-        self._said, self._start = (*utterance.assumed, *said), int(scene.frame_current)
+        self._said, self._start = (*saying.assumed, *said), int(scene.frame_current)
         motion = FapMotion(saying.stream.frames, saying.emotions, planned=True)
-        work = stream_work(obj, scene, motion, clip=self._heard.title, start=float(self._start))
-        return (yield from part_of(work, READING, 1.0))
+        baking = stream_work(obj, scene, motion, clip=self._heard.title, start=float(self._start))
+        return (yield from part_of(baking, SAYING, 1.0))
 
     def finish(self, context: Context, result: BakeResult | Finding) -> str:
         """Put the sound where it belongs, and say what was assumed."""

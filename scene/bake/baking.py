@@ -147,12 +147,13 @@ def bake_motion(
     yield Progress(0.02, "Placing the muscles")
     face = yield from part_of(face_steps(source), 0.02, 0.03)
     yield from part_of(face.prepare(), 0.03, 0.1)
+    yield from part_of(motion.prepare(), 0.1, 0.12)
     between = motion.between(face, drive)
     within, said = tolerance * face.scale, tuple[str, ...]()
     if between is None:
-        packed, missed = yield from part_of(_simulated(face, motion, rate, drive, within, max_keys), 0.1, 0.97)
+        packed, missed = yield from part_of(_simulated(face, motion, rate, drive, within, max_keys), 0.12, 0.97)
     else:
-        long = yield from part_of(between, 0.1, 0.7)
+        long = yield from part_of(between, 0.12, 0.7)
         packed, missed = yield from part_of(_between(face, long, within, max_keys), 0.7, 0.97)
         said = (long_remark(clip, long),)
     said += few_keys_remarks(clip, packed, within)

@@ -25,6 +25,10 @@ SIMULATED = 1000
 class Motion(Protocol):
     """Anything that moves a face."""
 
+    def prepare(self) -> Work[None]:
+        """Work out what all but `frame_count` need, where that takes long; without it, it is done when needed."""
+        ...
+
     def frame_count(self, fps: float) -> int:
         """Number of frames at a frame rate."""
         ...
@@ -54,6 +58,10 @@ class CueMotion:
     contractions: Sequence[Mapping[str, float]] | None = None
     tissue: str | Tissue = "default"
     liveliness: Liveliness | None = None
+
+    def prepare(self) -> Work[None]:
+        """Nothing takes long."""
+        yield from ()
 
     def frame_count(self, fps: float) -> int:
         """Frames to the end of the last cue."""
@@ -98,6 +106,10 @@ class FapMotion:
     def __post_init__(self) -> None:
         if len(self.stream) == 0:
             raise ParameterError("frames", "must contain at least one frame", len(self.stream))
+
+    def prepare(self) -> Work[None]:
+        """All is there."""
+        yield from ()
 
     def frame_count(self, fps: float) -> int:
         """The stream's own frames."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from ...arrays import Floats
 from ...mpeg4 import Cue, Liveliness
-from ...progress import Prepared, Work
+from ...progress import Prepared, Work, stepwise, worked_out
 from .motion import FapMotion
 
 if TYPE_CHECKING:
@@ -36,25 +37,37 @@ class SpeechMotion:
     lean: float = 1.0
     liveliness: Liveliness = field(default_factory=Liveliness)
 
-    @cached_property
-    def made(self) -> FapMotion:
+    @stepwise
+    def made(self) -> Work[FapMotion]:
         """Its frames, planned."""
-        from ... import api
+        from ...speech.saying import say_steps
 
-        saying = api.say(
-            self.utterance,
-            cues=self.cues,
-            fps=self.fps,
-            articulation=self.articulation,
-            jaw=self.jaw,
-            lean=self.lean,
-            liveliness=self.liveliness,
-        )
+        work = say_steps(self.utterance, cues=self.cues, fps=self.fps, liveliness=self.liveliness, **self._manner)
+        saying = yield from work
         return FapMotion(saying.stream.frames, saying.emotions, planned=True)
+
+    @property
+    def _manner(self) -> dict[str, float]:
+        """How it is said."""
+        return {"articulation": self.articulation, "jaw": self.jaw, "lean": self.lean}
+
+    def prepare(self) -> Work[None]:
+        """Work out its frames: seconds for an hour."""
+        yield from worked_out(self, "made")
 
     def frame_count(self, fps: float) -> int:
         """Frames to the end of speech and expressions."""
-        return self.made.frame_count(fps)
+        from ...speech.saying import frames_of
+
+        return frames_of(self.utterance, self.cues, fps=self.fps)
+
+    def at(self, step: int) -> Floats:
+        """(68,) one of its frames, at once; as long as they are not worked out, without blinks and small motions."""
+        from ...speech.glimpse import glimpse
+
+        if "made" in vars(self):
+            return np.asarray(self.made.stream[step])
+        return glimpse(self.utterance, self.cues, step / self.fps, self.fps, **self._manner)
 
     def positions(self, face: Face, fps: float, drive: str) -> Prepared[Floats]:
         """Each frame in balance: speech has its inertia already."""

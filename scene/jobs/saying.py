@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 def say_file(
     out: str | Path,
-    say: Callable[[float], Saying],
+    say: Callable[[float], Work[Saying]],
     *,
     sound: str | Path | None = None,
     fps: float | None = None,
@@ -48,7 +48,7 @@ def say_file(
 
     Parameters
     ----------
-    say : makes the speech at a frame rate: that of the scene.
+    say : makes the speech at a frame rate, that of the scene: `api.say_steps`.
     sound : a sound file that begins with the speech; in a .blend it goes to the sequencer.
     fps, mesh, points, object_name : see `inputs.Input`. Others as for `words.bake_file`.
 
@@ -64,7 +64,7 @@ def say_file(
 
 def _say(
     out: Path,
-    say: Callable[[float], Saying],
+    say: Callable[[float], Work[Saying]],
     asked: Input,
     destination: Destination,
     look: Look,
@@ -76,12 +76,12 @@ def _say(
     refuse_unwritable_labels(labels)
     film.refuse_unwritable_output(out)
     face = yield from part_of(subject(asked, creases=bool(creases)), 0.0, 0.05)
-    saying = say(bake.scene_fps())
+    saying = yield from part_of(say(bake.scene_fps()), 0.05, 0.1)
     face = replace(face, remarks=face.remarks + saying.assumed)
     saves = out.suffix.lower() == BLEND
     motion = FapMotion(saying.stream.frames, saying.emotions, planned=True)
     baked = yield from part_of(
-        destination.motion(face, motion, saying.stream.name, creases), 0.05, 0.95 if saves else 0.4
+        destination.motion(face, motion, saying.stream.name, creases), 0.1, 0.95 if saves else 0.4
     )
     if saves:
         if sound is not None:

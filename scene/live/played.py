@@ -34,6 +34,7 @@ class PlayedMotion:
 
     def work(self) -> Work[None]:
         """Work it out, bit by bit, as far as it may be held."""
+        yield from self.motion.prepare()
         moving = self.motion.positions(self._face, self._fps, self._drive)
         yield from moving.prepare()
         frames = max(1, MOST // (self._face.vertices.size * np.dtype(np.float32).itemsize))

@@ -172,12 +172,13 @@ def bake_motion_onto(
     source, face, rig, controls = yield from _prepared(target, find_rig)
     retargeting = api.Retargeting(face, controls, symmetric=onto.symmetric)
     take = retargeting.take(frames_to_look_at(rig, count))
+    yield from part_of(motion.prepare(), 0.7, 0.71)
     between, long = motion.between(face, drive), None
     if between is not None:
-        frames: Iterable[Floats] = (long := (yield from part_of(between, 0.7, 0.75)))
+        frames: Iterable[Floats] = (long := (yield from part_of(between, 0.71, 0.75)))
     else:
         simulated = motion.positions(face, rate, drive)
-        yield from part_of(simulated.prepare(), 0.7, 0.75)
+        yield from part_of(simulated.prepare(), 0.71, 0.75)
         frames = simulated
     for index, positions in enumerate(frames):
         take.add(positions)

@@ -9,10 +9,13 @@ import numpy as np
 
 from ...arrays import Floats
 from ...mpeg4 import FAP_COUNT
+from ...progress import Progress, Work
 from .parts import FAPS_OF, Manner, MouthPart
 
 #: Sounds farther away than this many reaches weigh nothing that shows.
 FAR = 4.0
+#: Sounds between two reports of progress.
+AT_ONCE = 500
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +29,7 @@ class Aim:
     closes: float = 1.0
 
 
-def blended(aims: Sequence[Aim], times: Floats, manner: Manner) -> Floats:
+def blended(aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[Floats]:
     """(T, 68) the mean of what sounds ask at some times, each part weighed in its own way; 0 for FAPs of no part.
 
     Parameters
@@ -34,11 +37,14 @@ def blended(aims: Sequence[Aim], times: Floats, manner: Manner) -> Floats:
     aims : in order of time. times : (T,) seconds, ascending.
     """
     frames = np.zeros((len(times), FAP_COUNT))
-    for part in MouthPart:
+    for place, part in enumerate(MouthPart):
         columns = [number - 1 for number in FAPS_OF[part]]
         total, weights = np.zeros((len(times), len(columns))), np.zeros(len(times))
-        for aim in aims:
-            first, last = _felt(aim, times, manner, part)
+        felt = zip(*_felt(aims, times, manner, part), strict=True)
+        for number, (aim, (first, last)) in enumerate(zip(aims, felt, strict=True)):
+            if number % AT_ONCE == 0:
+                done = (place + number / len(aims)) / len(MouthPart)
+                yield Progress(done, f"Laying out sound {number + 1} of {len(aims)}: {part}")
             weight = _weight(aim, times[first:last], manner, part)
             weights[first:last] += weight
             total[first:last] += weight[:, None] * aim.target[columns]
@@ -46,11 +52,12 @@ def blended(aims: Sequence[Aim], times: Floats, manner: Manner) -> Floats:
     return frames
 
 
-def _felt(aim: Aim, times: Floats, manner: Manner, part: MouthPart) -> tuple[int, int]:
-    """Which times a sound is felt at."""
+def _felt(aims: Sequence[Aim], times: Floats, manner: Manner, part: MouthPart) -> tuple[list[int], list[int]]:
+    """From which time to which each sound is felt."""
     ahead, behind = manner.reach[part]
-    first = int(np.searchsorted(times, aim.start - FAR * ahead))
-    return first, int(np.searchsorted(times, aim.end + FAR * behind, side="right"))
+    first = np.searchsorted(times, np.array([aim.start for aim in aims]) - FAR * ahead)
+    last = np.searchsorted(times, np.array([aim.end for aim in aims]) + FAR * behind, side="right")
+    return first.tolist(), last.tolist()
 
 
 def _weight(aim: Aim, times: Floats, manner: Manner, part: MouthPart) -> Floats:

@@ -8,11 +8,12 @@ import numpy as np
 
 from ...arrays import Floats
 from ...mpeg4 import VISEME_SHAPES
-from .blending import Aim
+from ...progress import Progress, Work
+from .blending import AT_ONCE, Aim
 from .parts import FAPS_OF, JAW, Closure, Manner, MouthPart
 
 
-def closed(frames: Floats, aims: Sequence[Aim], times: Floats, manner: Manner) -> Floats:
+def closed(frames: Floats, aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[Floats]:
     """(T, 68) frames that reach the closure of every sound that has one.
 
     Parameters
@@ -21,9 +22,12 @@ def closed(frames: Floats, aims: Sequence[Aim], times: Floats, manner: Manner) -
     """
     moved = frames.copy()
     step = float(times[1] - times[0]) if len(times) > 1 else 0.0
-    for viseme, closure in manner.closures.items():
+    for place, (viseme, closure) in enumerate(manner.closures.items()):
         share = np.zeros(len(times))
-        for aim in aims:
+        for number, aim in enumerate(aims):
+            if number % AT_ONCE == 0:
+                done = (place + number / len(aims)) / len(manner.closures)
+                yield Progress(done, f"Closing the lips for sound {number + 1} of {len(aims)}")
             if aim.viseme == viseme:
                 near = span(times, *reached(aim, closure, step))
                 share[near] = np.maximum(share[near], closing(aim, closure, times[near], step))

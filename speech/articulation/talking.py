@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
 from ...arrays import Floats
 from ...errors import ParameterError
 from ...mpeg4 import FAP_COUNT
+from ...progress import Progress, Work, part_of, run
 from ..phonemes import Phoneme
 from ..utterance import Sound, Utterance
-from .blending import Aim, blended
+from .blending import AT_ONCE, Aim, blended
 from .closures import closed
 from .parts import FAPS_OF, JAW, Manner, beside_jaw, carried_by_jaw, manner, target
 
@@ -40,30 +42,50 @@ def articulate(utterance: Utterance, fps: float = 25.0, *, articulation: float =
     ------
     ParameterError : a value outside its range.
     """
+    return run(articulate_steps(utterance, fps, articulation=articulation, jaw=jaw))
+
+
+def articulate_steps(
+    utterance: Utterance, fps: float = 25.0, *, articulation: float = 1.0, jaw: float = 1.0
+) -> Work[Floats]:
+    """`articulate`, bit by bit.
+
+    Raises
+    ------
+    ParameterError : a value outside its range.
+    """
     if not (math.isfinite(fps) and fps > 0.0):
         raise ParameterError("fps", "must be a positive number of frames per second", fps)
     for name, value in (("articulation", articulation), ("jaw", jaw)):
         if not 0.0 <= value <= MOST:
             raise ParameterError(name, f"must be from 0 to {MOST:g}", value)
     how = manner()
-    times = np.arange(math.floor(utterance.duration * fps + 1e-9) + 1) / fps
+    times = np.arange(spoken_frames(utterance, fps)) / fps
     share = np.full(FAP_COUNT, articulation)
     share[JAW - 1] = jaw
     if utterance.mouth is not None:
         frames = carried_by_jaw(share * beside_jaw(utterance.mouth.at(times)))
     else:
-        aims = _aims(utterance, how)
-        frames = closed(carried_by_jaw(share * blended(aims, times, how)), aims, times, how)
+        aims = yield from part_of(_aims(utterance, how), 0.0, 0.2)
+        shared = yield from part_of(blended(aims, times, how), 0.2, 0.8)
+        frames = yield from part_of(closed(carried_by_jaw(share * shared), aims, times, how), 0.8, 1.0)
     silent = [number - 1 for number in range(1, FAP_COUNT + 1) if number not in SPOKEN]
     frames[:, silent] = np.nan
     return frames
 
 
-def _aims(utterance: Utterance, how: Manner) -> list[Aim]:
+def spoken_frames(utterance: Utterance, fps: float) -> int:
+    """How many frames an utterance lasts, from 0 s to its end."""
+    return math.floor(utterance.duration * fps + 1e-9) + 1
+
+
+def _aims(utterance: Utterance, how: Manner) -> Work[list[Aim]]:
     """What each sound, and each pause between them, asks of the mouth."""
     marked = any(sound.stress for sound in utterance.sounds)
     aims, at = list[Aim](), 0.0
-    for sound in utterance.sounds:
+    for number, sound in enumerate(utterance.sounds):
+        if number % AT_ONCE == 0:
+            yield Progress.counted(number, len(utterance.sounds), "sounds read")
         if sound.start - at >= how.pause or (not aims and sound.start > 0.0):
             aims.append(_rest(at, sound.start))
         at = sound.end
@@ -74,9 +96,13 @@ def _aims(utterance: Utterance, how: Manner) -> list[Aim]:
     return [*aims, _rest(at, max(utterance.duration, at + how.pause))]
 
 
+#: Each sound of a language is asked for again and again; nobody changes what is asked.
+_target = lru_cache(maxsize=512)(target)
+
+
 def _aim(sound: Sound, opening: float) -> Aim:
     """What a sound asks, as strongly as it is said; opening is the share of the jaw's, for stress."""
-    shape = sound.strength * target(sound.phoneme, jaw=opening)
+    shape = sound.strength * _target(sound.phoneme, jaw=opening)
     return Aim(sound.start, sound.end, sound.phoneme.viseme, shape, min(sound.strength, 1.0))
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import wave
-from functools import partial
 from pathlib import Path
 
 import bpy
@@ -39,11 +38,10 @@ def sound(tmp_path: Path) -> Path:
 
 @pytest.mark.slow
 def test_a_blend_says_what_the_api_says_with_its_sound(said: api.Utterance, sound: Path, tmp_path: Path) -> None:
-    say = partial(api.say, said)
-    made = say_file(tmp_path / "a.blend", lambda fps: say(fps=fps), sound=sound, fps=20.0)
+    made = say_file(tmp_path / "a.blend", lambda fps: api.say_steps(said, fps=fps), sound=sound, fps=20.0)
     bpy.ops.wm.open_mainfile(filepath=str(made.blend))
     scene, obj = bpy.context.scene, bpy.data.objects["Risorius Head"]
-    saying = say(fps=20.0)
+    saying = api.say(said, fps=20.0)
     clip = api.default_face().simulate(saying.stream.frames, 20.0, planned=True, integrator="balance")
     for index in (1, 5, 8):
         scene.frame_set(scene.frame_start + index)
@@ -71,7 +69,7 @@ def test_the_verb_films_speech_with_its_sound(sound: Path, tmp_path: Path) -> No
 
 def test_a_missing_sound_is_refused_before_anything_is_made(said: api.Utterance, tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"no\.wav: does not exist"):
-        say_file(tmp_path / "a.blend", lambda fps: api.say(said, fps=fps), sound=tmp_path / "no.wav")
+        say_file(tmp_path / "a.blend", lambda fps: api.say_steps(said, fps=fps), sound=tmp_path / "no.wav")
     assert not (tmp_path / "a.blend").exists()
 
 
@@ -79,5 +77,5 @@ def test_a_missing_sound_is_refused_before_anything_is_made(said: api.Utterance,
 def test_what_is_no_sound_is_refused_and_nothing_written(said: api.Utterance, tmp_path: Path) -> None:
     (tmp_path / "a.wav").write_text("this is no sound", encoding="utf-8")
     with pytest.raises(FormatError, match=r"a\.wav: is no sound that this Blender can play"):
-        say_file(tmp_path / "a.blend", lambda fps: api.say(said, fps=fps), sound=tmp_path / "a.wav")
+        say_file(tmp_path / "a.blend", lambda fps: api.say_steps(said, fps=fps), sound=tmp_path / "a.wav")
     assert not (tmp_path / "a.blend").exists()

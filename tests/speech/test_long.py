@@ -1,0 +1,62 @@
+"""Long speech: worked out bit by bit, cancelled at any time, and seen at one moment before all of it is known."""
+
+from __future__ import annotations
+
+import numpy as np
+import risorius.api as api
+from risorius.face.drive.over_time import cue_goals, cue_plans
+from risorius.face.drive.request import Drive
+from risorius.progress import run
+from risorius.speech.glimpse import glimpse
+from risorius.speech.phonemes import phonemes
+
+FPS = 10.0
+JOY, FEAR = api.expression("joy"), api.expression("fear")
+CUES = [
+    api.Cue(JOY, start=0.0, onset=0.4, apex=1.0, offset=0.6),
+    api.Cue(FEAR, start=1.5, onset=0.4, apex=1.0, offset=0.6, seed=3),
+    api.Cue(JOY, start=5.0, onset=0.4, apex=1.0, offset=0.6),
+]
+
+
+def lasting(seconds: float) -> api.Utterance:
+    """Syllables without end, a pause after every eighth sound."""
+    sounds, at = list[api.Sound](), 0.3
+    while at < seconds - 0.5:
+        symbol = ["m", "a", "p", "i", "f", "u", "t", "o"][len(sounds) % 8]
+        sounds.append(api.Sound(at, at + 0.12, phonemes()[symbol], symbol))
+        at += 0.12 if len(sounds) % 8 else 0.7
+    return api.Utterance(tuple(sounds), seconds)
+
+
+def test_longer_speech_tells_more_of_its_progress() -> None:
+    steps = [list(api.say_steps(lasting(seconds), emotion=JOY, fps=FPS)) for seconds in (30.0, 300.0, 900.0)]
+    counts = [len(told) for told in steps]
+    assert counts[0] < counts[1] < counts[2]
+    for told in steps:
+        fractions = [step.fraction for step in told]
+        assert fractions == sorted(fractions)
+        assert all(step.text for step in told)
+
+
+def test_bit_by_bit_it_is_what_is_said_at_once() -> None:
+    told = list[float]()
+    lively = api.Liveliness.usual(2)
+    asked = {"cues": CUES, "fps": FPS, "liveliness": lively}
+    said = api.say(lasting(20.0), progress=lambda step: told.append(step.fraction), **asked)
+    stepped = run(api.say_steps(lasting(20.0), **asked))
+    np.testing.assert_array_equal(said.stream.frames, stepped.stream.frames)
+    assert told
+
+
+def test_feelings_are_planned_as_a_face_plans_them() -> None:
+    plans = np.array([plan.goal for plan in cue_plans(CUES, FPS, Drive.NATURAL)])
+    np.testing.assert_allclose(run(cue_goals(CUES, FPS)), plans, atol=1e-9)
+
+
+def test_one_moment_is_what_all_of_it_has_there() -> None:
+    said = lasting(20.0)
+    frames = api.say(said, cues=CUES, fps=FPS).stream.frames
+    for step in (0, 3, 17, 60, 61, 130, len(frames) - 1):
+        seen = glimpse(said, CUES, step / FPS, FPS)
+        np.testing.assert_allclose(seen, frames[step], atol=1.0, err_msg=str(step))  # FAP units: 0.06 mm of a jaw
