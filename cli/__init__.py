@@ -45,6 +45,9 @@ from .track import add_track_verb
 
 DESCRIPTION = "Animate a face from an emotion word and an activation."
 
+#: The exit code of what Ctrl+C has stopped: 128 and the number of the signal, as shells have it.
+STOPPED = 130
+
 
 def main(argv: list[str] | None = None) -> int:
     """Run one verb and print its result.
@@ -56,7 +59,8 @@ def main(argv: list[str] | None = None) -> int:
     Returns
     -------
     int
-        0 on success, 2 on wrong usage, 1 on any error that Risorius raises on purpose, or where jobs of a batch failed.
+        0 on success, 2 on wrong usage, 1 on any error that Risorius raises on purpose, or where jobs of a batch failed;
+        130 where the user has stopped it.
     """
     parser = _parser()
     try:
@@ -71,6 +75,9 @@ def main(argv: list[str] | None = None) -> int:
     except (RisoriusError, OSError) as error:
         print(f"risorius {arguments.verb}: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print(f"risorius {arguments.verb}: stopped", file=sys.stderr)
+        return STOPPED
     with contextlib.suppress(BrokenPipeError):  # the reader (head, less) has seen enough
         print(json.dumps(plain(result.data), indent=1) if arguments.json else "\n".join(result.lines), flush=True)
     return result.code

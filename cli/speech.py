@@ -134,8 +134,14 @@ def _heard(arguments: argparse.Namespace) -> Iterator[tuple[Utterance, Path | No
     beside = arguments.out.with_suffix(".wav") if suffix == ".blend" else None
     with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
         sound = arguments.sound or beside or Path(folder) / "voice.wav"
+        new = sound == beside and not sound.exists()
         voiced.write(sound)
-        yield voiced.utterance, sound
+        try:
+            yield voiced.utterance, sound
+        except BaseException:  # Ctrl+C, too: without the .blend, nobody has asked for it
+            if new:
+                sound.unlink(missing_ok=True)
+            raise
 
 
 def _said(utterance: Utterance, arguments: argparse.Namespace, fps: float) -> Work[Saying]:

@@ -217,7 +217,7 @@ class Overlay:
         if not len(shut):
             return laid
         for lids, share in ((UPPER_LIDS, self.habit.upper), (LOWER_LIDS, self.habit.lower)):
-            place = np.ix_(shut, [lid - 1 for lid in lids])
+            place = np.ix_(shut, np.array(lids) - 1)
             open_at = np.nan_to_num(laid[place])
             laid[place] = open_at + self.closure[shut, None] * (np.maximum(share * GAP, open_at) - open_at)
         return laid

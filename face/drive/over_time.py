@@ -103,10 +103,10 @@ def goals_at(cues: Sequence[Cue], times: Floats) -> Work[Floats]:
             found[alike] = apex_plans([cue], Drive.NATURAL)[0].goal
         goals[number] = found[alike]
     weights = np.array([cue.strength(times) for cue in cues]).T
-    known, shown = ~np.isnan(goals), weights > 0.0
+    known, shown = np.asarray(~np.isnan(goals)), weights > 0.0
     mixed = weights / np.maximum(weights.sum(axis=1, keepdims=True), 1.0) @ np.where(known, goals, 0.0)
     # As a face at rest is planned where nothing shows; as `blended` has it.
-    asked = np.where(shown.any(axis=1)[:, None], shown.astype(np.float64) @ known > 0.0, known[0])
+    asked = np.where(shown.any(axis=1, keepdims=True), shown.astype(np.float64) @ known > 0.0, known[0])
     return np.where(asked, mixed, np.nan)
 
 

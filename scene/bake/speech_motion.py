@@ -42,14 +42,16 @@ class SpeechMotion:
         """Its frames, planned."""
         from ...speech.saying import say_steps
 
-        work = say_steps(self.utterance, cues=self.cues, fps=self.fps, liveliness=self.liveliness, **self._manner)
-        saying = yield from work
+        saying = yield from say_steps(
+            self.utterance,
+            cues=self.cues,
+            fps=self.fps,
+            articulation=self.articulation,
+            jaw=self.jaw,
+            lean=self.lean,
+            liveliness=self.liveliness,
+        )
         return FapMotion(saying.stream.frames, saying.emotions, planned=True)
-
-    @property
-    def _manner(self) -> dict[str, float]:
-        """How it is said."""
-        return {"articulation": self.articulation, "jaw": self.jaw, "lean": self.lean}
 
     def prepare(self) -> Work[None]:
         """Work out its frames: seconds for an hour."""
@@ -67,7 +69,8 @@ class SpeechMotion:
 
         if "made" in vars(self):
             return np.asarray(self.made.stream[step])
-        return glimpse(self.utterance, self.cues, step / self.fps, self.fps, **self._manner)
+        manner = {"articulation": self.articulation, "jaw": self.jaw, "lean": self.lean}
+        return glimpse(self.utterance, self.cues, step / self.fps, self.fps, **manner)
 
     def positions(self, face: Face, fps: float, drive: str) -> Prepared[Floats]:
         """Each frame in balance: speech has its inertia already."""

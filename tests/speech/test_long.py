@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
+import pytest
 import risorius.api as api
+from risorius.cli import main, speech
 from risorius.face.drive.over_time import cue_goals, cue_plans
 from risorius.face.drive.request import Drive
-from risorius.progress import run
+from risorius.progress import Progress, run
 from risorius.speech.glimpse import glimpse
 from risorius.speech.phonemes import phonemes
 
@@ -60,3 +64,20 @@ def test_one_moment_is_what_all_of_it_has_there() -> None:
     for step in (0, 3, 17, 60, 61, 130, len(frames) - 1):
         seen = glimpse(said, CUES, step / FPS, FPS)
         np.testing.assert_allclose(seen, frames[step], atol=1.0, err_msg=str(step))  # FAP units: 0.06 mm of a jaw
+
+
+def test_ctrl_c_leaves_no_file_and_no_traceback(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table, told = tmp_path / "a.csv", list[str]()
+    table.write_text("start,end,phoneme\n0.0,0.1,m\n0.1,0.2,a\n", encoding="utf-8")
+
+    def stop(step: Progress) -> None:
+        told.append(step.text)
+        if len(told) == 3:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(speech, "when_slow", lambda: stop)
+    assert main(["say", "--timings", str(table), "--out", str(tmp_path / "a.fap")]) == 130
+    assert capsys.readouterr().err.splitlines()[-1] == "risorius say: stopped"
+    assert [path.name for path in tmp_path.iterdir()] == ["a.csv"]
