@@ -74,9 +74,7 @@ def mixed(spoken: Floats, felt: Floats, utterance: Utterance, fps: float, *, lea
     return run(mixed_steps(spoken, felt, utterance, fps, lean=lean))
 
 
-def mixed_steps(
-    spoken: Floats, felt: Floats, utterance: Utterance, fps: float, *, lean: float = 1.0
-) -> Work[Floats]:
+def mixed_steps(spoken: Floats, felt: Floats, utterance: Utterance, fps: float, *, lean: float = 1.0) -> Work[Floats]:
     """`mixed`, bit by bit."""
     if spoken.shape != felt.shape or spoken.shape[1:] != (FAP_COUNT,):
         raise ParameterError("felt", f"must have the shape of spoken, {spoken.shape}", felt.shape)
