@@ -155,10 +155,15 @@ class Anatomy:
             mechanisms=self.mechanisms,
         )
 
+    @property
+    def is_thinned(self) -> bool:
+        """Whether the outer skin is solved on a share of its vertices, as there are too many of them."""
+        return self.given_skin.vertex_count > MOST
+
     @cached_property
     def _thinning(self) -> Thinning | None:
         """The outer skin thinned out, where it is dense."""
-        return Thinning(self.given_skin) if self.given_skin.vertex_count > MOST else None
+        return Thinning(self.given_skin) if self.is_thinned else None
 
     @stepwise
     def skin(self) -> Work[OuterSkin]:

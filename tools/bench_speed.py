@@ -8,7 +8,8 @@
     python tools/bench_speed.py growth [--most 6]                              1,000 to 500,000 vertices
     python tools/bench_speed.py motion [--head ict.npz]                        every head, and how far it is off
     python tools/bench_speed.py films                                          before and after laid over one another
-    python tools/bench_speed.py page                                           docs/performance.md from the last three
+    python tools/bench_speed.py first                                          first pose, new and kept
+    python tools/bench_speed.py page                                           docs/performance.md from the last four
 
 All but the solvers and the page need a Python that has bpy. Everything runs on one core.
 """
@@ -21,7 +22,7 @@ from importlib import import_module
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy is imported
 
-PARTS = ("solvers", "preview", "playback", "redraw", "growth", "motion", "films")
+PARTS = ("solvers", "preview", "playback", "redraw", "growth", "motion", "films", "first")
 #: Written from what those measured, by a Python that has matplotlib.
 PAGE = "page"
 

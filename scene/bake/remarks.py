@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 #: Shape keys that a remark names.
 NAMED = 3
 
+#: How far poses on a share of a dense skin's vertices are from those on all of it (docs/performance.md).
+THINNED_RMS, THINNED_WORST = "1 %", "9 %"
+
 
 def shown_remarks(obj: Object) -> tuple[str, ...]:
     """What the resting face of an object is, where that is not simply its mesh."""
@@ -49,6 +52,14 @@ def sewn_remarks(name: str, sewn: frozenset[str]) -> list[str]:
     return found
 
 
+def thinned_remarks(name: str, face: Face) -> list[str]:
+    """What it means where a skin is so dense that it is solved on a share of its vertices."""
+    if not face.is_thinned:
+        return []
+    off = f"off by about {THINNED_RMS} of the largest displacement (mean square), {THINNED_WORST} at the worst vertex"
+    return [f"{name}: its skin is dense and solved on a share of its vertices: {off}"]
+
+
 def remarks(obj: Object, face: Face | None = None) -> tuple[str, ...]:
     """What an animator should know about a bake on this object that is nevertheless fine."""
     from ...face.products.mouth_room import mouth_border
@@ -64,6 +75,7 @@ def remarks(obj: Object, face: Face | None = None) -> tuple[str, ...]:
             found.append(f"{obj.name}: was edited; its feature points moved to the nearest surface{lost}: check them")
     if face is not None:
         found += sewn_remarks(obj.name, face.sewn)
+        found += thinned_remarks(obj.name, face)
         if mouth_border(face) is not None:
             found.append(f"{obj.name}: its mouth has no inside, what is behind shows through it; use Add Mouth Lining")
     found += shown_remarks(obj)

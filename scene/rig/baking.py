@@ -18,7 +18,7 @@ from ..bake.action import Curve
 from ..bake.baking import BakeResult, long_remark
 from ..bake.motion import Motion
 from ..bake.notes import Note, write_note
-from ..bake.remarks import sewn_remarks, unmet_remarks
+from ..bake.remarks import sewn_remarks, thinned_remarks, unmet_remarks
 from ..bake.target import Target
 from ..bake.timing import ClipTiming, scene_fps
 from ..faces import FaceSource, face_steps, read_face
@@ -208,7 +208,8 @@ def _prepared(target: Target, find_rig: FindRig) -> Work[tuple[FaceSource, Face,
 
 def _about(target: Target, rig: Rig, face: Face) -> tuple[str, ...]:
     """What the user should know about the face, what of it stays behind, and what else moves along."""
-    return (*sewn_remarks(rig.source.head.name, face.sewn), *target.remarks(), *_sharing(rig))
+    name = rig.source.head.name
+    return (*sewn_remarks(name, face.sewn), *thinned_remarks(name, face), *target.remarks(), *_sharing(rig))
 
 
 def _sharing(rig: Rig) -> list[str]:

@@ -59,15 +59,20 @@ def cues() -> list[api.Cue]:
 
 def head(name: str) -> api.Face:
     """A head by its name."""
+    return api.Face.from_arrays(*mesh_of(name))
+
+
+def mesh_of(name: str) -> tuple[Any, Any, Any]:
+    """Vertices, polygons and feature points of a head by its name."""
     if name == "default":
         made = api.build_default_head()
-        return api.Face.from_arrays(made.vertices, made.polygons, made.points)
+        return made.vertices, made.polygons, made.points
     path = shared_folder() / "heads" / name
     mesh, beside = api.read_mesh(path), path.with_suffix(".fp.json")
     points = api.read_point_file(beside) if beside.is_file() else None
     if points is None:
         points = run(api.find_points_steps(mesh.vertices, mesh.polygons)).positions
-    return api.Face.from_arrays(mesh.vertices, mesh.polygons, points)
+    return mesh.vertices, mesh.polygons, points
 
 
 def positions(face: api.Face, **options: Any) -> Any:
@@ -173,6 +178,7 @@ def main(argv: list[str]) -> None:
     parser.add_argument("--head", action="append", choices=HEADS, help="these heads only")
     parser.add_argument("--json", action="store_true", help="of one head: in this process, as JSON")
     parser.add_argument("--out", type=Path, default=OUT / "bench")
+    parser.add_argument("--name", default="motion.json", help="of the file; xpbd.json in a Blender that has that node")
     arguments = parser.parse_args(argv)
     names = arguments.head or list(HEADS)
     if arguments.json:
@@ -180,4 +186,4 @@ def main(argv: list[str]) -> None:
         return
     rows = list(rows_of(names))
     arguments.out.mkdir(parents=True, exist_ok=True)
-    (arguments.out / "motion.json").write_text(json.dumps({"heads": rows}, indent=1))
+    (arguments.out / arguments.name).write_text(json.dumps({"heads": rows}, indent=1))

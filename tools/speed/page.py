@@ -83,6 +83,19 @@ flatters: 1 is in proportion to the vertices. *Longest step* is the longest time
 moments at which a window draws its progress and sees Esc.
 """
 
+FIRST = """## The first pose
+
+Processor time of a head's first pose: *new*, from its mesh and feature points on with nothing worked out before (the
+goals were 1 s at 9,000 vertices and 2.5 s at 26,000); *kept*, the same face out of the user's cache folder, as when a
+file is opened again (the goal was 0.3 s). Each in a process of its own; what Python loads is not counted.
+"""
+
+XPBD = """### Beside XPBD
+
+Blender's experimental cloth on its XPBD solver node, which Blender 4.5 lacks, with a frame of the same ten seconds and
+its older cloth in the same process of Blender {version}.
+"""
+
 THINNING = """### What the coarser skin changes
 
 Poses of the default head with {vertices:,} vertices, solved on {coarse:,} nodes as a denser head would be, against
@@ -105,6 +118,29 @@ of motion all over the head.
 
 With `--max-keys` the same motion has [fewer keys and a larger error](timeline.md#how-many-shape-keys).
 """
+
+
+def first_table(heads: Sequence[dict[str, Any]]) -> str:
+    """A row for each head."""
+    parts = ("read", "prepare", "pose")
+    rows = []
+    for row in heads:
+        new, kept = sum(row[part] for part in parts), row["kept_read"] + row["kept_pose"]
+        figures = [*(row[part] for part in parts), new, kept]
+        rows.append([row["head"].removesuffix(".npz"), f"{row['vertices']:,}", *(f"{each:.2f} s" for each in figures)])
+    return table(("head", "vertices", "read the mesh", "prepare", "pose", "new, in sum", "kept"), rows)
+
+
+def xpbd_table(heads: Sequence[dict[str, Any]]) -> str:
+    """A row for each head, or why there are none."""
+    rows = []
+    for row in heads:
+        blender, own = row["blender"], row["seconds_per_frame"]
+        told = blender["XPBD cloth"]
+        node = told if isinstance(told, str) else f"{ms(told)} ms"
+        figures = [f"{ms(own)} ms", f"{ms(blender['cloth'])} ms", node]
+        rows.append([row["head"].removesuffix(".npz"), *figures, times(blender["cloth"], own), times(told, own)])
+    return table(("head", "a frame here", "cloth", "XPBD", "× cloth", "× XPBD"), rows)
 
 
 def thinning_table(found: dict[str, Any]) -> str:
@@ -229,7 +265,7 @@ def lay_out(rows: Sequence[Path], path: Path) -> None:
 
 
 def main(argv: list[str]) -> None:
-    """Write the page from the figures of the last runs of `growth`, `motion` and `films`."""
+    """Write the page from what `growth`, `motion`, `films` and `first` wrote last, and `motion` in a newer Blender."""
     parser = argparse.ArgumentParser(prog="bench_speed.py page", description=__doc__)
     parser.add_argument("--figures", type=Path, default=OUT / "bench", help="the folder that those wrote to")
     folder = parser.parse_args(argv).figures
@@ -239,7 +275,10 @@ def main(argv: list[str]) -> None:
     films = json.loads((folder / "films.json").read_text())
     lay_out([folder / f"films_{name}.npy" for name in films], LAID_OVER)
     parts = [HEADING, MOTION, motion_table(heads), why_not(heads), GOALS, FILMS, films_table(films)]
-    parts += [PHASES, phase_table(heads), GROWTH]
+    if (folder / "xpbd.json").is_file():
+        newer = json.loads((folder / "xpbd.json").read_text())["heads"]
+        parts[4:4] = [XPBD.format(version=newer[0]["blender"]["version"]), xpbd_table(newer)]
+    parts += [PHASES, phase_table(heads), FIRST, first_table(json.loads((folder / "first.json").read_text())), GROWTH]
     parts += [growth_table(growth["sizes"], growth["exponents"]), THINNING.format(**growth["thinning"])]
     parts += [thinning_table(growth["thinning"]), FILES]
     PAGE.write_text("\n".join(parts))

@@ -202,6 +202,21 @@ def test_an_object_named_as_two_parts(head: Any, cube: Any) -> None:
         bake_key(head, companions=(Companion(cube, Part.EYEBALL_L), Companion(cube, Part.EYEBALL_R)))
 
 
+def test_a_bake_tells_that_dense_skin_is_solved_on_a_share_of_its_vertices(
+    head: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from risorius.face import anatomy
+    from risorius.scene.faces import face_of, read_face
+
+    face = face_of(read_face(head))
+    assert not face.is_thinned
+    assert not any("dense" in line for line in remarks(head, face))
+    monkeypatch.setattr(anatomy, "MOST", 1000)
+    (said,) = (line for line in remarks(head, face) if "dense" in line)
+    assert "off by about 1 %" in said
+    assert "9 % at the worst vertex" in said
+
+
 def test_what_is_fine_is_remarked_on(head: Any) -> None:
     assert remarks(head) == ()
     head.modifiers.new("Subdivision", "SUBSURF").levels = 1
