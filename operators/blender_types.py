@@ -38,6 +38,8 @@ class Object(scene_types.Object, Protocol):
 
     @property
     def risorius(self) -> RISORIUS_PG_object: ...
+    @property
+    def users_scene(self) -> Sequence[Scene]: ...
 
 
 class Scene(scene_types.Scene, Protocol):

@@ -70,6 +70,7 @@ from .speech.strip_ops import (
     RISORIUS_OT_add_speech,
     RISORIUS_OT_fit_speech_sound,
     RISORIUS_OT_remove_speech,
+    RISORIUS_OT_remove_stray_sounds,
     RISORIUS_OT_stretch_speech,
 )
 from .speech.strip_props import RISORIUS_PG_said_sound, RISORIUS_PG_said_word, RISORIUS_PG_speech_strip
@@ -198,6 +199,7 @@ OPERATORS = (
     RISORIUS_OT_speak,
     RISORIUS_OT_add_speech,
     RISORIUS_OT_remove_speech,
+    RISORIUS_OT_remove_stray_sounds,
     RISORIUS_OT_fit_speech_sound,
     RISORIUS_OT_stretch_speech,
     RISORIUS_OT_select_word,

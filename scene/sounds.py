@@ -108,6 +108,30 @@ def tagged(scenes: Iterable[Scene], tag: str) -> Iterator[tuple[SequenceStrips, 
                     yield strips, strip
 
 
+def marked(scene: Scene) -> Iterator[tuple[str, SequencerStrip]]:
+    """All sounds of something said on a scene's sequencer, with their tags."""
+    if scene.sequence_editor is not None:
+        for strip in _strips(scene):
+            if strip.type == "SOUND" and (tag := strip.get(TAG)):
+                yield str(tag), strip
+
+
+def copy_sound(scene: Scene, strip: SequencerStrip, *, tag: str) -> SequencerStrip:
+    """A strip like another one, at the same frames and as loud, with another tag.
+
+    Raises
+    ------
+    FormatError : its file is missing.
+    """
+    frame = round(strip.frame_start)
+    copy = add_again(scene, strip.sound, frame=frame, tag=tag)
+    for name in ("name", "frame_offset_start", "frame_offset_end", "volume", "pan", "mute"):
+        if hasattr(strip, name):  # a later Blender may call it otherwise
+            setattr(copy, name, getattr(strip, name))
+    copy.frame_start = strip.frame_start
+    return copy
+
+
 def scrub_along(scene: Scene) -> tuple[str, ...]:
     """Let sound be heard while the timeline is scrubbed and played; what was changed for that, in words."""
     said = []

@@ -11,11 +11,11 @@ from ...files import write_whole
 from ...mpeg4.preset_speech import KeptSpeech
 from ...scene.bake.timing import scene_fps
 from ...scene.blender_types import Sound as BlenderSound
-from ...scene.sounds import remove_sound
 from ...speech.kept import kept_words, line_of_kept
 from ...speech.utterance import Utterance
 from ..blender_types import Object, Scene
 from ..speech.placing import place_strip
+from ..speech.sharing import drop_sound
 from ..speech.strip_props import RISORIUS_PG_speech_strip
 from ..speech.strips import read_line, write_line
 
@@ -47,7 +47,7 @@ def lay_out_speech(speech: tuple[KeptSpeech, ...], obj: Object, scene: Scene, fo
     """Put a preset's speech in place of what there is, from the current frame on; what could not be, in words."""
     held, said = obj.risorius.speech, list[str]()
     for strip in held.strips:
-        remove_sound(bpy.data.scenes, strip.tag)
+        drop_sound(strip)
     held.strips.clear()
     for kept in speech:
         start = scene.frame_current + round(kept.start * scene_fps(scene))

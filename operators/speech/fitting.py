@@ -13,6 +13,7 @@ from ...scene.sounds import add_again, add_wav, remove_sound
 from ...speech.stretching import stretched
 from ...speech.waves import read_wav, wav_of
 from ..blender_types import Scene as SceneWithChoices
+from .sharing import part_sound
 from .strip_props import RISORIUS_PG_speech_strip, edited
 from .strips import title_of_strip
 
@@ -27,6 +28,7 @@ def fit_sound(scene: Scene | SceneWithChoices, strip: RISORIUS_PG_speech_strip) 
     sound = strip.sound
     if sound is None:
         return
+    part_sound(strip)
     amount = round(float(strip.stretch), 4)
     if amount == 1.0:
         if sound.packed_file is None and not Path(bpy.path.abspath(sound.filepath)).is_file():

@@ -7,15 +7,17 @@ from ..blender_classes import Panel, UIList
 from ..blender_types import Context, UILayout
 from ..sidebar import MeshSidebar
 from .props import RISORIUS_PG_speech
+from .sharing import stray_sounds
 from .strip_ops import (
     RISORIUS_OT_add_speech,
     RISORIUS_OT_fit_speech_sound,
     RISORIUS_OT_remove_speech,
+    RISORIUS_OT_remove_stray_sounds,
     chosen_strip,
     sound_is_off,
 )
 from .strip_props import RISORIUS_PG_speech_strip
-from .strips import length_of, title_of_strip, trouble_of
+from .strips import length_of, shortened, title_of_strip, trouble_of
 
 #: Rows of the list.
 ROWS = 3
@@ -65,6 +67,7 @@ class RISORIUS_PT_speech(MeshSidebar, Panel):
         row = layout.row(align=True)
         row.scale_y = 1.3
         row.operator(RISORIUS_OT_add_speech.bl_idname, icon="ADD")
+        self._draw_strays(layout, context)
         if not chosen.strips:
             return
         self._draw_strips(layout, context, chosen)
@@ -73,6 +76,16 @@ class RISORIUS_PT_speech(MeshSidebar, Panel):
             column.prop(chosen, name, slider=True)
         if not obj.risorius.timeline.clips:
             layout.prop(chosen, "with_feeling")
+
+    def _draw_strays(self, layout: UILayout, context: Context) -> None:
+        """Sounds whose face is gone: they stay until the user removes them."""
+        strays = stray_sounds(context.scene)
+        if strays:
+            names = shortened(", ".join(str(sound.name) for _, sound in strays))
+            box = layout.box()
+            box.label(text="Their face is gone" if len(strays) > 1 else "Its face is gone", icon="INFO")
+            box.label(text=names, icon="SPEAKER")
+            box.operator(RISORIUS_OT_remove_stray_sounds.bl_idname, icon="X")
 
     def _draw_strips(self, layout: UILayout, context: Context, chosen: RISORIUS_PG_speech) -> None:
         """The list, and the times of the selected one."""

@@ -16,6 +16,7 @@ from ..blender_types import Context, Object, Scene
 from .fitting import fit_sound
 from .heard import Heard, heard, nothing_said
 from .placing import place_strip
+from .sharing import drop_sound, stray_sounds
 from .strip_props import STRETCH, RISORIUS_PG_speech_strip, active_strip, edited
 from .strips import length_of, title_of_strip
 
@@ -110,12 +111,33 @@ class RISORIUS_OT_remove_speech(StripOperator, Operator):
     def run(self, context: Context) -> str:
         """Remove it; the one after it, or the last, is selected then."""
         speech, strip = active_object(context).risorius.speech, strip_of(context)
-        title, place, tag = title_of_strip(strip), int(speech.active), strip.tag
+        title, place = title_of_strip(strip), int(speech.active)
+        drop_sound(strip)
         speech.strips.remove(place)
-        remove_sound(bpy.data.scenes, tag)
         speech.active = max(0, min(place, len(speech.strips) - 1))
         edited(speech, context)
         return f"Removed {title}"
+
+
+class RISORIUS_OT_remove_stray_sounds(RisoriusOperator, Operator):
+    """Remove sounds from the sequencer that were added with the speech of a face that is gone"""
+
+    bl_idname = "risorius.remove_stray_sounds"
+    bl_label = "Remove Leftover Sounds"
+    bl_options = {"REGISTER", "UNDO"}
+    needs_scipy = False
+
+    @classmethod
+    def refusal(cls, context: Context) -> str | None:
+        """Only where there are some."""
+        return None if stray_sounds(context.scene) else "No sound of speech is left over"
+
+    def run(self, context: Context) -> str:
+        """Remove them."""
+        strays = [(tag, str(sound.name)) for tag, sound in stray_sounds(context.scene)]
+        for tag, _ in strays:
+            remove_sound([context.scene], tag)
+        return f"Removed {', '.join(name for _, name in strays)}"
 
 
 class RISORIUS_OT_fit_speech_sound(StripOperator, Operator):

@@ -215,9 +215,17 @@ class RISORIUS_PG_said_word(PropertyGroup):
     active: Annotated[int, IntProperty(name="Active Sound", description="Sound that is being edited", default=0, min=0)]
 
 
+def _parted(owner: RISORIUS_PG_speech_strip) -> None:
+    """Its sound is its own, not that of a copy of its face, too."""
+    from .sharing import part_sound  # which knows strips
+
+    part_sound(owner)
+
+
 def _moved(owner: RISORIUS_PG_speech_strip, context: Context) -> None:
     """The sound follows its strip."""
     if not _writing:
+        _parted(owner)
         move_sound(bpy.data.scenes, owner.tag, owner.start)
         edited(owner, context)
 
@@ -225,6 +233,7 @@ def _moved(owner: RISORIUS_PG_speech_strip, context: Context) -> None:
 def _muted(owner: RISORIUS_PG_speech_strip, context: Context) -> None:
     """A strip that is muted is not heard, either."""
     if not _writing:
+        _parted(owner)
         mute_sound(bpy.data.scenes, owner.tag, mute=owner.mute)
         edited(owner, context)
 

@@ -142,6 +142,10 @@ class SequencerStrip(Protocol):
     sound: Sound
     mute: bool
     frame_start: float
+    frame_offset_start: float
+    frame_offset_end: float
+    volume: float
+    pan: float
 
     @property
     def type(self) -> str: ...
