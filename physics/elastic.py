@@ -164,6 +164,8 @@ class Factor:
     Parameters
     ----------
     matrix : (n, n) sparse, symmetric positive definite.
+    least : no eigenvalue is below this, where that is known; far enough above 0 it spares looking at the pivots, for
+        which the factors are copied.
 
     Raises
     ------
@@ -176,11 +178,14 @@ class Factor:
     _TOGETHER = 24
     """So many columns are solved at once: more would not stay in the processor's cache, and take half as long again."""
 
-    def __init__(self, matrix: Sparse) -> None:
+    def __init__(self, matrix: Sparse, *, least: float = 0.0) -> None:
         self.shape: tuple[int, int] = (int(matrix.shape[0]), int(matrix.shape[1]))
         self._matrix = sparse.csc_array(matrix)
         self._scale = 1.0
-        pivots = self._factor.U.diagonal() / matrix.diagonal()[np.argsort(self._factor.perm_c)]
+        factor, diagonal = self._factor, matrix.diagonal()
+        if least > self._SMALLEST_PIVOT * diagonal.max(initial=0.0):
+            return  # no pivot is below the least eigenvalue
+        pivots = factor.U.diagonal() / diagonal[np.argsort(factor.perm_c)]
         if not pivots.min() > self._SMALLEST_PIVOT:
             raise SolverError(
                 "the elastic matrix is not positive definite; anchor every piece of the skin",

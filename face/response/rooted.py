@@ -35,8 +35,9 @@ SHEET_TIE, LINE_TIE = 0.02, 1e-3
 #: The surface about so many nearest carriers tells how far off it a vertex is.
 CLOSE = 4
 
-#: Paths along the carriers are searched from this many places at once.
-AT_ONCE = 256
+#: Paths along the carriers are searched from this many places at once, and from fewer where these times the carriers
+#: would be more figures than the second.
+AT_ONCE, FIGURES = 256, 1_000_000
 
 #: What is said meanwhile.
 FOLLOWING = "Preparing what follows the skin"
@@ -181,10 +182,11 @@ def _around(mesh_positions: Floats, polygons: PolygonTable, carriers: Ints, root
     yield Progress(0.0, FOLLOWING)
     lengths = _lengths(mesh_positions, polygons, carriers, reached)
     way = np.empty(found.shape)
-    for first in range(0, len(places), AT_ONCE):
+    at_once = max(1, min(AT_ONCE, FIGURES // len(reached)))
+    for first in range(0, len(places), at_once):
         yield Progress(first / len(places), FOLLOWING)
-        searched = dijkstra(lengths, directed=False, indices=local[places[first : first + AT_ONCE]], limit=limit)
-        mine = np.flatnonzero((of >= first) & (of < first + AT_ONCE))
+        searched = dijkstra(lengths, directed=False, indices=local[places[first : first + at_once]], limit=limit)
+        mine = np.flatnonzero((of >= first) & (of < first + at_once))
         way[mine] = np.take_along_axis(searched[of[mine] - first], local[found[mine]], axis=1)
     distance = np.where(way <= ROOTS.detour * straight + ROOTS.touch, distance, np.inf)
     order = np.argsort(distance, axis=1, kind="stable")[:, : min(NEIGHBOURS, count)]

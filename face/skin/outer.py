@@ -144,7 +144,8 @@ class OuterSkin:
 
     def smoothing(self, radius: float) -> Factor:
         """Prefactored filter: solve(areas * f) is f averaged over a Gaussian-like window of a given radius (metres)."""
-        return Factor(diagonal_matrix(self.areas) + 0.5 * radius**2 * self.laplacian)
+        matrix = diagonal_matrix(self.areas) + 0.5 * radius**2 * self.laplacian
+        return Factor(matrix, least=float(self.areas.min(initial=np.inf)))
 
     @cached_property
     def raw_normals(self) -> Floats:

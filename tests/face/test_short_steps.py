@@ -89,3 +89,24 @@ def test_vertices_are_compared_in_parts(monkeypatch: pytest.MonkeyPatch) -> None
     assert len(steps) >= (3000 - coarse.FIRST_BATCH) / 100
     distances = np.linalg.norm(positions[whole][:, None] - positions[whole], axis=2)
     assert distances[~np.eye(len(whole), dtype=bool)].min() >= 0.05
+
+
+@pytest.mark.slow
+def test_paths_are_searched_from_fewer_places_at_once_among_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    searched = list[int]()
+    search = rooted.dijkstra
+
+    def noted(lengths: Any, *, indices: Any, **options: Any) -> Any:
+        searched.append(len(indices) * lengths.shape[0])
+        return search(lengths, indices=indices, **options)
+
+    head = api.build_default_head()
+    usual = api.Face.from_arrays(head.vertices, head.polygons, head.points).anatomy.rooted_parts
+    monkeypatch.setattr(rooted, "dijkstra", noted)
+    monkeypatch.setattr(rooted, "FIGURES", 50_000)
+    parts = api.Face.from_arrays(head.vertices, head.polygons, head.points).anatomy.rooted_parts
+    assert max(searched) <= 50_000
+    moved, again = (np.random.default_rng(2).normal(size=(1, *head.vertices.shape)) for _ in range(2))
+    usual.follow(moved)
+    parts.follow(again)
+    assert np.array_equal(moved, again)

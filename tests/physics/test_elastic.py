@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from risorius.errors import ParameterError, SolverError
 from risorius.physics import elastic, mesh
+from scipy import sparse
 
 
 def hexagonal(rows: int) -> tuple[Any, Any]:
@@ -163,3 +164,19 @@ def test_negative_or_missing_parameters_are_named(name: str, arguments: tuple[fl
         elastic.elastic_matrix(elastic.laplacian(vertices, polygons), areas, *arguments)
     with pytest.raises(ParameterError, match="form"):
         elastic.laplacian(vertices, polygons, form="umbrella")
+
+
+def test_pivots_are_not_looked_at_where_the_least_eigenvalue_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    loose = sparse.csr_array(np.array([[1.0, -1.0], [-1.0, 1.0]]))
+    held = loose + 0.1 * sparse.eye_array(2)
+    with pytest.raises(SolverError):
+        elastic.Factor(loose)
+    with pytest.raises(SolverError):
+        elastic.Factor(loose, least=1e-15)  # so little tells nothing
+    monkeypatch.setattr(elastic.Factor, "_SMALLEST_PIVOT", 1.0)  # fails whatever is looked at
+    with pytest.raises(SolverError):
+        elastic.Factor(held)
+    with pytest.raises(SolverError):
+        elastic.Factor(held, least=0.1)
+    monkeypatch.setattr(elastic.Factor, "_SMALLEST_PIVOT", 0.05)
+    assert np.allclose(elastic.Factor(held, least=0.1).solve(np.ones(2)), 10.0)
