@@ -77,7 +77,8 @@ def _make_up(obj: Any, face: Face) -> None:
     colours = {material.name: material.colour for material in build_default_head().materials}
     points = {name: point.position for name, point in face.points.items()}
     along, above = paint.brow_places(face.vertices, points).T
-    widths = np.interp(along, *np.array(paint.BROW_SHAPE).T, left=0.0, right=0.0)
+    places, breadths = np.array(paint.BROW_SHAPE).T
+    widths = np.interp(along, places, breadths, left=0.0, right=0.0)
     skin = [index for index, material in enumerate(obj.data.materials) if "skin" in material.name]
     of_polygon = np.array([polygon.material_index for polygon in obj.data.polygons])
     corners = [polygon.vertices[:] for polygon in obj.data.polygons]

@@ -13,9 +13,8 @@ import numpy as np
 from risorius.operators.points.clicks import clicks_of
 from risorius.scene.points import bound
 from risorius.scene.points.kept import POINTS, read_kept
-from risorius.scene.rig.clips import INTO
 from risorius.scene.rig.kept import FOLLOWED, _followed
-from risorius.scene.rig.layers import REST, noted
+from risorius.scene.rig.layers import INTO, REST, noted
 from risorius.scene.shape_mix import RECORD, own_keys
 
 from .attempts import Reader

@@ -37,8 +37,9 @@ def watched(
 
     Files that fail are saved in `out` as NAME-READER-NUMBER with the ending of their kind.
     """
-    report, until, first = Report(), time.monotonic() + seconds, 0
-    context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+    report, until = Report(), time.monotonic() + seconds
+    context = multiprocessing.get_context("fork") if sys.platform == "linux" else multiprocessing.get_context("spawn")
+    first: int | None = 0
     while first is not None and len(report.failures) < most:
         mine, theirs = context.Pipe(duplex=False)
         process = context.Process(target=_attempts, args=(readers, first, until, seed, theirs), daemon=True)
