@@ -14,3 +14,6 @@ Bools: TypeAlias = NDArray[np.bool_]
 Singles: TypeAlias = NDArray[np.float32]
 #: Either precision, the same in and out.
 AnyFloats = TypeVar("AnyFloats", Floats, Singles)
+
+#: Coordinates beyond this, in whatever unit, are damage: their cubes would leave no digit of a face.
+LARGEST = 1e12

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Floats, Ints
+from ...arrays import LARGEST, Floats, Ints
 from ...errors import ModelError
 from ...polygons import PolygonTable
 from .parts import Part, Told
@@ -15,9 +15,6 @@ from .points import FeaturePoints, PointSource
 from .sealed_eyes import add_sealed_eyes
 from .template import TEMPLATE_POINTS
 from .told import parts_of_told
-
-#: Coordinates beyond this, in whatever unit, are damage: their cubes would leave no digit of a face.
-LARGEST = 1e12
 
 
 def checked_vertices(vertices: ArrayLike) -> Floats:

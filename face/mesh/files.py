@@ -13,11 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ...arrays import Floats
+from ...arrays import LARGEST, Floats
 from ...errors import FormatError
 from ...files import read_bytes
 from ...tables import read_arrays
-from .checks import LARGEST
 
 #: What `read_mesh` reads without Blender.
 SUFFIXES = (".npz", ".obj")

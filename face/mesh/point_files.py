@@ -12,10 +12,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TypeAlias
 
+from ...arrays import LARGEST
 from ...errors import FormatError
 from ...files import read_bytes
 from ...tables import is_number, parsed_json
-from .checks import LARGEST
 
 #: Name ("8.4") -> vertex index, or position (3,) in the mesh's own coordinates.
 PointTable: TypeAlias = Mapping[str, int | tuple[float, float, float]]

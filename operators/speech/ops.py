@@ -9,7 +9,6 @@ from ...scene.bake.motion import FapMotion
 from ...scene.bake.timing import scene_fps
 from ...scene.points.found import Finding
 from ...scene.sounds import add_sound, add_wav
-from ...speech.saying import say_steps
 from ..active import active_object
 from ..bake.destination import bake_reason
 from ..bake.ops import BakeOperator
@@ -48,6 +47,8 @@ class RISORIUS_OT_speak(BakeOperator, Operator):
 
     def baking(self, context: Context) -> Work[BakeResult]:
         """Find out what is said when, then bake it from the current frame on."""
+        from ...speech.saying import say_steps
+
         obj, scene = active_object(context), context.scene
         chosen, fps = obj.risorius.speech, scene_fps(scene)
         yield Progress(0.0, "Speaking the text" if chosen.source == "TEXT" else "Reading the timings")

@@ -43,7 +43,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "mechanisms/bulge.py": (6.0,),  # a triangle's share of a divergence
     "mechanisms/hood.py": (1e-3,),  # what is too faint to be read
     "mechanisms/lids.py": (0.3,),  # shortest lever
-    "mesh/checks.py": (1e12, 0.01, 0.01),  # beyond which coordinates are damage; weight of a row of least squares
+    "mesh/checks.py": (0.01, 0.01),  # weight of a row of least squares
     "mesh/head_frame.py": (10.0, 1e-3),  # when axes and points are believed
     "mesh/points.py": (0.02,),  # how far off the surface a point may lie
     "mesh/own_lip.py": (4.0,),  # how far a search goes
