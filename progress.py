@@ -12,15 +12,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator, Iterator
-from concurrent.futures import ThreadPoolExecutor, wait
 from typing import Any, Generic, NamedTuple, Self, TypeAlias, TypeVar, overload
 
 from .errors import ParameterError
 
 T = TypeVar("T")
-
-#: So long is waited for a thread between two steps, seconds.
-PAUSE = 0.05
 
 
 class _Step(NamedTuple):
@@ -81,22 +77,6 @@ def part_of(work: Work[T], start: float, end: float) -> Work[T]:
         except GeneratorExit:
             work.close()
             raise
-
-
-def meanwhile(call: Callable[[], T], step: Progress) -> Work[T]:
-    """Do what cannot be split in a thread; yields `step` for as long as it takes.
-
-    For single calls into libraries that let other threads run. They must not touch Blender, and what they read must
-    stay as it is. Closing the work forgets what the call returns.
-    """
-    pool = ThreadPoolExecutor(1)
-    try:
-        future = pool.submit(call)
-        while wait([future], PAUSE).not_done:
-            yield step
-        return future.result()
-    finally:
-        pool.shutdown(wait=False)
 
 
 class stepwise(Generic[T]):

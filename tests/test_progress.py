@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-import threading
 
 import pytest
 from risorius.errors import ParameterError
-from risorius.progress import Progress, Work, meanwhile, part_of, run, stepwise, worked_out
+from risorius.progress import Progress, Work, part_of, run, stepwise, worked_out
 
 
 def counting(ended: list[str]) -> Work[str]:
@@ -42,45 +41,6 @@ def test_closing_the_larger_work_cancels_its_part() -> None:
     next(work)
     work.close()
     assert ended == ["cancelled"]
-
-
-def test_what_cannot_be_split_goes_on_while_a_work_yields() -> None:
-    step, may_end, told = Progress(0.5, "meanwhile"), threading.Event(), list[Progress]()
-
-    def called() -> str:
-        assert may_end.wait(10.0)
-        return threading.current_thread().name
-
-    def tell(step: Progress) -> None:
-        told.append(step)
-        if len(told) == 2:
-            may_end.set()
-
-    assert run(meanwhile(called, step), tell) != threading.current_thread().name
-    assert told[:2] == [step, step]
-
-
-def test_what_goes_wrong_meanwhile_is_raised_where_it_was_wanted() -> None:
-    def called() -> None:
-        raise ParameterError("skin", "cannot be solved", 0)
-
-    with pytest.raises(ParameterError, match="cannot be solved"):
-        run(meanwhile(called, Progress(0.0, "meanwhile")))
-
-
-def test_closing_a_work_does_not_wait_for_what_it_began() -> None:
-    may_end, ended = threading.Event(), threading.Event()
-
-    def called() -> None:
-        may_end.wait(10.0)
-        ended.set()
-
-    work = meanwhile(called, Progress(0.0, "meanwhile"))
-    next(work)
-    work.close()
-    assert not ended.is_set()
-    may_end.set()
-    assert ended.wait(10.0)
 
 
 @pytest.mark.parametrize("fraction", [-0.01, 1.01, math.inf])

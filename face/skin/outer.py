@@ -20,7 +20,7 @@ from ...physics import mesh
 from ...physics.elastic import Factor, diagonal_matrix, dirichlet_springs, pair_laplacian
 from ...physics.mesh import Sparse
 from ...polygons import PolygonTable
-from ...progress import Progress, Work, meanwhile, stepwise, worked_out
+from ...progress import Progress, Work, stepwise, worked_out
 from ..figures import Length, read_figures
 from ..mechanism import EVERY, Mechanism
 from ..mesh.openings import Opening
@@ -161,9 +161,8 @@ class OuterSkin:
         right = self.areas[:, None] * self.raw_normals
         yield Progress(0.0, "Preparing the skin")
         yield from worked_out(self, "laplacian")
-        filtering = yield from meanwhile(lambda: self.smoothing(SHEET.bone_over), Progress(0.5, "Preparing the skin"))
-        yield Progress(1.0, "Preparing the skin")
-        smooth = filtering.solve(right)
+        yield Progress(0.5, "Preparing the skin")
+        smooth = self.smoothing(SHEET.bone_over).solve(right)
         unit: Floats = smooth / np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
         return unit
 
