@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-#: Characters of a message, and of a name or value in it: what a file or a caller gives may be of any length.
-LONGEST, LONGEST_PART = 1000, 120
+#: Characters of a message, which may list all muscles, and of a name or value in it: those may be of any length.
+LONGEST, LONGEST_PART = 4000, 120
 
 
 def short(text: str, most: int = LONGEST_PART) -> str:
