@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-#: Characters of a message, which may list all muscles, and of a name or value in it: those may be of any length.
-LONGEST, LONGEST_PART = 4000, 120
+#: Characters of a message, which may list all muscles; of what is told about a file, and of a name or value, which may be
+#: of any length.
+LONGEST, LONGEST_ABOUT_FILES, LONGEST_PART = 4000, 500, 120
 
 
 def short(text: str, most: int = LONGEST_PART) -> str:
@@ -58,7 +59,7 @@ class FormatError(RisoriusError):
             where += f", column {short(column)}"
         if key is not None:
             where += f", key {short(key)}"
-        super().__init__(f"{where}: {short(problem, LONGEST // 2)}")
+        super().__init__(f"{where}: {short(problem, LONGEST_ABOUT_FILES)}")
 
 
 class ModelError(RisoriusError):
