@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-#: Characters of a message, which may list all muscles; of what is told about a file, and of a name or value, which may be
-#: of any length.
+#: Characters of a message, which may list all muscles; of what is told about a file, and of a name or value,
+#: which may be of any length.
 LONGEST, LONGEST_ABOUT_FILES, LONGEST_PART = 4000, 500, 120
 
 
