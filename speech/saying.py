@@ -131,6 +131,13 @@ def say_steps(
     Raises
     ------
     ParameterError : as `say`.
+
+    Examples
+    --------
+    >>> rows = ["start,end,phoneme", "0.1,0.2,m", "0.2,0.4,i"]
+    >>> np.savetxt("line.csv", rows, fmt="%s")
+    >>> next(api.say_steps(api.read_timings("line.csv"))).text
+    '0 of 2 sounds read'
     """
     if emotion is not None and cues:
         raise ParameterError("cues", "must be left out where an emotion is given", len(cues))
