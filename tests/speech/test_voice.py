@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes.util
 import sys
 import wave
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -118,3 +119,11 @@ def test_words_that_are_said_in_one_keep_their_letters() -> None:
     ]
     said = " ".join(word.text for word in api.speak("I did not see; it's (well) known.").utterance.words)
     assert said == "I did not see it's well known"
+
+
+@pytest.mark.parametrize(("text", "symbols"), [("Well, well.", ["w", "ɛ", "l", "w", "ɛ", "l"]), ("All", ["ɔː", "l"])])
+def test_sounds_that_a_voice_says_within_another_are_shown(text: str, symbols: list[str]) -> None:
+    sounds = api.speak(text).utterance.sounds
+    assert [sound.symbol.strip("ˈˌ") for sound in sounds] == symbols
+    assert all(sound.end - sound.start > 0.01 for sound in sounds)
+    assert all(before.end <= after.start + 1e-9 for before, after in pairwise(sounds))
