@@ -83,7 +83,7 @@ class RISORIUS_PT_speech(MeshSidebar, Panel):
         if strays:
             names = shortened(", ".join(str(sound.name) for _, sound in strays))
             box = layout.box()
-            box.label(text="Their face is gone" if len(strays) > 1 else "Its face is gone", icon="INFO")
+            box.label(text="Sounds without a face" if len(strays) > 1 else "Sound without a face", icon="INFO")
             box.label(text=names, icon="SPEAKER")
             box.operator(RISORIUS_OT_remove_stray_sounds.bl_idname, icon="X")
 
