@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..errors import FormatError
 from ..files import read_bytes
-from ..tables import Cells, CsvRow, TomlTable, numbered_lines, read_toml, row_cells, split_cells
+from ..tables import Cells, CsvRow, TomlTable, read_toml, row_cells, split_cells, table_lines
 from .columns import BY_NAME, COLUMNS, Value
 from .jobs import Job, file_columns, name_problem, own_name
 from .values import read_value
@@ -76,13 +76,7 @@ def read_jobs(path: str | Path) -> JobTable:
 
 def _csv_rows(file: Path, problems: list[FormatError]) -> Iterator[tuple[str, Cells]]:
     """The rows of a CSV file; a line that is no row is a problem of its own."""
-    try:
-        text = read_bytes(file).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
-    lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith("#")]
-    if not lines:
-        raise FormatError(file, "is empty: it must begin with a line of column names")
+    lines = table_lines(file)
     separator = _separator(lines[0][1])
     heading = [name.lower() for name in split_cells(file, *lines[0], separator=separator)]
     CsvRow(file, dict.fromkeys(heading, ""), lines[0][0]).only(*BY_NAME)

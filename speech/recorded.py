@@ -17,7 +17,7 @@ from ..face.tracked.recording import read_recording
 from ..mpeg4 import FapStream
 from .articulation.talking import SPOKEN
 from .phonemes import Alphabet, Phoneme
-from .timings import read_timings as read_marks
+from .timings import read_marks
 from .utterance import Mouth, Sound, Utterance
 
 #: FAPs by which the lips are apart: the upper and the lower one towards each other. Own choice: a share of the widest

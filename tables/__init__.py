@@ -20,7 +20,17 @@ A cell that breaks its rule raises a `FormatError` that names the file, the key 
 
 from .array_file import read_arrays
 from .cells import Cells, is_number
-from .csv_table import CsvRow, csv_text, numbered_lines, parsed_number, read_csv, row_cells, split_cells, write_csv
+from .csv_table import (
+    CsvRow,
+    csv_text,
+    numbered_lines,
+    parsed_number,
+    read_csv,
+    row_cells,
+    split_cells,
+    table_lines,
+    write_csv,
+)
 from .json_table import checked_document, read_json
 from .json_text import large, parsed_json
 from .keyed_table import KeyedTable
@@ -44,6 +54,7 @@ __all__ = [
     "read_toml",
     "row_cells",
     "split_cells",
+    "table_lines",
     "toml_number",
     "toml_text",
     "write_csv",

@@ -40,6 +40,23 @@ class CsvRow(Cells):
         return self.cells.get(name, "").split()
 
 
+def table_lines(file: Path) -> list[tuple[int, str]]:
+    """Numbers and texts of a table's lines, the heading first; blank ones and those that begin with # are passed over.
+
+    Raises
+    ------
+    FormatError : it cannot be read, is no UTF-8, or has no line.
+    """
+    try:
+        text = read_bytes(file).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
+    lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith("#")]
+    if not lines:
+        raise FormatError(file, "is empty: it must begin with a line of column names")
+    return lines
+
+
 def read_csv(path: str | Path, *columns: str) -> list[CsvRow]:
     """The rows of a CSV file, whose heading must have the named columns.
 
@@ -48,13 +65,7 @@ def read_csv(path: str | Path, *columns: str) -> list[CsvRow]:
     FormatError : it cannot be read, lacks a column, or a row has a cell too many or too few; names the line.
     """
     file = Path(path)
-    try:
-        text = read_bytes(file).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
-    lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith("#")]
-    if not lines:
-        raise FormatError(file, "is empty: it must begin with a line of column names")
+    lines = table_lines(file)
     heading = split_cells(file, *lines[0])
     for column in columns:
         if column not in heading:

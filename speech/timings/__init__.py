@@ -11,6 +11,6 @@ documents    JSON of aligners, of speech services, and plain lists
 reading      which of them a file is
 """
 
-from .reading import read_timings
+from .reading import read_marks
 
-__all__ = ["read_timings"]
+__all__ = ["read_marks"]

@@ -26,28 +26,12 @@ from .visemes import viseme_timings
 READABLE = "a TextGrid of Praat, Rhubarb's JSON, TSV or XML, or a table or JSON of sounds with start and end, or WAV"
 
 
-def read_timings(path: str | Path, *, tier: str | None = None, alphabet: str | Alphabet | None = None) -> Utterance:
-    """What is said when, by the file of an aligner or of a lip-sync tool.
-
-    Parameters
-    ----------
-    path : a TextGrid, Rhubarb's JSON, TSV or XML, the JSON of the Montreal Forced Aligner, Gentle or Amazon Polly, a
-        label file, a table or JSON of sounds or visemes with their times, a stream with visemes (.fap, .fba), or a
-        timeline saved as a preset (.toml). A sound (.wav) opens the mouth as loud as it is, which is said.
-    tier : which tier of a TextGrid holds the sounds; found if not given.
-    alphabet : how sounds are written: ipa, arpabet or xsampa; found if not given.
+def read_marks(path: str | Path, *, tier: str | None = None, alphabet: str | Alphabet | None = None) -> Utterance:
+    """What is said when, by a file that marks it in time; `recorded.read_timings` takes recordings of a mouth, too.
 
     Raises
     ------
-    FormatError : it cannot be read, says nothing, or its times overlap or run backwards; says where, and the remedy.
-    ParameterError : no such alphabet.
-
-    Examples
-    --------
-    >>> rows = ["start,end,phoneme", "0.1,0.2,m", "0.2,0.4,i"]
-    >>> np.savetxt("line.csv", rows, fmt="%s")
-    >>> [(sound.symbol, sound.start, sound.phoneme.viseme) for sound in api.read_timings("line.csv").sounds]
-    [('m', 0.1, 1), ('i', 0.2, 12)]
+    FormatError, ParameterError : as there.
     """
     file = Path(path)
     if alphabet is not None and alphabet not in list(Alphabet):

@@ -11,7 +11,7 @@ from risorius.errors import ParameterError
 from risorius.mpeg4 import VISEME_SHAPES
 from risorius.speech.articulation import SPOKEN, articulate
 from risorius.speech.phonemes import phonemes
-from risorius.speech.timings import read_timings
+from risorius.speech.timings import read_marks
 from risorius.speech.utterance import Sound, Utterance
 
 FPS = 100.0
@@ -123,7 +123,7 @@ def test_h_has_the_mouth_of_the_vowel_after_it() -> None:
 
 def test_the_jaw_is_no_faster_than_talkers_jaws(shared: Path) -> None:
     """On a face whose mouth is 17 mm below its nose (MNS0), as the default head's: up to about 200 mm/s in speech."""
-    said = read_timings(shared / "samples" / "speech" / "textgrid" / "mary.TextGrid")
+    said = read_marks(shared / "samples" / "speech" / "textgrid" / "mary.TextGrid")
     jaw = articulate(said, 200.0)[:, JAW] * 17.0 / 1024.0
     assert 40.0 < np.abs(np.diff(jaw)).max() * 200.0 < 250.0
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from risorius.errors import FormatError, ParameterError
 from risorius.mpeg4 import FapStream, VisemeField, write_fap, write_fba
-from risorius.speech.timings import read_timings
+from risorius.speech.timings import read_marks
 from risorius.speech.utterance import Utterance
 
 
@@ -33,31 +33,31 @@ def speech(shared: Path) -> Path:
 
 def test_textgrids_of_other_people(speech: Path) -> None:
     folder = speech / "textgrid"
-    bobby = read_timings(folder / "bobby_phones.TextGrid")
+    bobby = read_marks(folder / "bobby_phones.TextGrid")
     assert said(bobby) == "b ɑ b i ɹ ɪ p t ð ə l ɛ dʒ ɚ"
     assert bobby.assumed == ("the sounds are read as ARPAbet",)
     assert bobby.duration == pytest.approx(1.194625)
     assert bobby.sounds[0].start == pytest.approx(0.06469123)
     assert [sound.stress for sound in bobby.sounds[:4]] == [0.0, 1.0, 0.0, 0.0]
-    elan = read_timings(folder / "bobby_phones_elan.TextGrid")
+    elan = read_marks(folder / "bobby_phones_elan.TextGrid")
     assert elan.sounds == bobby.sounds
-    mary = read_timings(folder / "mary.TextGrid")
+    mary = read_marks(folder / "mary.TextGrid")
     assert said(mary) == "m ə r i r o l d θ ə b œ r l"
     assert [word.text for word in mary.words] == ["mary", "rolled", "the", "barrel"]
-    assert said(read_timings(folder / "damon_set_test.TextGrid")).startswith("d e ɪ m ə n f r a ɪ d ð")
+    assert said(read_marks(folder / "damon_set_test.TextGrid")).startswith("d e ɪ m ə n f r a ɪ d ð")
 
 
 def test_words_alone_are_refused_with_the_remedy(speech: Path) -> None:
     with pytest.raises(FormatError, match=r"has words but no sounds .*: align them"):
-        read_timings(speech / "textgrid" / "bobby_words.TextGrid")
+        read_marks(speech / "textgrid" / "bobby_words.TextGrid")
 
 
 def test_rhubarb_of_other_people(speech: Path) -> None:
-    short = read_timings(speech / "rhubarb" / "en_male_electricity-expected.json")
+    short = read_marks(speech / "rhubarb" / "en_male_electricity-expected.json")
     assert [sound.symbol for sound in short.sounds] == list("BHCBCB")
     assert [sound.phoneme.viseme for sound in short.sounds] == [7, 8, 11, 7, 11, 7]
     assert short.duration == pytest.approx(1.06)
-    assert len(read_timings(speech / "rhubarb" / "threelittlekittens_01_rountreesmith-expected.json").sounds) == 1889
+    assert len(read_marks(speech / "rhubarb" / "threelittlekittens_01_rountreesmith-expected.json").sounds) == 1889
 
 
 def test_rhubarbs_three_formats_say_the_same(tmp_path: Path) -> None:
@@ -69,7 +69,7 @@ def test_rhubarbs_three_formats_say_the_same(tmp_path: Path) -> None:
     head = '<?xml version="1.0" encoding="utf-8"?><rhubarbResult><metadata><duration>1.00</duration></metadata>'
     (tmp_path / "a.xml").write_text(f"{head}<mouthCues>{rows}</mouthCues></rhubarbResult>")
     (tmp_path / "a.tsv").write_text("".join(f"{s}\t{v}\n" for s, _, v in cues[:-1]) + "0.8\tX\n1.00\tX\n")
-    found = [read_timings(tmp_path / f"a.{suffix}") for suffix in ("json", "xml", "tsv")]
+    found = [read_marks(tmp_path / f"a.{suffix}") for suffix in ("json", "xml", "tsv")]
     assert times(found[0]) == [(0.2, 0.35), (0.35, 0.8)]
     assert found[0] == found[1] == found[2]
     assert [sound.phoneme.viseme for sound in found[0].sounds] == [1, 10]
@@ -109,7 +109,7 @@ ALIKE = {
 @pytest.mark.parametrize("name", ALIKE)
 def test_what_other_tools_write_is_read_alike(tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_text(ALIKE[name], encoding="utf-8")
-    utterance = read_timings(tmp_path / name)
+    utterance = read_marks(tmp_path / name)
     assert times(utterance) == [(0.1, 0.2), (0.2, 0.45)]
     assert [sound.phoneme.viseme for sound in utterance.sounds] == [1, 10]
     if "pa" in ALIKE[name]:
@@ -118,19 +118,19 @@ def test_what_other_tools_write_is_read_alike(tmp_path: Path, name: str) -> None
 
 def test_an_assumed_unit_is_said(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text(ALIKE["guessed.csv"])
-    assert "times are read as milliseconds" in read_timings(tmp_path / "a.csv").assumed
+    assert "times are read as milliseconds" in read_marks(tmp_path / "a.csv").assumed
     (tmp_path / "a.phn").write_text(ALIKE["timit.phn"])
-    assert "times are read as samples at 16,000 per second" in read_timings(tmp_path / "a.phn").assumed
+    assert "times are read as samples at 16,000 per second" in read_marks(tmp_path / "a.phn").assumed
 
 
 def test_visemes_by_number_are_those_of_the_standard(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("start,end,viseme\n0.0,0.1,1\n0.1,0.3,10\n0.3,0.4,0\n")
-    assert [sound.phoneme.viseme for sound in read_timings(tmp_path / "a.csv").sounds] == [1, 10, 0]
+    assert [sound.phoneme.viseme for sound in read_marks(tmp_path / "a.csv").sounds] == [1, 10, 0]
 
 
 def test_what_stands_in_and_what_is_unknown_is_said(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("0.0 0.1 ɲ\n0.1 0.2 a\n0.2 0.3 spn\n0.3 0.4 ю\n")
-    utterance = read_timings(tmp_path / "a.txt")
+    utterance = read_marks(tmp_path / "a.txt")
     assert utterance.assumed == (
         "the sounds are read as IPA",
         "not known, the mouth passes over them: spn, ю",
@@ -141,7 +141,7 @@ def test_what_stands_in_and_what_is_unknown_is_said(tmp_path: Path) -> None:
 
 def test_a_diphthong_has_two_sounds_the_first_longer(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("0.0 0.5 AY1\n")
-    assert times(read_timings(tmp_path / "a.txt")) == [(0.0, 0.3), (0.3, 0.5)]
+    assert times(read_marks(tmp_path / "a.txt")) == [(0.0, 0.3), (0.3, 0.5)]
 
 
 def textgrid(*tiers: tuple[str, list[tuple[float, float, str]]]) -> str:
@@ -161,7 +161,7 @@ def test_a_tier_of_any_name_is_found_and_said(tmp_path: Path) -> None:
     (tmp_path / "a.TextGrid").write_text(
         textgrid(("Äußerung", [(0.0, 1.0, "pa")]), ("Anna", PHONES)), encoding="utf-16"
     )
-    utterance = read_timings(tmp_path / "a.TextGrid")
+    utterance = read_marks(tmp_path / "a.TextGrid")
     assert times(utterance) == [(0.0, 0.1), (0.1, 0.3)]
     assert "tier 'Anna' is read as the sounds" in utterance.assumed
 
@@ -172,12 +172,12 @@ def test_one_of_several_speakers_is_chosen(tmp_path: Path) -> None:
     other = ("bea - phones", [(0.0, 0.5, "t"), (0.5, 1.0, "u")])
     path.write_text(textgrid(("anna - phones", PHONES), ("bea - words", words), other))
     with pytest.raises(FormatError, match="has 2 tiers of sounds: choose one of anna - phones, bea - phones"):
-        read_timings(path)
-    chosen = read_timings(path, tier="bea - phones")
+        read_marks(path)
+    chosen = read_marks(path, tier="bea - phones")
     assert said(chosen) == "t u"
     assert [word.text for word in chosen.words] == ["tu"]
     with pytest.raises(FormatError, match="has no tier 'carl': choose one of"):
-        read_timings(path, tier="carl")
+        read_marks(path, tier="carl")
 
 
 POINTS = """File type = "ooTextFile"
@@ -220,16 +220,16 @@ def test_bad_files_are_refused_with_the_place_and_the_remedy(tmp_path: Path, nam
     content, problem = BAD[name]
     (tmp_path / name).write_text(content, encoding="utf-8")
     with pytest.raises(FormatError, match=problem):
-        read_timings(tmp_path / name)
+        read_marks(tmp_path / name)
 
 
 def test_binary_files_are_refused(tmp_path: Path) -> None:
     (tmp_path / "a.bin").write_bytes(b"RUB\x04\xff\xfe\x90")
     with pytest.raises(FormatError, match="is no text: it must be a TextGrid"):
-        read_timings(tmp_path / "a.bin")
+        read_marks(tmp_path / "a.bin")
     (tmp_path / "a.mp3").write_bytes(b"ID3\x04\xff\xfe\x90")
     with pytest.raises(FormatError, match="is a sound, but not WAV"):
-        read_timings(tmp_path / "a.mp3")
+        read_marks(tmp_path / "a.mp3")
 
 
 def test_a_stream_with_visemes_says_when_they_are(tmp_path: Path) -> None:
@@ -244,13 +244,13 @@ def test_a_stream_with_visemes_says_when_they_are(tmp_path: Path) -> None:
     write_fap(tmp_path / "a.fap", stream)
     write_fba(tmp_path / "a.fba", stream)
     for name in ("a.fap", "a.fba"):
-        utterance = read_timings(tmp_path / name)
+        utterance = read_marks(tmp_path / name)
         assert times(utterance) == [(0.2, 0.4), (0.4, 0.56), (0.56, 0.8)]
         assert [sound.phoneme.viseme for sound in utterance.sounds] == [1, 10, 14]
         assert utterance.duration == 1.0
     write_fap(tmp_path / "b.fap", FapStream(np.zeros((5, 68))))
     with pytest.raises(FormatError, match=r"states no viseme \(FAP 1\)"):
-        read_timings(tmp_path / "b.fap")
+        read_marks(tmp_path / "b.fap")
 
 
 def write_wav(path: Path, samples: np.ndarray, rate: int = 8000) -> None:
@@ -268,22 +268,22 @@ def test_a_sound_alone_opens_the_mouth_as_loud_as_it_is_and_says_so(tmp_path: Pa
         height * np.exp(-(((seconds - at) / 0.06) ** 2)) for at, height in ((0.4, 8000), (0.9, 16000), (1.5, 4000))
     )
     write_wav(tmp_path / "a.wav", loud * np.sin(1000.0 * seconds))
-    utterance = read_timings(tmp_path / "a.wav")
+    utterance = read_marks(tmp_path / "a.wav")
     np.testing.assert_allclose([sound.middle for sound in utterance.sounds], [0.4, 0.9, 1.5], atol=0.02)
     jaws = [sound.phoneme.jaw for sound in utterance.sounds]
     assert jaws[1] > jaws[0] > jaws[2]
     assert "the mouth follows loudness alone" in utterance.assumed[0]
     write_wav(tmp_path / "b.wav", np.zeros(8000))
     with pytest.raises(FormatError, match="is silent"):
-        read_timings(tmp_path / "b.wav")
+        read_marks(tmp_path / "b.wav")
     (tmp_path / "c.wav").write_bytes((tmp_path / "a.wav").read_bytes()[:30])
     with pytest.raises(FormatError, match="is no WAV file of whole samples"):
-        read_timings(tmp_path / "c.wav")
+        read_marks(tmp_path / "c.wav")
 
 
 def test_speech_of_people_has_a_syllable_about_where_its_vowels_are(speech: Path) -> None:
-    heard = read_timings(speech / "textgrid" / "bobby.wav")
-    vowels = [s.middle for s in read_timings(speech / "textgrid" / "bobby_phones.TextGrid").sounds if s.phoneme.vowel]
+    heard = read_marks(speech / "textgrid" / "bobby.wav")
+    vowels = [s.middle for s in read_marks(speech / "textgrid" / "bobby_phones.TextGrid").sounds if s.phoneme.vowel]
     nearest = [min(abs(sound.middle - vowel) for sound in heard.sounds) for vowel in vowels]
     assert len(heard.sounds) <= len(vowels) + 2
     assert np.median(nearest) < 0.06
@@ -293,20 +293,20 @@ def test_a_wrong_alphabet_is_refused(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text(AUDACITY)
     wrong: Any = "klingon"
     with pytest.raises(ParameterError, match="must be one of ipa, arpabet, xsampa"):
-        read_timings(tmp_path / "a.txt", alphabet=wrong)
-    assert said(read_timings(tmp_path / "a.txt", alphabet="xsampa")) == "p a"
+        read_marks(tmp_path / "a.txt", alphabet=wrong)
+    assert said(read_marks(tmp_path / "a.txt", alphabet="xsampa")) == "p a"
 
 
 def test_empty_tiers_other_alphabets_and_other_sounds_are_told_apart(tmp_path: Path) -> None:
     kana, ogg, empty = tmp_path / "kana.txt", tmp_path / "line.ogg", tmp_path / "empty.TextGrid"
     kana.write_text("0.0 0.2 か\n0.2 0.4 ん\n", encoding="utf-8")
     with pytest.raises(FormatError, match="is no symbol of any of IPA, ARPAbet, X-SAMPA: convert the symbols"):
-        read_timings(kana)
+        read_marks(kana)
     with pytest.raises(FormatError, match="is no symbol of IPA; choose another alphabet or tier"):
-        read_timings(kana, alphabet="ipa")
+        read_marks(kana, alphabet="ipa")
     ogg.write_bytes(b"OggS\x00\x02" + bytes(40))
     with pytest.raises(FormatError, match="is a sound, but not WAV: convert it to WAV"):
-        read_timings(ogg)
+        read_marks(ogg)
     head = 'File type = "ooTextFile"\nObject class = "TextGrid"\n\nxmin = 0\nxmax = 1\ntiers? <exists>\n'
     head += "size = 1\nitem []:\n"
     tier = (
@@ -316,4 +316,4 @@ def test_empty_tiers_other_alphabets_and_other_sounds_are_told_apart(tmp_path: P
     marks += '            text = ""\n'
     empty.write_text(head + tier + marks, encoding="utf-8")
     with pytest.raises(FormatError, match="has only empty tiers"):
-        read_timings(empty)
+        read_marks(empty)
