@@ -16,7 +16,7 @@ from .options import (
     Verbs,
     add_creases,
     add_engine,
-    add_labels,
+    add_film,
     add_onto,
     add_scene,
     add_timing,
@@ -53,12 +53,8 @@ def add_film_verbs(verbs: Verbs) -> None:
     render = verb(verbs, "render", _render)
     add_words(render)
     add_timing(render)
-    add_scene(render)
-    add_onto(render)
+    add_film(render)
     _add_rate(render)
-    add_engine(render)
-    add_creases(render)
-    add_labels(render)
     render.add_argument("--out", type=Path, required=True, help="the .mp4 file to write")
 
     demo = verb(verbs, "demo", _demo)

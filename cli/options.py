@@ -163,6 +163,12 @@ def add_labels(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--licence", default="", metavar="TEXT", help="with --labels: licence of the head of --mesh")
 
 
+def add_film(parser: argparse.ArgumentParser) -> None:
+    """Options of a verb that films a motion: whose face, what is keyed, how it looks, and the truth beside it."""
+    for add in (add_scene, add_onto, add_engine, add_creases, add_labels):
+        add(parser)
+
+
 def add_creases(parser: argparse.ArgumentParser) -> None:
     about = "draw wrinkles where skin is compressed, in Cycles and EEVEE (default: on the default head only)"
     parser.add_argument("--creases", action=argparse.BooleanOptionalAction, help=about)

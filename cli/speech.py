@@ -15,11 +15,7 @@ from ..progress import Work, run
 from .films import destination_of, in_blender, labels_of, lines_of, needing_blender
 from .options import (
     Verbs,
-    add_creases,
-    add_engine,
-    add_labels,
-    add_onto,
-    add_scene,
+    add_film,
     add_strength,
     expression_of,
     onto_options,
@@ -65,11 +61,7 @@ def add_speech_verb(verbs: Verbs) -> None:
     say.add_argument("--lean", type=float, default=1.0, help=about)
     say.add_argument("--still", action="store_true", help="no blinks and no small motions of head and eyes")
     say.add_argument("--fps", type=float, help="frames per second (default: those of a .blend, else 25)")
-    add_scene(say)
-    add_onto(say)
-    add_engine(say)
-    add_creases(say)
-    add_labels(say)
+    add_film(say)
     about = "what to write: a stream (.fap, .fba, .json, .csv), a video (.mp4) or a .blend"
     say.add_argument("--out", type=Path, required=True, help=about)
 

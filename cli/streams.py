@@ -12,13 +12,9 @@ from .faps import range_lines, ranges_of
 from .films import destination_of, in_blender, labels_of, lines_of, needing_blender
 from .options import (
     Verbs,
-    add_creases,
-    add_engine,
+    add_film,
     add_fps,
     add_inertia,
-    add_labels,
-    add_onto,
-    add_scene,
     add_strength,
     expression_of,
     motion_line,
@@ -58,12 +54,8 @@ def add_stream_verb(verbs: Verbs) -> None:
     play.add_argument("source", metavar="FILE", help=READABLE)
     play.add_argument("target", metavar="OUT", nargs="?", help="the file to write: .blend or .mp4")
     play.add_argument("--out", type=Path, help="the same as OUT")
-    add_scene(play)
-    add_onto(play)
+    add_film(play)
     add_inertia(play)
-    add_engine(play)
-    add_creases(play)
-    add_labels(play)
 
     of = verb(actions, "of", _of)
     of.add_argument("source", metavar="FILE|WORD", help=f"{READABLE}, to inspect or to convert; or an emotion word")

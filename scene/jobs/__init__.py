@@ -9,6 +9,7 @@ destination               where its bakes go: new shape keys, or the controls th
 inputs                    that file: opened or read, and the meshes in it
 stage                     the scene around the face, if it is not the user's
 painting                  materials for meshes that bring none
+writing                   what was baked, as a .blend or a film
 files                     the file that a job works in, what is written, and how it is saved
 kept                      prepared faces, for the next time
 labelling                 the truth beside what is rendered

@@ -14,6 +14,9 @@ import numpy as np
 
 from ...errors import FormatError, ParameterError, SceneError
 
+#: What a file's name must end in to be a .blend; what else a job is asked to write is a film.
+BLEND = ".blend"
+
 
 @dataclass(frozen=True)
 class Made:

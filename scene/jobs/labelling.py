@@ -27,6 +27,7 @@ from ..bake.timing import scene_fps
 from ..blender_types import Scene
 from ..faces import FaceSource, face_of
 from ..pictures.look import Look
+from .files import BLEND
 from .subjects import Subject
 
 if TYPE_CHECKING:
@@ -128,12 +129,18 @@ class Labelling:
         self._draft.discard()
 
 
-def refuse_unwritable_labels(labels: Labels | None) -> None:
-    """Refuse a folder for labels that cannot be written or holds something else, before anything is rendered."""
+def refuse_unwritable_labels(labels: Labels | None, out: Path) -> None:
+    """Refuse labels of what is no film, or in a folder that cannot be written or holds something else, before any work.
+
+    `out` : the file that the job writes.
+    """
     from ...labels.package import Draft
 
-    if labels is not None:
-        Draft(labels.folder).discard()
+    if labels is None:
+        return
+    if out.suffix.lower() == BLEND:
+        raise ParameterError("labels", "need a film (.mp4): they tell what its frames show", str(out))
+    Draft(labels.folder).discard()
 
 
 def begin(

@@ -6,25 +6,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...errors import ParameterError
 from ...mpeg4 import bridged
 from ...progress import Report, Work, part_of, run
 from .. import bake
 from ..bake.motion import FapMotion, at_rate
 from ..pictures import film
-from ..pictures.look import Engine, Look
+from ..pictures.look import Look
 from .destination import NEW_KEYS, Destination
 from .files import Made
 from .inputs import Input
 from .labelling import Labels, refuse_unwritable_labels
 from .subjects import subject
-from .words import film_baked, save_baked
+from .words import engine_of
+from .writing import saved_or_filmed
 
 if TYPE_CHECKING:
     from ...api import FapStream
-
-#: What a file's name must end in to be a .blend; anything else is a film.
-BLEND = ".blend"
 
 
 def play_stream(
@@ -52,11 +49,10 @@ def play_stream(
     ------
     RisoriusError : nothing has been written then.
     """
-    if engine.upper() not in list(Engine):
-        raise ParameterError("engine", f"must be one of {', '.join(Engine)}", engine)
-    is_blend = mesh is not None and Path(mesh).suffix.lower() == BLEND
-    asked = Input.of(mesh, points, object_name, None if is_blend else stream.fps)
-    look = Look(engine=Engine(engine.upper()))
+    asked = Input.of(mesh, points, object_name)
+    if not asked.is_scene:
+        asked = replace(asked, fps=stream.fps)
+    look = Look(engine=engine_of(engine))
     return run(_play(Path(out), stream, asked, destination, look, creases, inertia, labels), progress)
 
 
@@ -71,16 +67,13 @@ def _play(
     labels: Labels | None,
 ) -> Work[Made]:
     """See `play_stream`."""
-    refuse_unwritable_labels(labels)
+    refuse_unwritable_labels(labels, out)
     film.refuse_unwritable_output(out)
     played = bridged(stream.expanded(), stream.fps)
     FapMotion(played.frames)  # refuses a stream without frames before anything is loaded
     face = yield from part_of(subject(asked, creases=bool(creases)), 0.0, 0.05)
     motion = FapMotion(at_rate(played.frames, stream.fps, bake.scene_fps()), inertia=inertia)
     face = replace(face, remarks=face.remarks + played.said)
-    saves = out.suffix.lower() == BLEND
     clip = stream.name.split("\\")[-1].strip() or "stream"
-    baked = yield from part_of(destination.motion(face, motion, clip, creases), 0.05, 0.95 if saves else 0.4)
-    if saves:
-        return save_baked(out, face, baked, look)
-    return (yield from part_of(film_baked(out, face, baked, look, motion=motion, labels=labels), 0.4, 1.0))
+    baked = yield from part_of(destination.motion(face, motion, clip, creases), 0.05, 0.4)
+    return (yield from part_of(saved_or_filmed(out, face, baked, look, motion=motion, labels=labels), 0.4, 1.0))

@@ -6,22 +6,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import bpy
-
 from ...errors import FormatError
 from ...progress import Report, Work, part_of, run
 from .. import bake
 from ..bake.motion import FapMotion
 from ..pictures import film
 from ..pictures.look import Look
-from ..sounds import add_sound
 from .destination import NEW_KEYS, Destination
 from .files import Made
 from .inputs import Input
 from .labelling import Labels, refuse_unwritable_labels
-from .playing import BLEND
 from .subjects import subject
-from .words import engine_of, film_baked, save_baked
+from .words import engine_of
+from .writing import saved_or_filmed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -73,20 +70,12 @@ def _say(
     labels: Labels | None,
 ) -> Work[Made]:
     """See `say_file`."""
-    refuse_unwritable_labels(labels)
+    refuse_unwritable_labels(labels, out)
     film.refuse_unwritable_output(out)
     face = yield from part_of(subject(asked, creases=bool(creases)), 0.0, 0.05)
     saying = yield from part_of(say(bake.scene_fps()), 0.05, 0.1)
     face = replace(face, remarks=face.remarks + saying.assumed)
-    saves = out.suffix.lower() == BLEND
     motion = FapMotion(saying.stream.frames, saying.emotions, planned=True)
-    baked = yield from part_of(
-        destination.motion(face, motion, saying.stream.name, creases), 0.1, 0.95 if saves else 0.4
-    )
-    if saves:
-        if sound is not None:
-            (moved,) = baked.results
-            add_sound(bpy.context.scene, sound, frame=int(moved.frame_range[0]))
-        return save_baked(out, face, baked, look)
-    filming = film_baked(out, face, baked, look, motion=motion, sound=sound, labels=labels, saying=saying)
+    baked = yield from part_of(destination.motion(face, motion, saying.stream.name, creases), 0.1, 0.4)
+    filming = saved_or_filmed(out, face, baked, look, motion=motion, sound=sound, labels=labels, saying=saying)
     return (yield from part_of(filming, 0.4, 1.0))

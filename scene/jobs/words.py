@@ -11,20 +11,20 @@ from typing import TYPE_CHECKING
 from ...errors import ParameterError
 from ...mpeg4 import Liveliness
 from ...progress import Progress, Report, Work, part_of, run
-from ..bake.motion import CueMotion, FapMotion
+from ..bake.motion import CueMotion
 from ..bake.performance import ARCHETYPES, PAUSE, cues_of
 from ..pictures import film
 from ..pictures.look import Engine, Look
 from .destination import NEW_KEYS, Baked, Destination
-from .files import Made, save
+from .files import Made
 from .inputs import Input
-from .labelling import Labels, begin, refuse_unwritable_labels
+from .labelling import Labels, refuse_unwritable_labels
 from .sheet import write_apexes
-from .stage import cover, dress
 from .subjects import Subject, subject
+from .writing import film_baked, filming, save_baked
 
 if TYPE_CHECKING:
-    from ...api import Cue, Saying, Timing
+    from ...api import Cue, Timing
 
 #: Pixels of a picture on the contact sheet.
 SHEET_SIZE = 640
@@ -173,22 +173,6 @@ def _bake_file(
     return save_baked(out, face, baked, Look())
 
 
-def save_baked(out: Path, face: Subject, baked: Baked, look: Look) -> Made:
-    """Furnish a scene of our own, save the .blend, and tell what is in it."""
-    said = cover(face, baked.last)
-    dress(face, look)
-    save(out)
-    return Made(
-        blend=out,
-        face=face.obj.name,
-        shape_keys=baked.new_keys,
-        error_mm=baked.error_mm,
-        bytes=out.stat().st_size,
-        clips=baked.reports,
-        remarks=face.remarks + baked.remarks + said,
-    )
-
-
 def _render_film(
     out: Path,
     load: Load,
@@ -199,60 +183,11 @@ def _render_film(
     labels: Labels | None = None,
 ) -> Work[Made]:
     """See `render_film`."""
-    refuse_unwritable_labels(labels)
+    refuse_unwritable_labels(labels, out)
     face = yield from _begin([out], load)
     motion = in_time(cues)
     baked = yield from part_of(destination.motion(face, motion, "performance", creases), 0.05, 0.4)
     return (yield from part_of(film_baked(out, face, baked, look, motion=motion, labels=labels), 0.4, 1.0))
-
-
-def film_baked(
-    out: Path,
-    face: Subject,
-    baked: Baked,
-    look: Look,
-    *,
-    motion: CueMotion | FapMotion,
-    sound: str | Path | None = None,
-    labels: Labels | None = None,
-    saying: Saying | None = None,
-) -> Work[Made]:
-    """Film what was baked as one motion, write labels where they are wanted, and tell what is there.
-
-    `motion` : what was baked; `saying` : the speech that it is.
-    """
-    if labels is None:
-        rendered = yield from _filming(face, baked, out, look, sound)
-    else:
-        start = int(baked.results[0].frame_range[0])
-        labelling = begin(labels, face, motion, start=start, saying=saying)
-        try:
-            rendered = yield from _filming(face, baked, out, look, sound, labelling.look)
-            labelling.write(look)
-        finally:
-            labelling.discard()
-    return Made(
-        film=rendered.path,
-        labels=None if labels is None else labels.folder,
-        face=face.obj.name,
-        frames=rendered.frame_count,
-        clips=baked.reports,
-        remarks=face.remarks + baked.remarks + rendered.remarks,
-    )
-
-
-def _filming(
-    face: Subject,
-    baked: Baked,
-    out: Path,
-    look: Look,
-    sound: str | Path | None = None,
-    watch: film.Watch | None = None,
-) -> Work[film.FilmResult]:
-    """Render what was baked as one motion."""
-    (moved,) = baked.results
-    start, end = (int(frame) for frame in moved.frame_range)
-    return film.render_film(face.shown(), out, start=start, end=end, look=look, sound=sound, watch=watch)
 
 
 def _demo(out: Path, load: Load, cues: Sequence[Cue], look: Look, creases: bool | None = None) -> Work[Made]:
@@ -260,7 +195,7 @@ def _demo(out: Path, load: Load, cues: Sequence[Cue], look: Look, creases: bool 
     blend, movie, sheet = (out / f"risorius.{suffix}" for suffix in ("blend", "mp4", "png"))
     face = yield from _begin([blend, movie, sheet], load)
     baked = yield from part_of(_move(face, cues, NEW_KEYS, creases, ALIVE), 0.05, 0.35)
-    rendered = yield from part_of(_filming(face, baked, movie, look), 0.35, 0.9)
+    rendered = yield from part_of(filming(face, baked, movie, look), 0.35, 0.9)
     yield Progress(0.91, "Composing the contact sheet")
     write_apexes(face.shown(), cues, replace(look, width=SHEET_SIZE, height=SHEET_SIZE, fine=True), sheet, ALIVE)
     yield Progress(0.99, "Saving the .blend")

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius import cli
-from risorius.errors import SceneError
+from risorius.errors import ParameterError, SceneError
 from risorius.scene.bake.motion import SIMULATED, FapMotion
+from risorius.scene.jobs.labelling import Labels
 from risorius.scene.jobs.playing import play_stream
 from risorius.scene.mesh import evaluated_vertices
 
@@ -43,6 +44,12 @@ def test_a_stream_is_baked_as_the_api_plays_it(inertia: bool, stream: api.FapStr
         seen = evaluated_vertices(obj)
         assert np.abs(seen - clip.positions[index]).max() < 2.0e-4
     assert np.abs(clip.positions[5] - clip.positions[0]).max() > 1.0e-3
+
+
+def test_labels_of_a_blend_are_refused(stream: api.FapStream, tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="labels need a film"):
+        play_stream(tmp_path / "face.blend", stream, labels=Labels(tmp_path / "labels"))
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.slow
