@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import FormatError
-from ..resources import PACKAGE
-from ..tables import read_json, read_toml
+from ..resources import version
+from ..tables import read_json
 from .jobs import Job, digest_of
 
 #: Name of a record in a job's folder.
@@ -153,7 +153,7 @@ def versions(blender: str) -> dict[str, str]:
     import scipy
 
     return {
-        "risorius": read_toml(PACKAGE / "blender_manifest.toml").text("version"),
+        "risorius": version(),
         "blender": blender,
         "python": platform.python_version(),
         "numpy": numpy.__version__,

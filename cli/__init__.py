@@ -30,6 +30,7 @@ import json
 import sys
 
 from ..errors import RisoriusError
+from ..resources import version
 from .animation_tables import add_table_verb
 from .batch import add_batch_verb
 from .capture import add_capture_verb
@@ -86,6 +87,7 @@ def main(argv: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     """All verbs and their options."""
     parser = argparse.ArgumentParser(prog="risorius", description=DESCRIPTION)
+    parser.add_argument("--version", action="version", version=f"risorius {version()}")
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     add_emotion_verbs(verbs)
     add_stream_verb(verbs)

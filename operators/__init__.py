@@ -1,6 +1,7 @@
 """Everything that Blender registers: a folder per feature, most with ops.py, panel.py and props.py.
 
 classes, registration      what Blender is given, and how it is taken back
+saved_by                   which version saved a file, and that a later one did
 props                      the properties that Risorius adds to objects, scenes and the window
 base, sidebar              what all operators and all panels share
 active, changes            the face that it is all about, and who is told when it is to show something else

@@ -13,7 +13,7 @@ from contextlib import ExitStack
 import bpy
 
 from ..scene.faces import forget_faces
-from . import props, translations
+from . import props, saved_by, translations
 from .classes import CLASSES
 from .followers import loaded as followers_loaded
 from .kept import folder as kept_folder
@@ -35,6 +35,7 @@ from .wheel import pick as wheel_pick
 ATTACHED = (
     props.attach,
     translations.attach,
+    saved_by.attach,
     kept_folder.attach,
     followers_loaded.attach,
     points_overlay.attach,

@@ -15,6 +15,14 @@ from .blender_types import Scene, SequencerStrip, SequenceStrips, Sound
 CHANNEL = 2
 #: What marks a strip of the sequencer as the sound of something said.
 TAG = "risorius_speech"
+#: A strip's times by their names in later Blenders, and their names before, which Blender 6.0 takes away.
+EARLIER = {
+    "content_start": "frame_start",
+    "left_handle": "frame_final_start",
+    "duration": "frame_final_duration",
+    "left_handle_offset": "frame_offset_start",
+    "right_handle_offset": "frame_offset_end",
+}
 
 
 def add_sound(scene: Scene, path: str | Path, *, frame: int, packed: bool = False, tag: str = "") -> SequencerStrip:
@@ -36,7 +44,7 @@ def add_sound(scene: Scene, path: str | Path, *, frame: int, packed: bool = Fals
         strip = strips.new_sound(file.stem, str(file.resolve()), channel, frame)
     except RuntimeError as error:
         raise FormatError(file, f"is no sound that this Blender can play: {error}") from error
-    if strip.frame_final_duration <= 1:
+    if frames_heard(strip) <= 1:
         strips.remove(strip)
         raise FormatError(file, "is no sound that this Blender can play: convert it to WAV")
     if packed:
@@ -80,7 +88,7 @@ def is_missing(sound: Sound | None) -> bool:
 def move_sound(scenes: Iterable[Scene], tag: str, frame: int) -> None:
     """Let the strips of a tag start at another frame."""
     for _, strip in tagged(scenes, tag):
-        strip.frame_start = frame
+        setattr(strip, _time(strip, "content_start"), frame)
 
 
 def mute_sound(scenes: Iterable[Scene], tag: str, *, mute: bool) -> None:
@@ -123,13 +131,31 @@ def copy_sound(scene: Scene, strip: SequencerStrip, *, tag: str) -> SequencerStr
     ------
     FormatError : its file is missing.
     """
-    frame = round(strip.frame_start)
-    copy = add_again(scene, strip.sound, frame=frame, tag=tag)
-    for name in ("name", "frame_offset_start", "frame_offset_end", "volume", "pan", "mute"):
-        if hasattr(strip, name):  # a later Blender may call it otherwise
-            setattr(copy, name, getattr(strip, name))
-    copy.frame_start = strip.frame_start
+    copy = add_again(scene, strip.sound, frame=round(start_of(strip)), tag=tag)
+    cut = [_time(strip, name) for name in ("left_handle_offset", "right_handle_offset")]
+    for name in ("name", *cut, "volume", "pan", "mute", _time(strip, "content_start")):
+        setattr(copy, name, getattr(strip, name))
     return copy
+
+
+def start_of(strip: SequencerStrip) -> float:
+    """The frame at which a strip's sound begins, though it may be cut there."""
+    return float(getattr(strip, _time(strip, "content_start")))
+
+
+def first_heard(strip: SequencerStrip) -> int:
+    """The first frame at which a strip is heard."""
+    return int(getattr(strip, _time(strip, "left_handle")))
+
+
+def frames_heard(strip: SequencerStrip) -> int:
+    """How many frames a strip is heard for."""
+    return int(getattr(strip, _time(strip, "duration")))
+
+
+def _time(strip: SequencerStrip, name: str) -> str:
+    """What this Blender calls one of a strip's times."""
+    return name if hasattr(strip, name) else EARLIER[name]
 
 
 def scrub_along(scene: Scene) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,6 +15,17 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
 
 #: No test leaves prepared faces with the user.
 os.environ["RISORIUS_CACHE"] = "off"
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """A test fails in which Blender or a library printed that a later version takes away what is used."""
+    from deprecated import deprecations
+
+    report = yield
+    if report.passed and (said := deprecations(report.capstdout + report.capstderr)):
+        report.outcome, report.longrepr = "failed", "\n".join(["This is taken away by a later version:", *said])
+    return report
 
 
 @pytest.fixture(scope="session")

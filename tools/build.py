@@ -32,7 +32,8 @@ def targets(arguments: argparse.Namespace) -> Iterator[tuple[str, Platform | Non
         return
     for blender in RANGES:
         for platform in PLATFORMS:
-            if arguments.platform in (None, platform.name) and arguments.blender in (None, blender.name):
+            chosen = arguments.platform in (None, platform.name) and arguments.blender in (None, blender.name)
+            if chosen and blender.name in platform.ranges:
                 yield f"risorius-{VERSION}-blender{blender.name}-{platform.name}.zip", platform, blender
 
 
@@ -46,6 +47,8 @@ def main(argv: list[str] | None = None) -> int:
     kinds.add_argument("--python", action="store_true", help="the Python package alone")
     parser.add_argument("--output", type=Path, default=ROOT / "dist", help="folder of what is built (default: dist)")
     arguments = parser.parse_args(argv)
+    if arguments.platform and arguments.blender and not list(targets(arguments)):
+        parser.error(f"there is no SciPy for Blender {arguments.blender} on {arguments.platform}: use another zip")
     zips_alone = arguments.platform or arguments.blender or arguments.no_wheels
     try:
         for name, platform, blender in targets(arguments):

@@ -12,6 +12,7 @@ from ..points.ops import RISORIUS_OT_find_points
 from ..points.panel import kept_of
 from ..points.question import draw_question
 from ..requirements import MISSING, REMEDY, has_scipy
+from ..saved_by import draw_later
 from ..sidebar import Sidebar
 from .lips import draw_sewn
 from .ops import RISORIUS_OT_add_head, RISORIUS_OT_import_points
@@ -32,6 +33,7 @@ class RISORIUS_PT_main(Sidebar, Panel):
             box.label(text=MISSING, icon="ERROR")
             for line in REMEDY:
                 box.label(text=line)
+        draw_later(layout, context.scene)
         obj = context.object
         if obj is None or obj.type != "MESH":
             column = layout.column(align=True)

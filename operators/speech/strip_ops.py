@@ -7,7 +7,7 @@ from bpy.props import FloatProperty
 
 from ...errors import RisoriusError, SceneError
 from ...scene.bake.timing import scene_fps
-from ...scene.sounds import is_missing, remove_sound, scrub_along, tagged
+from ...scene.sounds import frames_heard, is_missing, remove_sound, scrub_along, tagged
 from ..active import active_object, face_reason
 from ..annotated import Annotated
 from ..base import RisoriusOperator
@@ -72,7 +72,7 @@ def add_strip(operator: RisoriusOperator, context: Context, said: Heard) -> str:
         told.append((False, f"Without sound: {refusal}"))
         strip, sound = place_strip(obj, scene, utterance, said.title, start)
     if sound is not None:
-        heard_for = sound.frame_final_duration / scene_fps(scene)
+        heard_for = frames_heard(sound) / scene_fps(scene)
         last = utterance.sounds[-1].end
         if heard_for < last - SHORTER:
             lasts = f"{said.title}: the sound lasts {heard_for:.1f} s, but the speech {last:.1f} s"

@@ -135,22 +135,17 @@ class Sound(Datablock, Protocol):
 
 
 class SequencerStrip(Protocol):
-    """A strip of the video sequencer, as one of sound."""
+    """A strip of the video sequencer, as one of sound. Its times have other names by version: see `scene.sounds`."""
 
     name: str
     channel: int
     sound: Sound
     mute: bool
-    frame_start: float
-    frame_offset_start: float
-    frame_offset_end: float
     volume: float
     pan: float
 
     @property
     def type(self) -> str: ...
-    @property
-    def frame_final_duration(self) -> int: ...
     def get(self, name: str) -> object: ...
     def __setitem__(self, name: str, value: object) -> None: ...
 

@@ -10,7 +10,6 @@ or, for a motion that is baked and a studio that stands: `write_labels`.
 from __future__ import annotations
 
 import platform
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from hashlib import sha256
@@ -21,7 +20,7 @@ import bpy
 import numpy as np
 
 from ...errors import ParameterError
-from ...resources import PACKAGE
+from ...resources import version
 from ..bake.motion import CueMotion, FapMotion
 from ..bake.timing import scene_fps
 from ..blender_types import Scene
@@ -198,9 +197,8 @@ def _made_with() -> dict[str, object]:
     """Versions of all that had a hand in it."""
     import scipy
 
-    manifest = tomllib.loads((PACKAGE / "blender_manifest.toml").read_text(encoding="utf-8"))
     return {
-        "risorius": manifest["version"],
+        "risorius": version(),
         "blender": bpy.app.version_string,
         "python": platform.python_version(),
         "numpy": np.__version__,

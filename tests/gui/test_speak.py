@@ -27,7 +27,7 @@ strips = [] if editor is None else (editor.strips if hasattr(editor, "strips") e
 result = {
     "actions": sorted(action.name for action in bpy.data.actions),
     "keys": len(keys.key_blocks) if keys else 0,
-    "strips": [[strip.type, int(strip.frame_final_start)] for strip in strips],
+    "strips": [[strip.type, int(strip.left_handle)] for strip in strips],
 }
 """
 RUNNING = "any('speak' in op.bl_idname for op in bpy.context.window_manager.windows[0].modal_operators)"

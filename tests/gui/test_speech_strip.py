@@ -24,7 +24,7 @@ editor = bpy.context.scene.sequence_editor
 strips = [] if editor is None else (editor.strips if hasattr(editor, "strips") else editor.sequences)
 result = {{
     "strips": [[strip.start, round(strip.stretch, 3), [word.name for word in strip.words]] for strip in speech.strips],
-    "sounds": [[int(strip.frame_final_start), int(strip.frame_final_duration)] for strip in strips],
+    "sounds": [[int(strip.left_handle), int(strip.duration)] for strip in strips],
 }}
 """
 #: The panels of speech come first, and the editor of properties shows the timeline, tall enough for pictures.

@@ -12,10 +12,11 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Platform:
-    """One system: Blender's name for it, and the wheel tags that run on it, the preferred one first."""
+    """One system: Blender's name for it, the wheel tags that run on it, the preferred one first, and its ranges."""
 
     name: str
     tags: tuple[str, ...]
+    ranges: tuple[str, ...] = ("4.2", "5.1")
 
 
 @dataclass(frozen=True)
@@ -33,12 +34,15 @@ class BlenderRange:
     scipy: str
 
 
-# Blender itself needs glibc 2.28; wheels tagged for older systems run there too.
+# Blender itself needs glibc 2.28; wheels tagged for older systems run there too. Blender for Macs with Intel ends with
+# 4.5, and SciPy for Windows on Arm begins with Python 3.13.
 PLATFORMS = (
     Platform("linux-x64", ("manylinux2014_x86_64", "manylinux_2_17_x86_64", "manylinux_2_27_x86_64",
                            "manylinux_2_28_x86_64")),
     Platform("windows-x64", ("win_amd64",)),
+    Platform("windows-arm64", ("win_arm64",), ranges=("5.1",)),
     Platform("macos-arm64", ("macosx_11_0_arm64", "macosx_12_0_arm64")),
+    Platform("macos-x64", ("macosx_10_9_x86_64", "macosx_10_12_x86_64", "macosx_10_13_x86_64"), ranges=("4.2",)),
 )  # fmt: skip
 
 # Blender 4.2 brings NumPy 1.24.3: SciPy 1.15 is the last that runs on it. From 5.1 the official builds have

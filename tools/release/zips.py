@@ -12,6 +12,7 @@ from pathlib import Path
 
 from environments import ENVIRONMENTS
 
+from .contents import check_zip
 from .sources import BuildError, copy_sources
 from .wheels import BlenderRange, Platform
 
@@ -82,7 +83,8 @@ def build_zip(target: Path, wheels: list[Path], *, platform: Platform | None, bl
     Raises
     ------
     BuildError
-        Blender's tool refuses the extension, or the zip is larger than the extension site takes.
+        Blender's tool refuses the extension, a wheel is missing or for another system or Python, or the zip is larger
+        than the extension site takes.
     """
     command = blender_extension_command()
     target.parent.mkdir(parents=True, exist_ok=True)
@@ -93,6 +95,8 @@ def build_zip(target: Path, wheels: list[Path], *, platform: Platform | None, bl
         run([*command, "build", *valid_tags(command), "--source-dir", str(source), "--output-filepath", str(raw)])
         repack(raw, target)
     run([*command, "validate", *valid_tags(command), str(target)])
+    if platform and blender:
+        check_zip(target, platform, blender)
     size = target.stat().st_size
     if size >= LARGEST:
         raise BuildError(f"{target}: {size / 1e6:.0f} MB; the extension site takes less than {LARGEST / 1e6:.0f} MB")

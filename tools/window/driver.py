@@ -18,6 +18,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from deprecated import deprecations
 from places import ROOT, shared_folder
 
 SERVED = Path(__file__).with_name("served.py")
@@ -86,7 +87,10 @@ class Window:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        said = deprecations(self.log())
         self.call("stop", check=False)
+        if said and error is None:
+            raise WindowError("the extension uses what a later Blender takes away:\n" + "\n".join(said))
 
     def call(self, *arguments: str, check: bool = True) -> str:
         """One call of the tool; returns what it said."""

@@ -7,12 +7,17 @@ sets the next one has; `result` is what it answers.
 import json
 import sys
 import traceback
+import warnings
 from pathlib import Path
 
 import bpy
 
 FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
 EVERY = 0.05
+
+# Python keeps quiet about these by default; the driver looks for them in what Blender printed.
+for kind in (DeprecationWarning, PendingDeprecationWarning, FutureWarning):
+    warnings.filterwarnings("always", category=kind, module=r"bl_ext\..*risorius")
 
 names = {"bpy": bpy}
 

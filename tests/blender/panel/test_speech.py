@@ -13,6 +13,7 @@ from risorius.operators.speech.ops import RISORIUS_OT_speak
 from risorius.operators.speech.props import _matching
 from risorius.scene.bake.shape_keys import read_own
 from risorius.scene.mesh import evaluated_vertices
+from risorius.scene.sounds import first_heard, frames_heard
 
 TIMINGS = "0.0 0.1 m\n0.1 0.2 i\n0.2 0.3 p\n"
 
@@ -91,12 +92,12 @@ def test_a_text_is_said_with_its_voice_in_the_file(
     assert bpy.ops.risorius.speak() == {"FINISHED"}
     assert list(read_own(head.data).clips) == ["Pat my map."]
     (strip,) = strips()
-    assert (strip.type, strip.frame_final_start) == ("SOUND", 3)
+    assert (strip.type, first_heard(strip)) == ("SOUND", 3)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "said.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "said.blend"))
     (strip,) = strips()
     assert strip.sound.packed_file is not None
-    assert strip.frame_final_duration >= 8
+    assert frames_heard(strip) >= 8
     assert "Without sound" not in capfd.readouterr().out
 
 

@@ -11,6 +11,7 @@ import pytest
 from risorius.operators.speech.bars import SpokenTimes
 from risorius.operators.timeline.bars import Grip, lay_out
 from risorius.operators.timeline.drag import _Dragged
+from risorius.scene.sounds import first_heard, frames_heard
 from risorius.speech.waves import wav_of
 
 RATE = 16000
@@ -35,7 +36,7 @@ def heard() -> tuple[int, int]:
     """First frame and length of the sound."""
     editor = bpy.context.scene.sequence_editor
     (sound,) = editor.strips if hasattr(editor, "strips") else editor.sequences
-    return int(sound.frame_final_start), int(sound.frame_final_duration)
+    return first_heard(sound), frames_heard(sound)
 
 
 def test_a_bar_lies_where_it_is_said_and_its_end_is_a_grip(strip: Any) -> None:

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from risorius.operators.speech.sharing import stray_sounds
-from risorius.scene.sounds import TAG, tagged
+from risorius.scene.sounds import TAG, start_of, tagged
 from risorius.speech.waves import wav_of
 
 RATE = 16000
@@ -50,10 +50,10 @@ def test_a_copy_that_is_moved_has_a_sound_of_its_own(strip: Any, moved: str) -> 
     assert len(sounds(strip)) == 1
     goes, stays = (other, strip) if moved == "copy" else (strip, other)
     goes.start = 21
-    assert [sound.frame_start for sound in sounds(goes)] == [21]
-    assert [sound.frame_start for sound in sounds(stays)] == [1]
+    assert [start_of(sound) for sound in sounds(goes)] == [21]
+    assert [start_of(sound) for sound in sounds(stays)] == [1]
     goes.start = 31  # and goes on being its own
-    assert [sound.frame_start for sound in sounds(goes)] == [31]
+    assert [start_of(sound) for sound in sounds(goes)] == [31]
     assert len(bpy.data.sounds) == 1
 
 
@@ -80,9 +80,9 @@ def test_a_copied_scene_keeps_its_own_sound(strip: Any) -> None:
     bpy.ops.scene.new(type="FULL_COPY")
     copied = next(obj for obj in bpy.context.scene.objects if obj.risorius.speech.strips)
     copied.risorius.speech.strips[0].start = 21
-    there = [sound.frame_start for _, sound in tagged([bpy.context.scene], copied.risorius.speech.strips[0].tag)]
+    there = [start_of(sound) for _, sound in tagged([bpy.context.scene], copied.risorius.speech.strips[0].tag)]
     assert there == [21]
-    assert [sound.frame_start for _, sound in tagged([first], strip.tag)] == [1]
+    assert [start_of(sound) for _, sound in tagged([first], strip.tag)] == [1]
     assert len(sounds(strip)) == 1
 
 

@@ -15,6 +15,7 @@ from risorius.operators.speech.strips import speech_of, title_of_strip
 from risorius.scene.bake.shape_keys import read_own
 from risorius.scene.bake.speech_motion import SpeechMotion
 from risorius.scene.mesh import evaluated_vertices
+from risorius.scene.sounds import first_heard, frames_heard
 from risorius.speech.waves import wav_of
 
 TIMINGS = "start,end,phoneme,word\n0.0,0.1,m,me\n0.1,0.2,i,me\n0.3,0.4,p,up\n0.4,0.6,a,up\n"
@@ -72,9 +73,9 @@ def test_a_strip_holds_words_and_their_sounds(speech: Any) -> None:
 def test_its_sound_follows_where_it_goes_and_is_muted_with_it(speech: Any) -> None:
     strip = add(speech, 20)
     (sound,) = heard()
-    assert sound.frame_final_start == 20
+    assert first_heard(sound) == 20
     strip.start = 7
-    assert sound.frame_final_start == 7
+    assert first_heard(sound) == 7
     strip.mute = True
     assert sound.mute
     assert speech_of(speech.id_data, 1.0, 10.0) is None
@@ -89,14 +90,14 @@ def test_it_lasts_as_long_as_it_is_stretched_and_its_sound_too(speech: Any) -> N
     strip = add(speech)
     assert bpy.ops.risorius.stretch_speech(stretch=1.5) == {"FINISHED"}
     (sound,) = heard()
-    assert sound.frame_final_duration == 15
+    assert frames_heard(sound) == 15
     said = speech_of(speech.id_data, 1.0, 10.0)
     assert said is not None
     assert said.utterance.sounds[-1].end == pytest.approx(0.9, abs=1e-5)
     strip.stretch = 1.0
     assert bpy.ops.risorius.fit_speech_sound() == {"FINISHED"}
     (sound,) = heard()
-    assert (sound.frame_final_duration, sound.sound) == (10, strip.sound)
+    assert (frames_heard(sound), sound.sound) == (10, strip.sound)
     assert not bpy.ops.risorius.fit_speech_sound.poll()
 
 
@@ -108,7 +109,7 @@ def test_a_file_keeps_it(speech: Any, tmp_path: Path) -> None:
     (strip,) = bpy.data.objects[name].risorius.speech.strips
     assert [word.name for word in strip.words] == ["me", "up"]
     strip.start = 9
-    assert heard()[0].frame_final_start == 9
+    assert first_heard(heard()[0]) == 9
 
 
 def test_two_strips_are_one_speech_and_the_later_one_cuts_the_other_off(speech: Any) -> None:
@@ -200,7 +201,7 @@ def test_a_preset_keeps_it_with_its_sound(
         (s.phoneme, s.strength) for s in before.utterance.sounds
     ]
     assert np.allclose([s.end for s in after.utterance.sounds], [s.end for s in before.utterance.sounds], atol=1e-5)
-    assert [sound.frame_final_start for sound in heard()] == [5]
+    assert [first_heard(sound) for sound in heard()] == [5]
     (tmp_path / "Mine 1.wav").unlink()
     assert bpy.ops.risorius.load_preset(filepath=str(tmp_path / "Mine.toml")) == {"FINISHED"}
     assert len(speech.strips) == 1

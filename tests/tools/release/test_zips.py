@@ -17,6 +17,8 @@ from release.zips import build_zip, staged_manifest
 
 MANIFEST = (ROOT / "blender_manifest.toml").read_text(encoding="utf-8")
 
+#: Each system with each Blender range that it has.
+WANTED = [(platform, blender) for platform in PLATFORMS for blender in RANGES if blender.name in platform.ranges]
 #: What serves plain Python alone.
 OUTSIDE_BLENDER = ("batch/cluster.py", "track/", "__main__.py", "py.typed")
 
@@ -71,7 +73,7 @@ def test_manifest_keeps_blenders_rules() -> None:
 
 
 def test_staged_manifest_names_its_wheels_and_range() -> None:
-    for blender, platform in itertools.product(RANGES, PLATFORMS):
+    for platform, blender in WANTED:
         names = [Path(f"scipy-1.0-cp{python.replace('.', '')}-x.whl") for python in blender.pythons]
         staged = tomllib.loads(staged_manifest(MANIFEST, names, platform=platform, blender=blender))
         assert staged["wheels"] == [f"./wheels/{name}" for name in names]
@@ -96,8 +98,18 @@ def test_every_system_and_range_has_a_zip_of_its_own(
     monkeypatch.setattr(build, "build_python_package", lambda _folder: ())
     assert build.main(["--output", str(tmp_path)]) == 0
     assert len({name for name, *_ in made}) == len(made)
-    assert {(platform, blender) for _, platform, blender in made} == set(itertools.product(PLATFORMS, RANGES))
+    assert {(platform, blender) for _, platform, blender in made} == set(WANTED)
     assert all(VERSION in name for name, *_ in made)
+    assert {f"{platform.name} {blender.name}" for platform, blender in WANTED} == {
+        *("linux-x64 4.2", "windows-x64 4.2", "macos-arm64 4.2", "macos-x64 4.2"),
+        *("linux-x64 5.1", "windows-x64 5.1", "macos-arm64 5.1", "windows-arm64 5.1"),
+    }
+
+
+def test_a_zip_that_cannot_be_is_refused_in_words(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        build.main(["--platform", "macos-x64", "--blender", "5.1", "--output", str(tmp_path)])
+    assert "no SciPy for Blender 5.1 on macos-x64" in capsys.readouterr().err
 
 
 def test_ranges_cover_every_blender_without_overlap() -> None:
