@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..face.products.efforts import Efforts, explaining_units, unit_names
-from ..mpeg4 import FAPS
+from ..mpeg4 import FAPS, recognise
 from .felt import COLUMNS as FELT
 from .felt import Felt, columns_of
 from .frames import CAMERA_COLUMNS, COLUMNS, Frame
@@ -23,6 +23,13 @@ TIME = (
     Column("time", Kind.NUMBER, "from the first frame of the video", "s", 6),
     Column("picture", Kind.TEXT, "names of pictures of this frame: pictures/KIND/NAME; empty where there are none"),
     Column("depth_step", Kind.NUMBER, "what 1 in a picture of depth stands for", "m", 6),
+)
+READ = (
+    Column(
+        "recognised",
+        Kind.TEXT,
+        "archetype that the FAPs achieved are most like, or neutral, by the robust rule: read back, not asked for",
+    ),
 )
 JAW = (
     Column("jaw_opening", Kind.NUMBER, "angle by which the mandible is opened", "degree", 4),
@@ -90,6 +97,7 @@ class Record:
                 "jaw_left": 1e3 * float(left),
                 "jaw_forward": 1e3 * float(forward),
                 **self.felt.at(step),
+                "recognised": _recognised(frame.measured),
                 **frame.row(),
             }
         )
@@ -104,7 +112,7 @@ class Record:
 
     def tables(self) -> list[Table]:
         """All tables."""
-        frame_columns = (*TIME, *FELT, *JAW, *COLUMNS)
+        frame_columns = (*TIME, *FELT, *READ, *JAW, *COLUMNS)
         numbers = np.array([row["frame"] for row in self._frames], dtype=np.int64)
         steps = np.array([self._step(number) for number in numbers.tolist()])
         measured = np.array(self._measured)
@@ -149,6 +157,12 @@ class Record:
         contractions = np.stack([self.efforts.contractions[name][steps] for name in names], axis=1)
         values = {**_named(numbers, names, "muscle"), "contraction": contractions.ravel()}
         return Table("muscles", "one muscle in one frame", MUSCLE, ("frame", "muscle", "side"), values)
+
+
+def _recognised(measured: Floats) -> str:
+    """What a face shows, read off its FAPs (68,); "" where too few could be measured."""
+    best = recognise(measured, rule="robust").best
+    return "" if best is None else str(best)
 
 
 def _named(numbers: Ints, names: tuple[str, ...], what: str) -> dict[str, Values]:

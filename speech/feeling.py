@@ -139,7 +139,7 @@ def _closure(utterance: Utterance, times: Floats, how: Manner) -> Work[Floats]:
         if number % AT_ONCE == 0:
             yield Progress.counted(number, len(utterance.sounds), "closures found")
         if sound.phoneme.own and (closure := how.closures.get(sound.phoneme.viseme)) is not None:
-            aim = Aim(sound.start, sound.end, sound.phoneme.viseme, np.empty(0), min(sound.strength, 1.0))
+            aim = Aim(sound.start, sound.end, sound.phoneme.viseme, np.empty(0), sound.strength)
             near = span(times, *reached(aim, closure, step))
             share[near] = np.maximum(share[near], closing(aim, closure, times[near], step))
     return share

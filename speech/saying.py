@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -45,12 +45,18 @@ class Saying:
     stream : its FAPs, planned: play it with `planned=True` and `integrator="balance"` (`Face.simulation`).
     emotions : (T, 6) strength of each archetype in each frame.
     assumed : what was assumed, in words for people.
+    cues : the expressions that are felt, and their strengths (T, C). begin : seconds of their time at the first frame.
+    articulation : how distinctly lips and tongue move, 0 to 2.
     """
 
     utterance: Utterance
     stream: FapStream
     emotions: Floats
     assumed: tuple[str, ...] = ()
+    cues: tuple[Cue, ...] = ()
+    strengths: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    begin: float = 0.0
+    articulation: float = 1.0
 
 
 def say(
@@ -149,16 +155,25 @@ def say_steps(
     spoken = _lasting(spoken, count)
     emotions = _shifted(shown, ahead, count, 0.0)
     felt = _shifted((yield from part_of(_planned(felt_cues, fps), 0.6, 0.7)), ahead, count, np.nan)
+    strong = _shifted(strengths(felt_cues, fps=fps) if felt_cues else np.zeros((0, 0)), ahead, count, 0.0)
     if liveliness is not None:
         yield Progress(0.7, "Laying out blinks and beats")
-        shares = strengths(felt_cues, fps=fps) if felt_cues else np.zeros((0, 0))
-        felt = liveliness.borne_all(felt, felt_cues, _shifted(shares, ahead, count, 0.0))
+        felt = liveliness.borne_all(felt, felt_cues, strong)
         laid = accompanying(utterance, liveliness, count, fps)
         yield Progress(0.8, "Laying out blinks and beats")
         felt = laid.upon_all(felt)
     frames = yield from part_of(mixed_steps(spoken, felt, utterance, fps, lean=lean), 0.8, 1.0)
     assumed = (*utterance.assumed, *by_rule(utterance, liveliness))
-    return Saying(utterance, FapStream(frames, fps=fps, name="speech", assumed=assumed), emotions, assumed)
+    return Saying(
+        utterance,
+        FapStream(frames, fps=fps, name="speech", assumed=assumed),
+        emotions,
+        assumed,
+        felt_cues,
+        strong,
+        ahead / fps,
+        articulation,
+    )
 
 
 def frames_of(utterance: Utterance, cues: Sequence[Cue] = (), *, begin: float = 0.0, fps: float = 25.0) -> int:

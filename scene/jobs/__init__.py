@@ -12,6 +12,6 @@ painting                  materials for meshes that bring none
 writing                   what was baked, as a .blend or a film
 files                     the file that a job works in, what is written, and how it is saved
 kept                      prepared faces, for the next time
-labelling                 the truth beside what is rendered
+labelling                 the truth beside what is rendered; labelled_motion: what was asked for, as it tells it
 sheet                     the contact sheet of a job
 """

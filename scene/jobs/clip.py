@@ -184,7 +184,7 @@ def _labelled(folder: Path, face: Subject, shown: Shown, clip: Clip, first: int)
         return None
     every = 1 if _is_still(clip) else clip.label_pictures
     labels = Labels(folder / NAMES["labels"], every, clip.licence, {"clip": clip.name, **clip.facts})
-    return begin(labels, face, shown.motion, start=first, saying=shown.saying)
+    return begin(labels, face, shown.motion, start=first, meant=shown.meant, drive=clip.drive)
 
 
 def _is_still(clip: Clip) -> bool:

@@ -27,10 +27,11 @@ from ..blender_types import Scene
 from ..faces import FaceSource, face_of
 from ..pictures.look import Look
 from .files import BLEND
+from .labelled_motion import felt_of, told_motion
 from .subjects import Subject
 
 if TYPE_CHECKING:
-    from ...api import Saying
+    from ...api import FapStream, Saying
     from ...labels.record import Record
 
 #: Whose the default head is.
@@ -143,36 +144,41 @@ def refuse_unwritable_labels(labels: Labels | None, out: Path) -> None:
 
 
 def begin(
-    labels: Labels, face: Subject, motion: CueMotion | FapMotion, *, start: int, saying: Saying | None = None
+    labels: Labels,
+    face: Subject,
+    motion: CueMotion | FapMotion,
+    *,
+    start: int,
+    meant: Saying | FapStream | None = None,
+    drive: str = "natural",
 ) -> Labelling:
     """Begin labels of a motion that is baked on a face.
 
     Parameters
     ----------
     motion : what was baked. start : frame of the timeline at which it begins.
-    saying : the speech that the motion is.
+    meant : the speech or the stream that the motion is. drive : with which it was baked.
 
     Raises
     ------
     FormatError : a folder that cannot be written, or holds something else.
     """
     from ... import api
-    from ...labels.felt import Felt
     from ...labels.record import Record
 
     fps, source = scene_fps(), face.target.source()
     whose = face_of(source)
     if isinstance(motion, CueMotion):
-        felt = Felt.of_cues(motion.cues, fps)
         efforts = api.performance_efforts(
-            whose, motion.cues, fps, contractions=motion.contractions, liveliness=motion.liveliness
+            whose, motion.cues, fps, drive=drive, contractions=motion.contractions, liveliness=motion.liveliness
         )
     else:
-        stream = motion.stream
-        felt = Felt.of_stream(len(stream), motion.emotions) if saying is None else Felt.of_saying(saying)
-        efforts = api.stream_efforts(whose, stream, emotions=motion.emotions, planned=motion.planned)
-    record = Record(felt, efforts, start, fps)
-    facts = {"made_with": _made_with(), "head": _head(face, source, labels), "motion": _motion(motion)}
+        efforts = api.stream_efforts(
+            whose, motion.stream, drive=drive, emotions=motion.emotions, planned=motion.planned
+        )
+    record = Record(felt_of(motion, meant, fps), efforts, start, fps)
+    told = {**told_motion(motion, meant), "drive": drive}
+    facts = {"made_with": _made_with(), "head": _head(face, source, labels), "motion": told}
     return Labelling(labels, source, record, facts)
 
 
@@ -217,33 +223,4 @@ def _head(face: Subject, source: FaceSource, labels: Labels) -> dict[str, object
         "sha256": "" if path is None else sha256(path.read_bytes()).hexdigest(),
         "vertices": len(source.vertices),
         "licence": labels.licence or (OWN_LICENCE if own else ""),
-    }
-
-
-def _motion(motion: CueMotion | FapMotion) -> dict[str, object]:
-    """What was asked for, with all seeds."""
-    if isinstance(motion, FapMotion):
-        return {"kind": "speech" if motion.planned else "stream of FAPs", "frames": len(motion.stream)}
-    lively = motion.liveliness
-    drawn = {} if lively is None else {name: getattr(lively, name) for name in ("blinks", "head", "eyes")}
-    return {
-        "kind": "expressions in time",
-        "cues": [
-            {
-                "word": cue.profile.word or "",
-                "angle": cue.profile.angle,
-                "activation": cue.profile.activation,
-                "start": cue.start,
-                "onset": cue.onset,
-                "apex": cue.apex,
-                "offset": cue.offset,
-                "peak": cue.peak,
-                "ramp": str(cue.ramp),
-                "seed": cue.seed,
-            }
-            for cue in motion.cues
-        ],
-        "liveliness": {name: {"amount": each.amount, "seed": each.seed} for name, each in drawn.items()},
-        "tissue": motion.tissue if isinstance(motion.tissue, str) else repr(motion.tissue),
-        "drive": "natural",
     }

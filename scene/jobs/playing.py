@@ -76,4 +76,8 @@ def _play(
     face = replace(face, remarks=face.remarks + played.said)
     clip = stream.name.split("\\")[-1].strip() or "stream"
     baked = yield from part_of(destination.motion(face, motion, clip, creases), 0.05, 0.4)
-    return (yield from part_of(saved_or_filmed(out, face, baked, look, motion=motion, labels=labels), 0.4, 1.0))
+    return (
+        yield from part_of(
+            saved_or_filmed(out, face, baked, look, motion=motion, labels=labels, meant=stream), 0.4, 1.0
+        )
+    )

@@ -77,5 +77,5 @@ def _say(
     face = replace(face, remarks=face.remarks + saying.assumed)
     motion = FapMotion(saying.stream.frames, saying.emotions, planned=True)
     baked = yield from part_of(destination.motion(face, motion, saying.stream.name, creases), 0.1, 0.4)
-    filming = saved_or_filmed(out, face, baked, look, motion=motion, sound=sound, labels=labels, saying=saying)
+    filming = saved_or_filmed(out, face, baked, look, motion=motion, sound=sound, labels=labels, meant=saying)
     return (yield from part_of(filming, 0.4, 1.0))

@@ -30,7 +30,7 @@ class Shown:
     frames : (T, 68) FAPs that are requested; NaN where silent.
     emotions : (T, 6) strength of each archetype.
     apex : frame, counted from 0, at which a still shows most.
-    saying : the speech that it is.
+    meant : the speech or the stream that it is.
     cue : the expression of a still that needs no motion; None: it is a frame of a motion.
     remarks : what was assumed.
     """
@@ -40,7 +40,7 @@ class Shown:
     emotions: Floats
     apex: int
     cue: Cue | None = None
-    saying: Saying | None = None
+    meant: Saying | FapStream | None = None
     remarks: tuple[str, ...] = ()
 
     @property
@@ -82,7 +82,7 @@ def stream(read: FapStream) -> ShownAt:
         frames = at_rate(played.frames, read.fps, fps)
         if len(frames) == 0:
             raise ParameterError("frames", "must contain at least one frame", 0)
-        return Shown(FapMotion(frames), frames, _unknown(len(frames)), _most(frames), remarks=played.said)
+        return Shown(FapMotion(frames), frames, _unknown(len(frames)), _most(frames), meant=read, remarks=played.said)
 
     return shown
 
@@ -94,7 +94,7 @@ def speech(say: Callable[[float], Saying]) -> ShownAt:
         saying = say(fps)
         frames = saying.stream.frames
         motion = FapMotion(frames, saying.emotions, planned=True)
-        return Shown(motion, frames, saying.emotions, _most(frames), saying=saying, remarks=saying.assumed)
+        return Shown(motion, frames, saying.emotions, _most(frames), meant=saying, remarks=saying.assumed)
 
     return shown
 

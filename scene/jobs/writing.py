@@ -19,7 +19,7 @@ from .stage import cover, dress
 from .subjects import Subject
 
 if TYPE_CHECKING:
-    from ...api import Saying
+    from ...api import FapStream, Saying
 
 
 def save_baked(out: Path, face: Subject, baked: Baked, look: Look) -> Made:
@@ -47,14 +47,14 @@ def saved_or_filmed(
     motion: CueMotion | FapMotion,
     sound: str | Path | None = None,
     labels: Labels | None = None,
-    saying: Saying | None = None,
+    meant: Saying | FapStream | None = None,
 ) -> Work[Made]:
     """What was baked as one motion, as the .blend or the film that `out` names; other parameters as in `film_baked`.
 
     The sound goes into the film, or to the sequencer of the .blend.
     """
     if out.suffix.lower() != BLEND:
-        return (yield from film_baked(out, face, baked, look, motion=motion, sound=sound, labels=labels, saying=saying))
+        return (yield from film_baked(out, face, baked, look, motion=motion, sound=sound, labels=labels, meant=meant))
     if sound is not None:
         (moved,) = baked.results
         add_sound(bpy.context.scene, sound, frame=int(moved.frame_range[0]))
@@ -70,17 +70,17 @@ def film_baked(
     motion: CueMotion | FapMotion,
     sound: str | Path | None = None,
     labels: Labels | None = None,
-    saying: Saying | None = None,
+    meant: Saying | FapStream | None = None,
 ) -> Work[Made]:
     """Film what was baked as one motion, write labels where they are wanted, and tell what is there.
 
-    `motion` : what was baked; `saying` : the speech that it is.
+    `motion` : what was baked; `meant` : the speech or the stream that it is.
     """
     if labels is None:
         rendered = yield from filming(face, baked, out, look, sound)
     else:
         start = int(baked.results[0].frame_range[0])
-        labelling = begin(labels, face, motion, start=start, saying=saying)
+        labelling = begin(labels, face, motion, start=start, meant=meant)
         try:
             rendered = yield from filming(face, baked, out, look, sound, labelling.look)
             labelling.write(look)

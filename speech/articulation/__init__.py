@@ -6,6 +6,6 @@ closures   what must be reached: lips for p b m, lip and teeth for f v
 talking    the whole: frames of FAPs
 """
 
-from .talking import SPOKEN, articulate, articulate_steps, spoken_frames
+from .talking import SPOKEN, articulate, articulate_steps, spoken_frames, viseme_shares
 
-__all__ = ["SPOKEN", "articulate", "articulate_steps", "spoken_frames"]
+__all__ = ["SPOKEN", "articulate", "articulate_steps", "spoken_frames", "viseme_shares"]

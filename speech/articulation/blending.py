@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Floats
-from ...mpeg4 import FAP_COUNT
+from ...mpeg4 import FAP_COUNT, VISEMES
 from ...progress import Progress, Work
 from .parts import FAPS_OF, Manner, MouthPart
 
@@ -20,13 +20,18 @@ AT_ONCE = 500
 
 @dataclass(frozen=True, eq=False)
 class Aim:
-    """A sound's claim on the mouth: when, by which viseme, where to (68,), and how much of a closure, 0 to 1."""
+    """A sound's claim on the mouth: when, by which viseme, where to (68,), and how distinctly, 0 to 2."""
 
     start: float
     end: float
     viseme: int
     target: Floats
-    closes: float = 1.0
+    strength: float = 1.0
+
+    @property
+    def closes(self) -> float:
+        """How much of a closure it is, 0 to 1."""
+        return min(self.strength, 1.0)
 
 
 def blended(aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[Floats]:
@@ -50,6 +55,23 @@ def blended(aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[Floats]:
             total[first:last] += weight[:, None] * aim.target[columns]
         frames[:, columns] = total / np.maximum(weights, np.finfo(float).tiny)[:, None]
     return frames
+
+
+def shared(aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[Floats]:
+    """(T, 15) the share of each viseme in the mouth, mean over its parts, times how distinctly it is said; 0: rest.
+
+    Parameters as for `blended`.
+    """
+    shares = np.zeros((len(times), len(VISEMES)))
+    for place, part in enumerate(MouthPart):
+        yield Progress.counted(place, len(MouthPart), "parts of the mouth shared")
+        told, weights = np.zeros_like(shares), np.zeros(len(times))
+        for aim, first, last in zip(aims, *_felt(aims, times, manner, part), strict=True):
+            weight = _weight(aim, times[first:last], manner, part)
+            weights[first:last] += weight
+            told[first:last, aim.viseme] += weight * aim.strength
+        shares += told / np.maximum(weights, np.finfo(float).tiny)[:, None] / len(MouthPart)
+    return shares
 
 
 def _felt(aims: Sequence[Aim], times: Floats, manner: Manner, part: MouthPart) -> tuple[list[int], list[int]]:

@@ -13,7 +13,7 @@ from ...mpeg4 import FAP_COUNT
 from ...progress import Progress, Work, part_of, run
 from ..phonemes import Phoneme
 from ..utterance import Sound, Utterance
-from .blending import AT_ONCE, Aim, blended
+from .blending import AT_ONCE, Aim, blended, shared
 from .closures import closed
 from .parts import FAPS_OF, JAW, Manner, beside_jaw, carried_by_jaw, manner, target
 
@@ -67,11 +67,28 @@ def articulate_steps(
         frames = carried_by_jaw(share * beside_jaw(utterance.mouth.at(times)))
     else:
         aims = yield from part_of(_aims(utterance, how), 0.0, 0.2)
-        shared = yield from part_of(blended(aims, times, how), 0.2, 0.8)
-        frames = yield from part_of(closed(carried_by_jaw(share * shared), aims, times, how), 0.8, 1.0)
+        mixed = yield from part_of(blended(aims, times, how), 0.2, 0.8)
+        frames = yield from part_of(closed(carried_by_jaw(share * mixed), aims, times, how), 0.8, 1.0)
     silent = [number - 1 for number in range(1, FAP_COUNT + 1) if number not in SPOKEN]
     frames[:, silent] = np.nan
     return frames
+
+
+def viseme_shares(utterance: Utterance, times: Floats) -> Work[Floats]:
+    """How much of the mouth's shape is each viseme's at some times.
+
+    Parameters
+    ----------
+    times : (T,) seconds, ascending.
+
+    Returns
+    -------
+    (T, 15) by number of the viseme, 0 the mouth at rest: shares that add up to 1 where all sounds are said as
+    distinctly as usual; each is multiplied by the strength of its sounds.
+    """
+    how = manner()
+    aims = yield from part_of(_aims(utterance, how), 0.0, 0.2)
+    return (yield from part_of(shared(aims, times, how), 0.2, 1.0))
 
 
 def spoken_frames(utterance: Utterance, fps: float) -> int:
@@ -103,7 +120,7 @@ _target = lru_cache(maxsize=512)(target)
 def _aim(sound: Sound, opening: float) -> Aim:
     """What a sound asks, as strongly as it is said; opening is the share of the jaw's, for stress."""
     shape = sound.strength * _target(sound.phoneme, jaw=opening)
-    return Aim(sound.start, sound.end, sound.phoneme.viseme, shape, min(sound.strength, 1.0))
+    return Aim(sound.start, sound.end, sound.phoneme.viseme, shape, sound.strength)
 
 
 def _rest(start: float, end: float) -> Aim:
