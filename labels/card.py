@@ -16,8 +16,10 @@ LIMITS = (
     "inertia and elasticity of the skin lie between them and the frame.",
     "Explained action units are the mixture that best explains the FAPs achieved; several mixtures may explain "
     "one face.",
-    "Whether a landmark is hidden is told by meshes. Hair made of curves, volumes, glass and depth of field are not "
-    "heeded.",
+    "Whether a landmark is hidden is told by meshes. Hair made of curves, volumes, depth of field, motion blur and "
+    "pictures in alpha (cards of hair) are not heeded. Materials that are clear as a whole are looked through.",
+    "Recognised emotions are read off the FAPs achieved; the columns beside them tell what was asked for.",
+    "Strengths of visemes are shares by the model of coarticulation, not measures of the mouth.",
     "Landmarks of MediaPipe and iBUG are marks on the skin that stay where they are on it. MediaPipe itself sees them "
     "3 to 6 per cent of the eyes' distance away (docs/labels.md), more on outlines.",
     "Pictures of areas, objects, depth and normals show what the middle of each pixel meets; a render is smoothed over "

@@ -29,6 +29,7 @@ class Node(Protocol):
     name: str
     type: str
     bl_idname: str
+    is_active_output: bool
     location: Numbers
     hide: bool
     inputs: Items[NodeSocket]

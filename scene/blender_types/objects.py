@@ -8,7 +8,7 @@ from typing import Protocol
 from .animation import Datablock, WithProperties
 from .collections import Items, Matrix, Numbers
 from .meshes import Mesh, ShapeKey, VertexGroup
-from .nodes import NodeTree
+from .nodes import Material, NodeTree
 
 
 class Setting(Protocol):
@@ -120,6 +120,12 @@ class Modifiers(Items[Modifier], Protocol):
     def move(self, from_index: int, to_index: int) -> None: ...
 
 
+class MaterialSlot(Protocol):
+    """A material of an object, from itself or from its mesh."""
+
+    material: Material | None
+
+
 class Object(Datablock, Protocol):
     """An object. `data` is a mesh only where `type` is "MESH": ask first (`refusals.refuse_unreadable` does)."""
 
@@ -134,6 +140,7 @@ class Object(Datablock, Protocol):
     hide_viewport: bool
     active_shape_key_index: int
     visible_camera: bool
+    show_instancer_for_render: bool
     show_only_shape_key: bool
 
     @property
@@ -146,6 +153,8 @@ class Object(Datablock, Protocol):
     def bound_box(self) -> Sequence[Numbers]: ...
     @property
     def is_editable(self) -> bool: ...
+    @property
+    def material_slots(self) -> Items[MaterialSlot]: ...
     @property
     def active_shape_key(self) -> ShapeKey | None: ...
     @property
@@ -192,6 +201,7 @@ class Collection(Datablock, Protocol):
     objects: Objects
     children: Collections
     hide_render: bool
+    hide_viewport: bool
 
 
 class LayerCollection(Protocol):

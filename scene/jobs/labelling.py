@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ...arrays import Floats
 from ...errors import ParameterError
 from ...resources import version
 from ..bake.motion import CueMotion, FapMotion
@@ -33,6 +34,7 @@ from .subjects import Subject
 if TYPE_CHECKING:
     from ...api import FapStream, Saying
     from ...labels.record import Record
+    from ..labels.stage import Stage
 
 #: Whose the default head is.
 OWN_LICENCE = "GPL-3.0-or-later (Risorius); its measures: MIT, USC Institute for Creative Technologies"
@@ -68,7 +70,7 @@ class Labelling:
         from ...labels.package import Draft
 
         self._labels, self._source, self._record, self._facts = labels, source, record, facts
-        self._labelled, self._objects = Labelled.of(face_of(source)), tuple[str, ...]()
+        self._labelled, self._objects = Labelled.of(face_of(source)), list[str]()
         self._draft = Draft(labels.folder)
 
     def look(self, scene: Scene, number: int) -> None:
@@ -82,19 +84,17 @@ class Labelling:
         from ...labels.frames import Frame
         from ...labels.pictures import depth_step
         from ..labels.lens import view_of
+        from ..labels.rendered import as_rendered
         from ..labels.stage import stage_of
 
         if scene.frame_current != number:
             scene.frame_set(number)
         scene.view_layers[0].update()
-        stage = stage_of(scene, self._source.pieces)
-        places = [
-            stage.local[piece.slice] @ piece.to_metres[:3, :3].T + piece.to_metres[:3, 3]
-            for piece in self._source.pieces
-        ]
-        measured = self._labelled.face.measure(np.concatenate(places))
-        frame = Frame(self._labelled, view_of(scene), stage.world, measured, stage.shown)
-        self._objects = tuple(stage.shown.objects)
+        with as_rendered(scene):
+            stage = stage_of(scene, self._source.pieces, self._objects)
+            measured = self._labelled.face.measure(self._metric(scene, stage))
+            view = view_of(scene)
+        frame = Frame(self._labelled, view, stage.world, measured, stage.shown)
         every = self._labels.pictures
         if not every or len(self._record) % every:
             self._record.add(number, frame)
@@ -103,6 +103,17 @@ class Labelling:
         for kind, pixels in frame.pictures():
             self._draft.add_picture(kind, name, pixels)
         self._record.add(number, frame, picture=name, depth_step=depth_step(frame.drawn.depth))
+
+    def _metric(self, scene: Scene, stage: Stage) -> Floats:
+        """(V, 3) the face's own vertices, metres: not smoothed by what divides them, as its neutral face is not."""
+        from ..labels.rendered import undivided
+        from ..labels.stage import stage_of
+
+        pieces = self._source.pieces
+        with undivided(scene, [piece.obj for piece in pieces]) as is_other:
+            local = stage_of(scene, pieces).local if is_other else stage.local
+        places = [local[each.slice] @ each.to_metres[:3, :3].T + each.to_metres[:3, 3] for each in pieces]
+        return np.concatenate(places)
 
     def write(self, look: Look) -> Path:
         """Write it all; returns the folder.

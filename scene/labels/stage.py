@@ -8,14 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...arrays import Floats, Ints
+from ...arrays import Bools, Floats, Ints
 from ...errors import SceneError
 from ...labels.geometry import Shown
 from .. import mesh as meshes
 from ..attributes import read_floats, read_ints
 from ..blender_types import Depsgraph, Mesh, Object, Scene
 from ..faces import Piece
+from .clear import clear_slots
 
+#: The engine that draws materials by their colours for the viewport, and objects that cameras are not to see.
+WORKBENCH = "BLENDER_WORKBENCH"
 #: What can be drawn as a mesh.
 SOLID = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 #: Modifiers that add vertices behind those of the mesh, which stay the first ones.
@@ -37,18 +40,24 @@ class Stage:
     shown: Shown
 
 
-def stage_of(scene: Scene, pieces: Sequence[Piece]) -> Stage:
+def stage_of(scene: Scene, pieces: Sequence[Piece], names: list[str] | None = None) -> Stage:
     """What a scene shows at the current frame, evaluated.
+
+    Parameters
+    ----------
+    names : of objects that earlier frames showed, so that they keep their places in `Shown.objects`; new ones are
+        added.
 
     Raises
     ------
     SceneError : a modifier makes another mesh of the face, so that its vertices cannot be followed.
     """
     depsgraph, metres = scene.view_layers[0].depsgraph, scene.unit_settings.scale_length
-    gathered = _Gathered()
+    gathered = _Gathered([] if names is None else names)
+    workbench = scene.render.engine == WORKBENCH
     places: dict[str, tuple[Floats, Floats]] = {}
     by_name = {piece.obj.name: piece for piece in pieces}
-    for obj, mesh, world in _solids(depsgraph):
+    for obj, mesh, world in _solids(depsgraph, workbench=workbench):
         local = meshes.mesh_vertices(mesh)
         there = (local @ world[:3, :3].T + world[:3, 3]) * metres
         source = np.full(len(local), -1, dtype=np.int64)
@@ -57,7 +66,8 @@ def stage_of(scene: Scene, pieces: Sequence[Piece]) -> Stage:
             own = _own(piece, len(local))
             source = piece.first + _sources(local, own)
             places[obj.name] = local[:own], there[:own]
-        gathered.add(obj.name, there, mesh, np.asarray(np.linalg.inv(world[:3, :3])), source)
+        inverse = np.asarray(np.linalg.inv(world[:3, :3]))
+        gathered.add(obj.name, there, mesh, inverse, source, clear_slots(obj, workbench=workbench))
     missing = [name for name in by_name if name not in places]
     if missing:
         raise SceneError(missing[0], "does not show in this scene: turn on its camera icon in the Outliner")
@@ -65,11 +75,13 @@ def stage_of(scene: Scene, pieces: Sequence[Piece]) -> Stage:
     return Stage(local, world, gathered.shown())
 
 
-def _solids(depsgraph: Depsgraph) -> Iterator[tuple[Object, Mesh, Floats]]:
+def _solids(depsgraph: Depsgraph, *, workbench: bool) -> Iterator[tuple[Object, Mesh, Floats]]:
     """Each object that renders, its mesh as it shows and its matrix; instances one by one."""
     for instance in depsgraph.object_instances:
         shown = instance.object
         if shown.type not in SOLID or shown.hide_render or not (instance.show_self or instance.is_instance):
+            continue
+        if not (workbench or shown.visible_camera):
             continue
         world = np.array([tuple(row) for row in instance.matrix_world], dtype=np.float64)
         if shown.type == "MESH":
@@ -106,21 +118,23 @@ def _sources(local: Floats, own: int) -> Ints:
 class _Gathered:
     """Meshes one after another."""
 
-    def __init__(self) -> None:
-        self._count, self._names = 0, list[str]()
+    def __init__(self, names: list[str]) -> None:
+        self._count, self._names = 0, names
         self._vertices, self._triangles = list[Floats](), list[Ints]()
         self._normals, self._owners, self._sources = list[Floats](), list[Ints](), list[Ints]()
 
-    def add(self, name: str, vertices: Floats, mesh: Mesh, inverse: Floats, source: Ints) -> None:
-        """Take in a mesh; `inverse` (3, 3) of its turn and scale in the world."""
+    def add(self, name: str, vertices: Floats, mesh: Mesh, inverse: Floats, source: Ints, clear: Bools) -> None:
+        """Take in a mesh; `inverse` (3, 3) of its turn and scale in the world, `clear` (n,) materials left out."""
         mesh.calc_loop_triangles()
-        corners = read_ints(mesh.loop_triangles, "loops", 3)
+        slots = np.minimum(read_ints(mesh.loop_triangles, "material_index"), len(clear) - 1)
+        solid = ~clear[slots]
+        corners = read_ints(mesh.loop_triangles, "loops", 3)[solid]
         normals = read_floats(mesh.corner_normals, "vector", 3) @ inverse
         length = np.linalg.norm(normals, axis=1, keepdims=True)
         if name not in self._names:
             self._names.append(name)
         self._vertices.append(vertices)
-        self._triangles.append(meshes.triangle_corners(mesh) + self._count)
+        self._triangles.append(meshes.triangle_corners(mesh)[solid] + self._count)
         self._normals.append((normals / np.where(length > 0.0, length, 1.0))[corners])
         self._owners.append(np.full(len(corners), self._names.index(name), dtype=np.int64))
         self._sources.append(source)
