@@ -1,13 +1,16 @@
-"""Files written whole or not at all, and read with errors that name the file and the remedy."""
+"""Files written whole or not at all, and read with errors that name the file and the remedy; a folder for the while."""
 
 from __future__ import annotations
 
 import contextlib
 import os
 import re
+import tempfile
+import zlib
+from collections.abc import Iterator
 from pathlib import Path
 
-from .errors import FormatError
+from .errors import FormatError, RisoriusError
 from .resources import PRESETS, STANDARD
 
 #: Bytes of the largest file that is read: more than any of use has.
@@ -25,8 +28,7 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
     """
     file = Path(path)
     data = content.encode("utf-8") if isinstance(content, str) else content
-    # Not with_suffix: a name without an extension, or with two, must not collide with a neighbour.
-    draft = file.with_name(f".{file.name}.{os.getpid()}.draft")
+    draft = _draft_of(file)
     try:
         draft.write_bytes(data)
         os.replace(draft, file)
@@ -34,6 +36,35 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
         with contextlib.suppress(OSError):  # what keeps the draft from being written may keep it from being removed
             draft.unlink()
         raise FormatError(file, f"cannot be written ({error.strerror}): choose a folder you may write to") from error
+
+
+def _draft_of(file: Path) -> Path:
+    """Where a file is written until it is whole: beside it, under a name that no neighbour and no process shares.
+
+    Not with_suffix: a name without an extension, or with two, must not collide with a neighbour. A name that is almost
+    as long as systems take is cut.
+    """
+    name = file.name
+    if len(os.fsencode(name)) > LONGEST_BYTES:
+        name = f"{name[:LONGEST_CUT]}-{zlib.crc32(os.fsencode(name)):08x}"
+    return file.with_name(f".{name}.{os.getpid()}.draft")
+
+
+@contextlib.contextmanager
+def scratch_folder() -> Iterator[Path]:
+    """A folder for what is needed for a while; it is gone afterwards.
+
+    Raises
+    ------
+    RisoriusError : there is no folder for temporary files that can be written to.
+    """
+    try:
+        folder = tempfile.TemporaryDirectory(prefix="risorius-", ignore_cleanup_errors=True)
+    except OSError as error:
+        remedy = "set TMPDIR (Windows: TEMP) to a folder that you may write to, or make room on its disk"
+        raise RisoriusError(f"temporary files: cannot be written ({error.strerror or error}): {remedy}") from error
+    with folder as name:
+        yield Path(name)
 
 
 def read_bytes(path: str | Path) -> bytes:
@@ -66,11 +97,14 @@ def read_bytes(path: str | Path) -> bytes:
 
 #: Names that Windows gives to devices, whatever ending stands behind them.
 DEVICES = {"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10))}
-#: Letters of a name that every file system takes, with its ending and what is put before it.
-LONGEST_NAME = 100
+#: Letters of a name that every file system takes, with its ending and what is put before it, and its bytes as UTF-8.
+LONGEST_NAME, LONGEST_BYTES = 100, 200
+#: Letters of a longer name that stay in that of its draft.
+LONGEST_CUT = 24
 
 
 def safe_stem(name: str, otherwise: str) -> str:
     """A file's name without its ending, of what a user calls it: one that every system takes."""
-    stem = re.sub(r"[^\w\- ]", "_", name)[:LONGEST_NAME].strip() or otherwise
+    stem = re.sub(r"[^\w\- ]", "_", name)[:LONGEST_NAME]
+    stem = stem.encode()[:LONGEST_BYTES].decode(errors="ignore").strip() or otherwise
     return f"{stem}_" if stem.casefold() in DEVICES else stem

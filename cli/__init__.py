@@ -28,6 +28,7 @@ import argparse
 import contextlib
 import json
 import sys
+from typing import TextIO
 
 from ..errors import RisoriusError
 from ..resources import version
@@ -80,8 +81,15 @@ def main(argv: list[str] | None = None) -> int:
         print(f"risorius {arguments.verb}: stopped", file=sys.stderr)
         return STOPPED
     with contextlib.suppress(BrokenPipeError):  # the reader (head, less) has seen enough
-        print(json.dumps(plain(result.data), indent=1) if arguments.json else "\n".join(result.lines), flush=True)
+        said = json.dumps(plain(result.data), indent=1) if arguments.json else "\n".join(result.lines)
+        print(_fit_for(sys.stdout, said), flush=True)
     return result.code
+
+
+def _fit_for(stream: TextIO, text: str) -> str:
+    """A text with what a stream cannot write (a pipe on Windows, a terminal without UTF-8) as escapes."""
+    encoding = getattr(stream, "encoding", None) or "utf-8"
+    return text.encode(encoding, "backslashreplace").decode(encoding)
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -6,7 +6,6 @@ import argparse
 import contextlib
 import signal
 import sys
-import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -14,6 +13,7 @@ from types import FrameType
 from typing import TYPE_CHECKING
 
 from ..errors import RisoriusError
+from ..files import scratch_folder
 from ..progress import Progress
 from .films import needing_blender, silent_blender
 from .options import Verbs, verb
@@ -90,8 +90,8 @@ def _table_of(arguments: argparse.Namespace) -> Iterator[Path]:
         yield arguments.table
         return
     design = read_design(arguments.design)
-    with tempfile.TemporaryDirectory(prefix="risorius-") as temporary:
-        folder = Path(temporary) if arguments.dry_run else arguments.out
+    with scratch_folder() as temporary:
+        folder = temporary if arguments.dry_run else arguments.out
         folder.mkdir(parents=True, exist_ok=True)
         write_design(design, folder / "jobs.csv")
         yield folder / "jobs.csv"

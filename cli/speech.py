@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 import contextlib
 import sys
-import tempfile
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..files import scratch_folder
 from ..progress import Work, run
 from .films import destination_of, in_blender, labels_of, lines_of, needing_blender
 from .options import (
@@ -124,8 +124,8 @@ def _heard(arguments: argparse.Namespace) -> Iterator[tuple[Utterance, Path | No
     given = {name: getattr(arguments, name) for name in ("voice", "speed", "pitch")}
     voiced = api.speak(arguments.text, **{name: value for name, value in given.items() if value is not None})
     beside = arguments.out.with_suffix(".wav") if suffix == ".blend" else None
-    with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
-        sound = arguments.sound or beside or Path(folder) / "voice.wav"
+    with scratch_folder() as folder:
+        sound = arguments.sound or beside or folder / "voice.wav"
         new = sound == beside and not sound.exists()
         voiced.write(sound)
         try:

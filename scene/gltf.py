@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import tempfile
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from typing import TypedDict
 import bpy
 
 from ..errors import SceneError
+from ..files import scratch_folder
 from .bake import shape_keys
 from .blender_types import Object, Scene
 from .laid_out import all_clips, laid_out, silent_clips
@@ -110,8 +110,8 @@ def write_gltf(path: Path, targets: Collection[str], clips: Collection[str] = ()
         raise SceneError("glTF", "this Blender's glTF exporter is off: enable the add-on glTF 2.0 format")
     refuse_unwritable_output(path)
     kind = "GLB" if path.suffix.lower() == ".glb" else "GLTF_SEPARATE"
-    with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
-        made = Path(folder) / path.name
+    with scratch_folder() as folder:
+        made = folder / path.name
         try:
             bpy.ops.export_scene.gltf(
                 filepath=str(made),

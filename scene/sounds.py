@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import bpy
 
 from ..errors import FormatError
+from ..files import scratch_folder
 from .blender_types import Scene, SequencerStrip, SequenceStrips, Sound
 
 #: The channel of the sequencer that sound goes to where it is free.
@@ -57,8 +57,8 @@ def add_sound(scene: Scene, path: str | Path, *, frame: int, packed: bool = Fals
 def add_wav(scene: Scene, wav: bytes, name: str, *, frame: int, tag: str = "") -> SequencerStrip:
     """The same of a WAV file's bytes, which go into the .blend."""
     safe = "".join(letter if letter.isalnum() or letter in " -.'" else "_" for letter in name).strip() or "speech"
-    with tempfile.TemporaryDirectory(prefix="risorius-", ignore_cleanup_errors=True) as folder:
-        path = Path(folder) / f"{safe}.wav"
+    with scratch_folder() as folder:
+        path = folder / f"{safe}.wav"
         path.write_bytes(wav)
         return add_sound(scene, path, frame=frame, packed=True, tag=tag)
 

@@ -13,7 +13,6 @@ import ctypes.util
 import difflib
 import shutil
 import sys
-import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -22,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, RisoriusError
-from ..files import write_whole
+from ..files import scratch_folder, write_whole
 from .phonemes import Alphabet, is_mark
 from .timings.labels import Label, Timings, utterance_of
 from .utterance import Utterance
@@ -126,7 +125,7 @@ def _library() -> Iterator[tuple[ctypes.CDLL, int]]:
     ------
     RisoriusError : it is not here, or lacks its data.
     """
-    with tempfile.TemporaryDirectory(prefix="risorius-", ignore_cleanup_errors=True) as folder:
+    with scratch_folder() as folder:
         try:
             import espeakng_loader
 

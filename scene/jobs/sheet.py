@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,6 +10,7 @@ import bpy
 import numpy as np
 
 from ...arrays import Floats
+from ...files import scratch_folder
 from ...mpeg4 import Liveliness
 from ..bake.performance import FIRST_FRAME
 from ..bake.timing import scene_fps
@@ -51,13 +51,13 @@ def write_apexes(
     closure = (liveliness or Liveliness()).over(count, fps).closure
     frames = [apex_frame(cue, fps, first, closure) for cue in cues]
     framing = framing_of(shown[0])
-    with tempfile.TemporaryDirectory(prefix="risorius-") as name:
+    with scratch_folder() as name:
         pictures = []
         with studio(shown, framing, look) as scene:
             camera = FollowingCamera(scene, shown[0], framing)
             for frame in frames:
                 camera.go_to(frame)
-                pictures.append(render_frame(scene, frame, Path(name)))
+                pictures.append(render_frame(scene, frame, name))
         write_sheet(_exhibits(shown[0], cues, frames, pictures), path)
 
 

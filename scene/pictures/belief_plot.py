@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from ...arrays import Floats
+from ...files import scratch_folder
 from ..attributes import write_pixels
 from ..blender_types import Image, Items, Object
 from ..live.reading import RESTING
@@ -61,8 +60,8 @@ def draw_plot(track: BeliefTrack, title: str, colours: Mapping[str, Colour]) -> 
     _draw_band(picture, track, colours)
     for index, name in enumerate(api.ARCHETYPES):
         _draw_key(picture, index, colours[name])
-    with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
-        ink = 1.0 - write_text(_texts(track, title, top), WIDTH, HEIGHT, Path(folder))
+    with scratch_folder() as folder:
+        ink = 1.0 - write_text(_texts(track, title, top), WIDTH, HEIGHT, folder)
     drawn: Floats = np.clip(picture * (1.0 - ink) + INK * ink, 0.0, 1.0)
     return drawn
 

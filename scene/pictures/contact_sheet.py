@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ...arrays import Floats
+from ...files import scratch_folder
 from .lettering import LINE, Text, read_picture, write_picture, write_text
 
 COLUMNS = 3
@@ -53,8 +53,8 @@ def write_sheet(exhibits: Sequence[Exhibit], path: Path) -> Path:
         top = tops[index // columns]
         texts += _texts(exhibit, left, top, wide, high)
         corners.append((left, top + int(1.6 * TITLE)))
-    with tempfile.TemporaryDirectory(prefix="risorius-") as folder:
-        sheet = write_text(texts, width, height, Path(folder))
+    with scratch_folder() as folder:
+        sheet = write_text(texts, width, height, folder)
     for picture, (left, top) in zip(pictures, corners, strict=True):
         sheet[top : top + high, left : left + wide] = picture
     return write_picture(np.clip(sheet, 0.0, 1.0), path)

@@ -12,6 +12,7 @@ from typing import TypeAlias
 import bpy
 
 from ...errors import SceneError
+from ...files import scratch_folder
 from ...progress import Progress, Work, part_of
 from ..blender_types import Object, Scene
 from ..sounds import add_sound
@@ -97,12 +98,12 @@ def render_film(
         if output is not None:
             refuse_unwritable_output(output)
     _, remark = usable_engine(look.engine)
-    with tempfile.TemporaryDirectory(prefix="risorius-") as temporary:
-        folder = kept if kept is not None else Path(temporary)
+    with scratch_folder() as temporary:
+        folder = kept if kept is not None else temporary
         pictures, said = yield from render_frames(objects, folder, start=start, end=end, look=look, watch=watch)
         if film is not None:
             yield Progress(0.95, "Encoding the video")
-            shutil.copyfile(encode(pictures, Path(temporary) / "film.mp4", look=look, sound=sound), film)
+            shutil.copyfile(encode(pictures, temporary / "film.mp4", look=look, sound=sound), film)
     return FilmResult(film, len(pictures), kept, ((remark,) if remark else ()) + said)
 
 

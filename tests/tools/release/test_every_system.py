@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import ast
+import os
+import subprocess
+import sys
+import tempfile
 from collections import Counter
 from pathlib import Path, PurePosixPath
 
+import numpy as np
 import pytest
 from places import ROOT
-from risorius.files import DEVICES, read_bytes, safe_stem, write_whole
+from risorius.api import FapStream, read_stream, write_fap
+from risorius.errors import RisoriusError
+from risorius.files import DEVICES, read_bytes, safe_stem, scratch_folder, write_whole
 from risorius.tables import read_csv, read_toml
 
 PRODUCT = [
@@ -59,7 +66,7 @@ def _opens_text(call: ast.Call) -> bool:
 @pytest.mark.parametrize(
     ("name", "stem"),
     [("CON", "CON_"), ("aux", "aux_"), ("Lpt1", "Lpt1_"), ("a/b:c", "a_b_c"), ("", "Mine"), ("x" * 300, "x" * 100),
-     ("Zoë lächelt", "Zoë lächelt")],
+     ("Zoë lächelt", "Zoë lächelt"), ("笑" * 100, "笑" * 66), ("end. ", "end_"), ("../up", "___up")],
 )  # fmt: skip
 def test_a_users_name_becomes_a_file_on_every_system(name: str, stem: str) -> None:
     assert safe_stem(name, "Mine") == stem
@@ -79,3 +86,44 @@ def test_odd_folders_are_written_to_and_read_from(tmp_path: Path) -> None:
     write_whole(folder / "été.toml", "a = 1\n")
     assert read_bytes(folder / "été.toml") == b"a = 1\n"
     assert [path.name for path in folder.iterdir()] == ["été.toml"]
+
+
+def test_a_name_as_long_as_systems_take_is_written(tmp_path: Path) -> None:
+    one, other = tmp_path / f"{'n' * 246}.fap", tmp_path / f"{'n' * 245}m.fap"
+    write_whole(one, "1")
+    write_whole(other, "2")
+    assert (read_bytes(one), read_bytes(other)) == (b"1", b"2")
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_without_room_for_temporary_files_the_remedy_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "gone"))
+    with pytest.raises(RisoriusError, match=r"temporary files: cannot be written .*set TMPDIR"), scratch_folder():
+        pass
+
+
+#: What a program finds on systems that are not set up as ours: no UTF-8, no home.
+ODD = [
+    {"PYTHONIOENCODING": "ascii", "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0"},
+    {"PYTHONIOENCODING": "cp1252"},
+    {"HOME": "/nonexistent", "XDG_CACHE_HOME": "/nonexistent", "TMPDIR": "/nonexistent", "APPDATA": "/nonexistent"},
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("odd", ODD, ids=["ascii", "cp1252", "no-home"])
+def test_the_command_line_speaks_to_every_terminal(odd: dict[str, str], tmp_path: Path) -> None:
+    """Names that the terminal has no letters for are written as escapes, and the work is done."""
+    folder = tmp_path / "Zoë's 文件 & more"
+    folder.mkdir()
+    stream = FapStream(np.zeros((2, 68)), fps=25.0, name="笑")
+    write_fap(folder / "文.fap", stream)
+    for arguments in (["info", "文.fap"], ["convert", "文.fap", "笑.json"]):
+        run = subprocess.run(
+            [sys.executable, "-m", "risorius", "fap", *arguments],
+            cwd=folder, env={**os.environ, "PYTHONUTF8": "0", **odd}, capture_output=True, timeout=100, check=False,
+        )  # fmt: skip
+        assert run.returncode == 0, run.stderr.decode(errors="replace")
+    assert read_stream(folder / "笑.json").name == "笑"
