@@ -2,7 +2,8 @@
 
 columns     what a row may say: each column with its default, unit and range
 values      one cell read by its column's rule
-table       the rows of a CSV or TOML file; what is wrong with a row, cell by cell
+rows        the rows of a CSV or TOML file, as spreadsheets, programs and people write them
+table       these rows as jobs; what is wrong with one, cell by cell
 jobs        one row as a job: its name, what it was made from, what it is to make
 design      factors and levels as the rows of a table
 claims      one job is made by one process at a time

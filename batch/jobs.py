@@ -17,6 +17,8 @@ from .columns import ASIDE, BY_NAME, COLUMNS, Kind, Value
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
 #: Names that Windows keeps for devices.
 DEVICES = {"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in range(1, 10))}
+#: Names of the files that a set's folder has of its own.
+OWN = re.compile(r"manifest\..*jsonl|jobs\.csv")
 #: Letters of a digest that tell rows without an id apart.
 LETTERS = 10
 
@@ -98,7 +100,7 @@ def name_problem(name: str) -> str | None:
     """Why a name cannot be an id, and what can."""
     if not NAME.fullmatch(name) or name.endswith("."):
         return "must begin with a letter or digit and hold letters, digits, '.', '_' and '-' only, at most 100"
-    if name.split(".")[0].lower() in DEVICES or name.lower() in ("manifest.jsonl", "jobs.csv"):
+    if name.split(".")[0].lower() in DEVICES or OWN.fullmatch(name.lower()):
         return "must not be a name that is taken: choose another"
     return None
 

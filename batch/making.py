@@ -16,6 +16,11 @@ if TYPE_CHECKING:
     from ..scene.jobs.clip import Clip, Look, MadeClip
     from ..scene.jobs.shown import ShownAt
 
+#: Outputs in which something is pictured, and those of them that are drawn.
+PICTURED, DRAWN = {"still", "film", "blend", "labels"}, {"still", "film", "blend"}
+#: Columns of the camera, and all of the picture.
+CAMERA = ("size", "yaw", "pitch", "roll", "lens", "distance")
+PICTURE = (*CAMERA, "engine", "samples", "light", "light_yaw", "ambient", "background")
 #: Frames per second where nothing says so.
 FPS = 25.0
 
@@ -75,7 +80,25 @@ def clip_of(job: Job, scratch: Path) -> Clip:
         label_pictures=job.whole("label_pictures") or 0,
         licence=job.text("licence"),
         facts={"row": job.said()},
+        remarks=unheeded(job),
     )
+
+
+def unheeded(job: Job) -> tuple[str, ...]:
+    """What the row says that does not show in what it asks for, for people."""
+    outputs, idle = set(job.outputs), dict[str, str]()
+    if not outputs & PICTURED:
+        idle |= dict.fromkeys(PICTURE, "where nothing is pictured")
+    elif not outputs & DRAWN:
+        idle |= dict.fromkeys(set(PICTURE) - set(CAMERA), "where nothing is drawn")
+    elif job.text("engine") != "CYCLES":
+        idle["samples"] = "in engines other than Cycles"
+        if job.text("engine") == "WORKBENCH" and "blend" not in outputs:
+            idle |= dict.fromkeys(("ambient", "creases"), "in Workbench")
+    if not outputs & {"film", "blend", "glb"}:
+        idle["max_keys"] = "where nothing moves"
+    said = [name for name in job.said() if name in idle]
+    return tuple(f"{name} says nothing {idle[name]}" for name in said)
 
 
 def _expression(job: Job) -> ShownAt:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import FormatError
-from ..files import read_bytes
-from ..tables import Cells, CsvRow, TomlTable, read_toml, row_cells, split_cells, table_lines
+from ..tables import Cells
 from .columns import BY_NAME, COLUMNS, Value
 from .jobs import Job, file_columns, name_problem, own_name
+from .rows import Row, csv_rows, toml_rows
 from .values import read_value
 
 #: Columns that say what is shown, of which a row has one.
@@ -27,6 +26,8 @@ ONLY_WITH = {
 NOT_BESIDE_TEXT = ("timing", "onset", "apex", "offset", "before", "after", "tissue")
 #: The longest table that is read: rows.
 MOST_ROWS = 2_000_000
+#: How tables are read, by the endings of their names.
+READERS = {".csv": csv_rows, ".tsv": csv_rows, ".toml": toml_rows}
 #: Heads that are read as one mesh and hold no objects.
 PLAIN_MESHES = (".npz", ".obj")
 
@@ -41,7 +42,7 @@ class JobTable:
 
 
 def read_jobs(path: str | Path) -> JobTable:
-    """Read a table of jobs: .csv, or .toml with a [[jobs]] for each and [defaults] for all.
+    """Read a table of jobs: .csv or .tsv, or .toml with a [[jobs]] for each and [defaults] for all.
 
     Raises
     ------
@@ -49,87 +50,33 @@ def read_jobs(path: str | Path) -> JobTable:
     """
     file = Path(path)
     suffix = file.suffix.lower()
-    if suffix not in (".csv", ".toml"):
-        raise FormatError(file, "must be a .csv or .toml file: save the table as one of these")
+    if suffix not in READERS:
+        raise FormatError(file, "must be a .csv, .tsv or .toml file: save the table as one of these")
     jobs: list[Job] = []
     problems: list[FormatError] = []
     taken: dict[str, str] = {}
-    rows = _csv_rows(file, problems) if suffix == ".csv" else _toml_rows(file)
-    for count, (place, cells) in enumerate(rows):
+    for count, row in enumerate(READERS[suffix](file, problems)):
         if count == MOST_ROWS:
             raise FormatError(file, f"has more than {MOST_ROWS} rows: make it several tables")
-        found = _job(cells, place)
+        found = _job(row)
         if not isinstance(found, Job):
             problems += found
             continue
-        before = taken.setdefault(found.id.lower(), place)
-        if before is place:
+        before = taken.setdefault(found.id.lower(), row.place)
+        if before is row.place:
             jobs.append(found)
-        elif "id" in cells:
-            problems.append(cells.refuse(f"{found.id!r} is the id of {before}, too: give each row its own", "id"))
+        elif "id" in row.cells:
+            problems.append(row.cells.refuse(f"{found.id!r} is the id of {before}, too: give each row its own", "id"))
         else:
-            problems.append(cells.refuse(f"says what {before} says: remove one of them, or give both an id"))
+            problems.append(row.cells.refuse(f"says what {before} says: remove one of them, or give both an id"))
     if not jobs and not problems:
         raise FormatError(file, "has no rows: give it one for each clip")
     return JobTable(file, tuple(jobs), tuple(problems))
 
 
-def _csv_rows(file: Path, problems: list[FormatError]) -> Iterator[tuple[str, Cells]]:
-    """The rows of a CSV file; a line that is no row is a problem of its own."""
-    lines = table_lines(file)
-    separator = _separator(lines[0][1])
-    heading = [name.lower() for name in split_cells(file, *lines[0], separator=separator)]
-    CsvRow(file, dict.fromkeys(heading, ""), lines[0][0]).only(*BY_NAME)
-    for name in heading:
-        if heading.count(name) > 1:
-            raise FormatError(file, "stands twice in the heading: keep one", line=lines[0][0], column=name)
-    for number, line in lines[1:]:
-        try:
-            cells = row_cells(file, len(heading), number, line, separator=separator)
-        except FormatError as error:
-            problems.append(error)
-            continue
-        if any(cells):
-            yield f"line {number}", CsvRow(file, dict(zip(heading, cells, strict=True)), number)
-
-
-def _separator(heading: str) -> str:
-    """What parts the cells: spreadsheets of some countries write semicolons or tabs."""
-    return max((",", ";", "\t"), key=heading.count)
-
-
-class _Placed(TomlTable):
-    """One job of a TOML file, that knows its line."""
-
-    line: int | None = None
-
-    def refuse(self, problem: str, name: str | None = None) -> FormatError:
-        """The error for one cell, or for the whole job."""
-        error = super().refuse(problem, name)
-        return FormatError(self.path, problem, line=self.line, key=error.key)
-
-
-def _toml_rows(file: Path) -> Iterator[tuple[str, Cells]]:
-    """The jobs of a TOML file, with what its [defaults] say."""
-    whole = read_toml(file)
-    whole.only("defaults", "jobs")
-    shared = whole.table("defaults", optional=True)
-    shared.only(*(name for name in BY_NAME if name != "id"))
-    entries = whole.listed("jobs")
-    lines = [
-        number
-        for number, line in enumerate(read_bytes(file).decode("utf-8-sig").splitlines(), start=1)
-        if re.match(r"\s*\[\[\s*jobs\s*\]\]", line)
-    ]
-    for number, entry in enumerate(entries):
-        entry.only(*BY_NAME)
-        row = _Placed(file, {**shared.cells, **entry.cells}, entry.key)
-        row.line = lines[number] if len(lines) == len(entries) else None
-        yield (f"line {row.line}" if row.line else f"job {number + 1}"), row
-
-
-def _job(cells: Cells, place: str) -> Job | list[FormatError]:
+def _job(row: Row) -> Job | list[FormatError]:
     """The job of a row, or all that is wrong with it."""
+    cells = row.cells
     values: dict[str, Value] = {}
     problems: list[FormatError] = []
     for column in COLUMNS:
@@ -138,13 +85,15 @@ def _job(cells: Cells, place: str) -> Job | list[FormatError]:
     if problems:
         return problems
     with _noted(problems):
-        for check in (_one_source, _nothing_idle, _known_words, _files_there):
-            check(cells, values)
+        _one_source(cells, values)
+        _refuse_idle(row, values)
+        _known_words(cells, values)
+        _files_there(cells, values)
         values["id"] = _id_of(cells, values)
     if problems:
         return problems
     inputs = {name: _file(cells, values, name) for name in file_columns() if values[name] is not None}
-    return Job(str(values["id"]), place, values, inputs)
+    return Job(str(values["id"]), row.place, values, inputs)
 
 
 class _noted:
@@ -163,9 +112,6 @@ class _noted:
         return False
 
 
-Check = Callable[[Cells, dict[str, Value]], None]
-
-
 def _one_source(cells: Cells, values: dict[str, Value]) -> None:
     """Exactly one thing is shown; a text may have a feeling."""
     given = [name for name in SOURCES if values[name] is not None]
@@ -180,29 +126,39 @@ def _one_source(cells: Cells, values: dict[str, Value]) -> None:
         raise cells.refuse("needs an activation: fill it with 1 to 7", "angle")
 
 
-def _nothing_idle(cells: Cells, values: dict[str, Value]) -> None:
-    """No cell is filled that would say nothing."""
-    feels = values["emotion"] is not None or values["angle"] is not None
+def _refuse_idle(row: Row, values: dict[str, Value]) -> None:
+    """No cell is filled that would say nothing; what is said for all rows is for those in which it says something."""
+    for name, why in _idle(values):
+        if values[name] == BY_NAME[name].default:
+            continue
+        if name in row.shared:
+            values[name] = BY_NAME[name].default
+        else:
+            raise row.cells.refuse(why, name)
+
+
+def _idle(values: Mapping[str, Value]) -> Iterator[tuple[str, str]]:
+    """Columns that say nothing in a row, and why."""
     there = {
         "text": values["text"] is not None,
         "head": values["head"] is not None,
         "seed": values["seed"] is not None,
-        "emotion or angle": feels,
+        "emotion or angle": values["emotion"] is not None or values["angle"] is not None,
     }
     for needed, names in ONLY_WITH.items():
-        for name in names:
-            if name in cells and not there[needed] and values[name] != BY_NAME[name].default:
-                raise cells.refuse(f"says nothing without {needed}: empty it", name)
-    for name in NOT_BESIDE_TEXT:
-        if name in cells and values["text"] is not None and values[name] != BY_NAME[name].default:
-            raise cells.refuse("says nothing beside text, whose sounds say when: empty it", name)
-    if values["object"] is not None and _suffix(values["head"]) in PLAIN_MESHES:
-        raise cells.refuse("says nothing here: a .npz or .obj is read as one mesh; empty it", "object")
-    for name in ("label_pictures", "licence"):
-        if values[name] != BY_NAME[name].default and "labels" not in _outputs(values):
-            raise cells.refuse("says nothing without labels in outputs: empty it, or add labels", name)
-    if values["still_at"] is not None and "still" not in _outputs(values):
-        raise cells.refuse("says nothing without still in outputs: empty it, or add still", "still_at")
+        if not there[needed]:
+            yield from ((name, f"says nothing without {needed}: empty it") for name in names)
+    if there["text"]:
+        yield from ((name, "says nothing beside text, whose sounds say when: empty it") for name in NOT_BESIDE_TEXT)
+    if _suffix(values["head"]) in PLAIN_MESHES:
+        yield "object", "says nothing here: a .npz or .obj is read as one mesh; empty it"
+    if there["emotion or angle"] and not there["text"] and _is_posed(values):
+        yield "tissue", "says nothing in a still alone, whose skin is at rest: empty it, or add film to outputs"
+    if "labels" not in _outputs(values):
+        about = "says nothing without labels in outputs: empty it, or add labels"
+        yield from ((name, about) for name in ("label_pictures", "licence"))
+    if "still" not in _outputs(values):
+        yield "still_at", "says nothing without still in outputs: empty it, or add still"
 
 
 def _known_words(cells: Cells, values: dict[str, Value]) -> None:
@@ -221,8 +177,14 @@ def _known_words(cells: Cells, values: dict[str, Value]) -> None:
     for name in ("onset", "apex", "offset"):
         value = values[name]
         seconds += value if isinstance(value, float) else getattr(timing, name)
-    if values["text"] is None and seconds <= 0.0:
+    if values["text"] is not None:
+        return
+    if seconds <= 0.0:
         raise cells.refuse("must be more than 0 s together with apex and offset: nothing would show", "onset")
+    end = seconds + sum(value for value in (values["before"], values["after"]) if isinstance(value, float))
+    if isinstance(values["still_at"], float) and values["still_at"] > end:
+        problem = f"must be {end:.6g} s or less, when the motion ends, but it is {values['still_at']:g}"
+        raise cells.refuse(problem, "still_at")
 
 
 def _files_there(cells: Cells, values: dict[str, Value]) -> None:
@@ -240,6 +202,14 @@ def _id_of(cells: Cells, values: dict[str, Value]) -> str:
     if problem is not None:
         raise cells.refuse(f"{problem}, but it is {str(values['id'])[:40]!r}", "id")
     return str(values["id"])
+
+
+def _is_posed(values: Mapping[str, Value]) -> bool:
+    """Whether a row shows the pose of the apex alone, for which no motion is simulated."""
+    outputs = set(_outputs(values))
+    if values["still_at"] is not None or outputs & {"film", "blend", "glb"}:
+        return False
+    return "still" in outputs or "labels" not in outputs
 
 
 def _outputs(values: dict[str, Value]) -> tuple[str, ...]:

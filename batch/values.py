@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 
+from ..errors import FormatError
 from ..tables import Cells
 from .columns import Column, Kind, Value
 
+#: Whole numbers below this are exact as floating point.
+EXACT = 2.0**53
 YES, NO = ("yes", "true", "1"), ("no", "false", "0")
 
 
@@ -23,7 +27,7 @@ def read_value(cells: Cells, column: Column) -> Value:
         case Kind.NUMBER:
             return cells.number(column.name, least=column.least, most=column.most)
         case Kind.WHOLE:
-            return cells.integer(column.name, least=_whole(column.least), most=_whole(column.most))
+            return _integer(cells, column)
         case Kind.CHOICE:
             return _choice(cells, column)
         case Kind.CHOICES:
@@ -51,9 +55,14 @@ def pixels(text: str) -> tuple[int, int]:
     return int(width), int(height)
 
 
-def _whole(bound: float | None) -> int | None:
-    """The bound of a whole number."""
-    return None if bound is None else int(bound)
+def _integer(cells: Cells, column: Column) -> int:
+    """A whole number; 3.0 is one, as programs write it in a column with gaps."""
+    least, most = (None if bound is None else int(bound) for bound in (column.least, column.most))
+    with contextlib.suppress(FormatError):
+        number = cells.number(column.name, least=least, most=most)
+        if number.is_integer() and abs(number) < EXACT:
+            return int(number)
+    return cells.integer(column.name, least=least, most=most)
 
 
 def _plain(cells: Cells, name: str) -> str:

@@ -29,6 +29,7 @@ from .csv_table import (
     row_cells,
     split_cells,
     table_lines,
+    table_text,
     write_csv,
 )
 from .json_table import checked_document, read_json
@@ -55,6 +56,7 @@ __all__ = [
     "row_cells",
     "split_cells",
     "table_lines",
+    "table_text",
     "toml_number",
     "toml_text",
     "write_csv",

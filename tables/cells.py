@@ -173,8 +173,8 @@ def _within(value: float, above: float | None, least: float | None, most: float 
 def _bounds(above: float | None, least: float | None, most: float | None) -> str:
     """The bounds of a number, in words."""
     if least is not None and most is not None:
-        return f" from {least:g} to {most:g}"
-    told = [f"above {above:g}"] if above is not None else []
-    told += [f"{least:g} or more"] if least is not None else []
-    told += [f"{most:g} or less"] if most is not None else []
+        return f" from {least:.12g} to {most:.12g}"
+    told = [f"above {above:.12g}"] if above is not None else []
+    told += [f"{least:.12g} or more"] if least is not None else []
+    told += [f"{most:.12g} or less"] if most is not None else []
     return (" " if above is not None else ", ") + ", ".join(told) if told else ""

@@ -40,6 +40,19 @@ class CsvRow(Cells):
         return self.cells.get(name, "").split()
 
 
+def table_text(file: Path) -> str:
+    """The text of a table's file.
+
+    Raises
+    ------
+    FormatError : it cannot be read, or is no UTF-8.
+    """
+    try:
+        return read_bytes(file).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
+
+
 def table_lines(file: Path) -> list[tuple[int, str]]:
     """Numbers and texts of a table's lines, the heading first; blank ones and those that begin with # are passed over.
 
@@ -47,11 +60,7 @@ def table_lines(file: Path) -> list[tuple[int, str]]:
     ------
     FormatError : it cannot be read, is no UTF-8, or has no line.
     """
-    try:
-        text = read_bytes(file).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise FormatError(file, "is not UTF-8 text: save it as UTF-8", offset=error.start) from error
-    lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith("#")]
+    lines = [(number, line) for number, line in numbered_lines(table_text(file)) if not line.startswith("#")]
     if not lines:
         raise FormatError(file, "is empty: it must begin with a line of column names")
     return lines
@@ -96,8 +105,9 @@ def csv_text(heading: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
 
 
 def numbered_lines(text: str) -> list[tuple[int, str]]:
-    """Lines that say something, with their 1-based numbers."""
-    return [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
+    """Lines that say something, with their 1-based numbers; those that editors count, not Unicode's other breaks."""
+    plain = text.replace("\r\n", "\n").replace("\r", "\n")
+    return [(number, line) for number, line in enumerate(plain.split("\n"), start=1) if line.strip()]
 
 
 def split_cells(path: Path, number: int, line: str, *, separator: str = ",") -> list[str]:

@@ -49,7 +49,7 @@ NAMES: Mapping[str, str] = MappingProxyType(
 )
 #: An expression that is no stronger than this does not show.
 FAINT = 1e-3
-#: Those for which the motion is simulated; a still by itself shows the pose of the apex.
+#: Those that show a motion.
 MOVING = {"film", "blend", "glb"}
 
 
@@ -68,6 +68,7 @@ class Clip:
     skin : colour of the skin, linear RGB; None: its own.
     still_at : seconds of the still; None: where most shows.
     creases, drive, max_keys : as for `bake_motion`.
+    remarks : what is to be said of it.
     label_pictures, licence, facts : as for `Labels`; of a still alone, areas, depth and normals are written always.
     """
 
@@ -85,6 +86,18 @@ class Clip:
     label_pictures: int = 0
     licence: str = ""
     facts: Mapping[str, object] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def is_still(self) -> bool:
+        """Whether all that is shown is one frame."""
+        return "still" in self.outputs and not MOVING & set(self.outputs)
+
+    @property
+    def is_posed(self) -> bool:
+        """Whether the pose of the apex is enough, without the motion to it."""
+        looks = MOVING | {"labels"}
+        return self.still_at is None and (self.is_still or not looks & set(self.outputs))
 
 
 @dataclass(frozen=True)
@@ -117,9 +130,11 @@ def make_clip(folder: Path, clip: Clip) -> Work[MadeClip]:
     if clip.skin is not None:
         colour_skin(face.obj, clip.skin)
     shown = clip.shown(bake.scene_fps())
-    said = face.remarks + shown.remarks
+    if "glb" in clip.outputs and not shown.moves:
+        raise RisoriusError("a face that rests has no motion for a .glb: leave glb out, or let the face move")
+    said = clip.remarks + face.remarks + shown.remarks
     said += yield from part_of(_bake(face, shown, clip), 0.05, 0.4)
-    if shown.moves:
+    if shown.moves and set(clip.outputs) != {"fap"}:
         yield Progress(0.4, "Keeping the prepared head")
         run(keep_steps(face_of(face.target.source())))
     first = bpy.context.scene.frame_start
@@ -142,10 +157,10 @@ def _still_frame(shown: Shown, clip: Clip) -> int:
 
 
 def _bake(face: Subject, shown: Shown, clip: Clip) -> Work[tuple[str, ...]]:
-    """Bake what is shown; returns remarks. A face that rests stays as it is."""
-    if not shown.moves:
+    """Bake what is shown; returns remarks. A face that rests, or that nobody sees, stays as it is."""
+    if not shown.moves or set(clip.outputs) == {"fap"}:
         return ()
-    if shown.cue is not None and clip.still_at is None and not MOVING & set(clip.outputs):
+    if shown.cue is not None and clip.is_posed:
         return (yield from _pose(face, shown, shown.cue, clip))
     result = yield from bake.bake_motion(
         face.target,
@@ -182,14 +197,9 @@ def _labelled(folder: Path, face: Subject, shown: Shown, clip: Clip, first: int)
     """Labels of what is shown, where they are wanted."""
     if "labels" not in clip.outputs:
         return None
-    every = 1 if _is_still(clip) else clip.label_pictures
+    every = 1 if clip.is_still else clip.label_pictures
     labels = Labels(folder / NAMES["labels"], every, clip.licence, {"clip": clip.name, **clip.facts})
     return begin(labels, face, shown.motion, start=first, meant=shown.meant, drive=clip.drive)
-
-
-def _is_still(clip: Clip) -> bool:
-    """Whether all that is pictured is one frame."""
-    return "still" in clip.outputs and not MOVING & set(clip.outputs)
 
 
 def _picture(folder: Path, face: Subject, shown: Shown, clip: Clip, at: int) -> Work[tuple[str, ...]]:
@@ -211,12 +221,12 @@ def _picture(folder: Path, face: Subject, shown: Shown, clip: Clip, at: int) -> 
                 watch=watch,
             )
             said += (yield from part_of(filming, 0.0, 0.8)).remarks
-        elif watch is not None and not _is_still(clip):
+        elif watch is not None and not clip.is_still:
             yield from part_of(_look_at(face, clip, first, last, watch), 0.0, 0.8)
         if "still" in wanted:
             look = replace(clip.look, fine=True)
             drawing = render_frames(
-                face.shown(), folder, start=at, end=at, look=look, watch=watch if _is_still(clip) else None
+                face.shown(), folder, start=at, end=at, look=look, watch=watch if clip.is_still else None
             )
             pictures, remarks = yield from part_of(drawing, 0.8, 0.9)
             pictures[0].rename(folder / NAMES["still"])

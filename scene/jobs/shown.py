@@ -10,14 +10,16 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from ...errors import ParameterError
-from ...mpeg4 import ARCHETYPES, Liveliness, bridged
+from ...mpeg4 import ARCHETYPES, FAPS, Liveliness, Unit, bridged
 from ..bake.motion import CueMotion, FapMotion, at_rate
 
 if TYPE_CHECKING:
     from ...api import Cue, FapStream, Saying
 
-#: FAPs 1 and 2 stand for others.
-HIGH_LEVEL = 2
+#: The upper lids, of which a blink asks this much or more, in FAP units.
+UPPER_LIDS, SHUT = (19, 20), 512.0
+#: What a face shows: no turns, whose unit is small, no lids, and not FAPs 1 and 2, which stand for others.
+EXPRESSIVE = [number - 1 for number, fap in FAPS.items() if fap.unit not in (None, Unit.AU) and not 19 <= number <= 22]
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,8 +109,13 @@ def _open_eyed(begin: int, end: int, is_open: Bools) -> int:
 
 
 def _most(frames: Floats) -> int:
-    """The frame in which most is requested."""
-    return int(np.abs(np.nan_to_num(frames[:, HIGH_LEVEL:])).sum(axis=1).argmax())
+    """The frame in which most is requested of mouth, brows and cheeks, where there is one with open eyes."""
+    asked = np.abs(np.nan_to_num(frames))
+    shown = asked[:, EXPRESSIVE].sum(axis=1)
+    is_open = (np.nan_to_num(frames)[:, [number - 1 for number in UPPER_LIDS]] < SHUT).all(axis=1)
+    if not shown.any():
+        return int(asked.sum(axis=1).argmax())
+    return int(np.where(is_open | ~is_open.any(), shown, -1.0).argmax())
 
 
 def _unknown(count: int) -> Floats:

@@ -8,6 +8,7 @@ import pytest
 from places import ROOT
 from risorius.batch.columns import BY_NAME, COLUMNS, Kind, reference
 from risorius.batch.jobs import name_problem
+from risorius.batch.making import unheeded
 from risorius.batch.table import JobTable, read_jobs
 from risorius.errors import FormatError
 from risorius.mpeg4 import load_timings
@@ -51,9 +52,57 @@ def test_comments_blank_lines_and_semicolons_are_read(tmp_path: Path) -> None:
     assert not read.problems
 
 
+def test_tables_of_spreadsheets_are_read(tmp_path: Path) -> None:
+    """Excel of a country with decimal commas: marks at the beginning, semicolons, lines that end as Windows ends them,
+    columns and rows with nothing in them."""
+    text = "\ufeffsep=;\r\nID;Emotion;Activation;Voice Pitch;Yaw;;\r\na;JOY;5,5;;-12,5;;\r\n;;;;;;\r\n"
+    (job,) = table(tmp_path, text).jobs
+    assert job.said() == {"id": "a", "emotion": "JOY", "activation": 5.5, "yaw": -12.5}
+    tabbed = table(tmp_path, "id\temotion\tactivation\nb\tjoy\t5,5\n", "jobs.tsv")
+    assert tabbed.jobs[0].values["activation"] == 5.5
+    assert "must be a number from 1 to 7, but it is '5,5'" in problem(tmp_path, 'emotion,activation\njoy,"5,5"\n')
+
+
+def test_tables_of_programs_are_read(tmp_path: Path) -> None:
+    """A column with gaps is one of floating point for them."""
+    (job,) = table(tmp_path, "emotion,seed,creases,variant\njoy,3.0,True,\n").jobs
+    assert (job.values["seed"], job.values["creases"]) == (3, True)
+    assert "has '0' in column 1, which has no name" in problem(tmp_path, ",emotion\n0,joy\n")
+
+
+def test_a_cell_with_line_breaks_and_an_open_quotation_mark_harm_their_own_row_alone(tmp_path: Path) -> None:
+    read = table(tmp_path, 'id,text\na,"one\ntwo"\nb,"open\nc,three\nd,"four ""five"""\n')
+    assert [(job.id, job.values["text"]) for job in read.jobs] == [("c", "three"), ("d", 'four "five"')]
+    assert [str(each).partition("jobs.csv, ")[2] for each in read.problems] == [
+        "line 2: goes on to line 3 in quotation marks: write it in one line",
+        "line 4: has a quotation mark that nothing closes: close or remove it",
+    ]
+
+
+def test_a_colour_in_the_first_column_is_no_comment(tmp_path: Path) -> None:
+    text = '# a comment\n"# one, of a spreadsheet",\nbackground,emotion\n#ff0000,joy\n#00ff00,joy\n# no,row\n'
+    assert [job.values["background"] for job in table(tmp_path, text).jobs] == ["#ff0000", "#00ff00"]
+    assert not table(tmp_path, text).problems
+
+
+def test_only_line_breaks_end_a_line(tmp_path: Path) -> None:
+    (job,) = table(tmp_path, "text,note\nHello\u2028there,x\n").jobs
+    assert job.values["text"] == "Hello\u2028there"
+
+
+def test_a_set_keeps_the_names_of_its_own_files() -> None:
+    for name in ("manifest.jsonl", "manifest.3-of-10.jsonl", "JOBS.csv"):
+        assert name_problem(name) is not None
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
+        ("emotion,seed\njoy,-1\n", "column seed: must be a whole number from 0 to 2147483647, but it is '-1'"),
+        ("emotion,seed\njoy,1e300\n", "column seed: must be a whole number"),
+        ("emotion,still_at,outputs\njoy,99,still\n", "column still_at: must be "),
+        ("emotion,tissue,outputs\njoy,aged,still\n", "column tissue: says nothing in a still alone"),
+        ("emotion,note\njoy,a,b\n", "put a text with ',' into quotation marks"),
         ("emotion,yaw\njoy,900\n", "line 2, column yaw: must be a number from -180 to 180, but it is '900'"),
         ("emotion,yaw\njoy,1e400\n", "column yaw: must be a number"),
         ("emotion,yaw\njoy,nan\n", "column yaw: must be a number"),
@@ -106,7 +155,7 @@ def test_a_column_twice_and_a_table_without_rows_are_refused(tmp_path: Path) -> 
         table(tmp_path, "emotion\n")
     with pytest.raises(FormatError, match="is empty"):
         table(tmp_path, "")
-    with pytest.raises(FormatError, match=r"must be a \.csv or \.toml"):
+    with pytest.raises(FormatError, match=r"must be a \.csv, \.tsv or \.toml"):
         table(tmp_path, "emotion\n", "jobs.xlsx")
 
 
@@ -145,8 +194,33 @@ def test_toml_says_the_same_as_csv(tmp_path: Path) -> None:
     assert dict(toml.jobs[0].values) == dict(csv.jobs[0].values)
     assert toml.jobs[0].fingerprint() == csv.jobs[0].fingerprint()
     assert "jobs.toml, line 10, key jobs.1.yaw: must be a number from -180 to 180" in str(toml.problems[0])
-    with pytest.raises(FormatError, match=r"jobs\.0\.emotoin: is unknown: did you mean emotion"):
-        table(tmp_path, '[[jobs]]\nemotoin = "joy"\n', "jobs.toml")
+    wrong = table(tmp_path, '[[jobs]]\nemotoin = "joy"\n[[jobs]]\nemotion = "joy"\n', "jobs.toml")
+    assert [job.place for job in wrong.jobs] == ["line 3"]
+    assert "line 1, key jobs.0.emotoin: is unknown: did you mean emotion" in str(wrong.problems[0])
+    with pytest.raises(FormatError, match=r"defaults\.emotoin: is unknown: did you mean emotion"):
+        table(tmp_path, '[defaults]\nemotoin = "joy"\n[[jobs]]\nemotion = "joy"\n', "jobs.toml")
+
+
+def test_what_a_table_says_for_all_is_for_the_jobs_in_which_it_says_something(tmp_path: Path) -> None:
+    text = """
+        [defaults]
+        voice = "de"
+        activation = 5
+        label_pictures = 5
+        [[jobs]]
+        emotion = "joy"
+        [[jobs]]
+        text = "Guten Tag"
+        [[jobs]]
+        text = "Guten Tag"
+        activation = 3
+    """
+    read = table(tmp_path, text, "jobs.toml")
+    assert [job.said() for job in read.jobs] == [
+        {"id": read.jobs[0].id, "emotion": "joy", "activation": 5.0},
+        {"id": read.jobs[1].id, "text": "Guten Tag", "voice": "de"},
+    ]
+    assert "line 10, key jobs.2.activation: says nothing without emotion or angle" in str(read.problems[0])
 
 
 def test_a_job_is_known_again_by_what_it_says_and_by_the_files_it_names(tmp_path: Path) -> None:
@@ -163,6 +237,25 @@ def test_files_are_named_from_the_folder_of_the_table(tmp_path: Path, monkeypatc
     (tmp_path / "a.fap").write_text("one")
     monkeypatch.chdir("/")
     assert table(tmp_path, "fap\na.fap\n").jobs[0].inputs == {"fap": tmp_path / "a.fap"}
+
+
+@pytest.mark.parametrize(
+    ("cells", "told"),
+    [
+        ("samples,outputs\n64,still", ["samples says nothing in engines other than Cycles"]),
+        ("samples,outputs,engine\n64,still,cycles", []),
+        ("ambient,outputs\n1,film", ["ambient says nothing in Workbench"]),
+        ("ambient,outputs\n1,blend", []),
+        ("yaw,outputs\n20,fap", ["yaw says nothing where nothing is pictured"]),
+        ("yaw,light,outputs\n20,2,labels", ["light says nothing where nothing is drawn"]),
+        ("max_keys,outputs\n5,still", ["max_keys says nothing where nothing moves"]),
+        ("max_keys,size,outputs\n5,64,film", []),
+    ],
+)
+def test_what_does_not_show_is_remarked(tmp_path: Path, cells: str, told: list[str]) -> None:
+    heading, row = cells.splitlines()
+    (job,) = table(tmp_path, f"emotion,{heading}\njoy,{row}\n").jobs
+    assert list(unheeded(job)) == told
 
 
 def test_choices_are_those_of_the_presets() -> None:

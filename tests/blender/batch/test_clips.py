@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import subprocess
 import sys
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 import risorius.api as api
 from risorius import cli
+from risorius.scene.jobs.shown import stream
 from risorius.scene.mesh import evaluated_vertices
 
 TABLE = """id,emotion,fap,text,activation,seed,apex,outputs,size,yaw
@@ -137,6 +139,38 @@ def test_a_bad_row_and_a_job_that_fails_are_told_and_the_rest_is_made(
     assert said["made"] == ["c"]
     assert list(said["failed"]) == ["b"]
     assert "line 2, column emotion" in said["bad_rows"][0]
+
+
+@pytest.mark.slow
+def test_labels_by_themselves_are_of_the_motion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "jobs.csv"
+    path.write_text("id,emotion,outputs,size,fps,apex,activation\na,joy,labels,64,5,0.2,7\n")
+    batch(path, tmp_path / "set", capsys=capsys)
+    with (tmp_path / "set" / "a" / "labels" / "faps.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["fap"] == "12"]
+    achieved = np.array([float(row["achieved"]) for row in rows])
+    assert abs(achieved[0]) < 1.0
+    assert achieved.max() > 50.0
+
+
+@pytest.mark.slow
+def test_a_face_that_rests_has_no_glb_and_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "jobs.csv"
+    path.write_text("id,emotion,outputs,size\na,neutral,glb,64\n")
+    said = batch(path, tmp_path / "set", capsys=capsys, code=1)
+    assert "leave glb out, or let the face move" in said["failed"]["a"]
+
+
+def test_the_still_of_a_stream_is_no_blink_and_no_turn_of_the_head() -> None:
+    frames = np.full((5, 68), np.nan)
+    frames[:, [11, 18, 19, 47, 48]] = 0.0
+    frames[1, [47, 48]] = 9000.0  # a turn of the head, in units of 1e-5 rad
+    frames[2, 11] = 300.0
+    frames[3, [11, 18, 19]] = 400.0, 1000.0, 1000.0  # more, but in a blink
+    shown = stream(api.FapStream(frames, fps=25.0))(25.0)
+    assert shown.apex == 2
+    only_turns = np.where(np.isin(np.arange(68), (47, 48)), frames, 0.0)
+    assert stream(api.FapStream(only_turns, fps=25.0))(25.0).apex == 1
 
 
 FARM = """
