@@ -212,7 +212,7 @@ def _is_posed(values: Mapping[str, Value]) -> bool:
     return "still" in outputs or "labels" not in outputs
 
 
-def _outputs(values: dict[str, Value]) -> tuple[str, ...]:
+def _outputs(values: Mapping[str, Value]) -> tuple[str, ...]:
     """What is to be made."""
     found = values["outputs"]
     return found if isinstance(found, tuple) else ()
