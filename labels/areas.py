@@ -122,6 +122,11 @@ class Areas:
         corners = shown.source[shown.triangles[:, 0]]
         return np.asarray((corners >= 0) & (self._of_vertex[corners] == Area.ON_SKIN))
 
+    def is_eyeball(self, shown: Shown) -> Bools:
+        """(T,) which triangles are of the face's eyeballs."""
+        corners = shown.source[shown.triangles[:, 0]]
+        return np.asarray((corners >= 0) & np.isin(self._of_vertex[corners], (Area.SCLERA_L, Area.SCLERA_R)))
+
     def of(self, shown: Shown, drawn: Drawn) -> Ints:
         """(height, width) numbers of `Area`."""
         areas = np.full(drawn.triangle.shape, int(Area.BACKGROUND), dtype=np.int64)

@@ -32,8 +32,16 @@ EYES = {"left": (23, 25), "right": (24, 26)}
 DEGREE = 180.0 / np.pi * 1e-5
 
 COLUMNS = (
-    Column("eye_opening_left", Kind.NUMBER, "gap of the left lids as a share of the resting one: 1 at rest, 0 shut"),
-    Column("eye_opening_right", Kind.NUMBER, "gap of the right lids as a share of the resting one: 1 at rest, 0 shut"),
+    Column(
+        "eye_opening_left",
+        Kind.NUMBER,
+        "height of the gap between the left lids as a share of the resting one: 1 at rest, 0 shut",
+    ),
+    Column(
+        "eye_opening_right",
+        Kind.NUMBER,
+        "height of the gap between the right lids as a share of the resting one: 1 at rest, 0 shut",
+    ),
     Column("eye_yaw_left", Kind.NUMBER, "turn of the left eye in its socket, to the left (FAP 23)", "degree", 4),
     Column("eye_yaw_right", Kind.NUMBER, "turn of the right eye in its socket, to the left (FAP 24)", "degree", 4),
     Column("eye_pitch_left", Kind.NUMBER, "turn of the left eye in its socket, down (FAP 25)", "degree", 4),
@@ -117,15 +125,16 @@ class Frame:
         marks, face = self.subject.marks, self.subject.face
         places = marks.places(self.positions, *self._motion)
         hiding = self._triangles.without(self.subject.areas.is_hair(self.shown))
-        return marks.rows(face, self.positions, places, self.view, hiding, face.units.es0)
+        lids = hiding.without(self.subject.areas.is_eyeball(self.shown))
+        return marks.rows(face, self.positions, places, self.view, hiding, lids, face.units.es0)
 
     def row(self) -> Mapping[str, float]:
         """What the table of frames says of eyes and head."""
         face, (turn, shift) = self.subject.face, self._motion
         row: dict[str, float] = {}
         for side, lids in LIDS.items():
-            now, rest = (self._gap(lids, positions) for positions in (self.positions, face.vertices))
-            row[f"eye_opening_{side}"] = now / rest if rest > 0.0 else np.nan
+            now, rest = self._gap(lids, self.positions, turn), self._gap(lids, face.vertices, np.eye(3))
+            row[f"eye_opening_{side}"] = max(now, 0.0) / rest if rest > 0.0 else np.nan
         for side, numbers in EYES.items():
             for name, number in zip(("yaw", "pitch"), numbers, strict=True):
                 row[f"eye_{name}_{side}"] = DEGREE * float(self.measured[number - 1])
@@ -137,10 +146,11 @@ class Frame:
         row |= {f"head_{axis}": float(value) for axis, value in zip("xyz", head, strict=True)}
         return row | {"eye_distance": float(np.linalg.norm(pupils[0] - pupils[1]))}
 
-    def _gap(self, lids: tuple[str, str], positions: Floats) -> float:
-        """Distance of the middles of two lids."""
+    def _gap(self, lids: tuple[str, str], positions: Floats, turn: Floats) -> float:
+        """Height of the middle of a lid over that of the other, in a head that is turned: shut lids lie one before
+        the other."""
         upper, lower = np.asarray(self.subject.face.points.matrix(lids) @ positions)
-        return float(np.linalg.norm(upper - lower))
+        return float((upper - lower) @ turn @ self.subject.face.axes[1])
 
     def _facing(self, turn: Floats) -> Rotation:
         """The head's turn from looking into the camera, along the subject's left, up and forward."""

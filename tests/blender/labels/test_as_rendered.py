@@ -10,7 +10,8 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from risorius.scene.bake import Target
+import risorius.api as api
+from risorius.scene.bake import Target, shape_keys
 from risorius.scene.bake.motion import FapMotion
 from risorius.scene.faces import read_face
 from risorius.scene.jobs.labelling import Labels, begin
@@ -175,3 +176,35 @@ def test_an_iris_is_seen_through_a_cornea(head: Any, tmp_path: Path) -> None:
     areas = set(np.rint(np.array(image.pixels[:])[::4] * 255.0).astype(int).tolist())
     assert {9, 12} <= areas
     assert 16 not in areas
+
+
+@pytest.mark.slow
+def test_shut_lids_leave_no_gap_and_hide_the_irises(head: Any, tmp_path: Path) -> None:
+    asked = np.full(68, np.nan)
+    asked[[18, 19]], asked[[20, 21]] = 1100.0, 200.0
+    shape_keys.write_keys(head, "shut", {"shut": np.asarray(api.default_face().pose(asked).positions)})
+    for value, opening in ((0.0, 1.0), (1.0, 0.0)):
+        head.data.shape_keys.key_blocks["shut"].value = value
+        folder = labelled(head, tmp_path, look=Look(width=160, height=160, yaw=0.0))
+        (frame,) = rows(folder, "frames")
+        assert float(frame["eye_opening_left"]) == pytest.approx(opening, abs=0.03)
+        assert float(frame["eye_opening_right"]) == pytest.approx(opening, abs=0.03)
+        marks = rows(folder, "landmarks")
+        irises = [row["visible"] for row in marks if row["set"] == "mediapipe478" and int(row["index"]) >= 468]
+        pupils = [row["visible"] for row in marks if row["name"] in ("3.5", "3.6")]
+        if value:
+            assert {*irises, *pupils} == {"false"}
+        else:
+            assert irises.count("true") >= 8
+            assert set(pupils) == {"true"}
+
+
+@pytest.mark.slow
+def test_what_lies_close_before_an_eyeball_hides_its_pupil(head: Any, tmp_path: Path) -> None:
+    """As lids do that are thinner than what hides a mark of the skin."""
+    front = float(api.default_face().points["3.5"].position[1])
+    lid = wall("Thin lid")
+    lid.location.y = front - 3e-4 + 0.4
+    folder = labelled(head, tmp_path, (lid,), Look(width=160, height=160, yaw=0.0))
+    pupils = [row for row in rows(folder, "landmarks") if row["name"] in ("3.5", "3.6") and row["set"] == "mpeg4"]
+    assert [(row["in_picture"], row["hidden"], row["visible"]) for row in pupils] == [("true", "true", "false")] * 2
