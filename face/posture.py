@@ -6,7 +6,7 @@ to the targets, and pushed by what it meets.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -26,7 +26,6 @@ from .drive.targets import Targets
 from .figures import Length, read_figures
 from .mechanism import Mechanism
 from .response.actuators import Amounts
-from .response.recollection import Recollection
 
 
 @dataclass(frozen=True)
@@ -110,8 +109,8 @@ class Balance:
     def __init__(self, anatomy: Anatomy) -> None:
         self.anatomy = anatomy
 
-    def posture(self, plan: Plan, *, known: Recollection | None = None) -> Posture:
-        """The posture of a plan; with a recollection it may be foretold, or stop a little short of balance.
+    def posture(self, plan: Plan, answer: Callable[[Amounts], Floats] | None = None) -> Posture:
+        """The posture of a plan; the skin's `answer` to amounts (n, 3) is in balance unless told otherwise.
 
         Raises
         ------
@@ -119,7 +118,8 @@ class Balance:
         SolverError : contractions beyond what the skin can bear.
         """
         effort = self.effort(plan)
-        return self.reached(effort, self.anatomy.relaxation.pulled(effort.amounts, known=known))
+        pulled = self.anatomy.relaxation.pulled if answer is None else answer
+        return self.reached(effort, pulled(effort.amounts))
 
     def effort(self, plan: Plan, *, before: Effort | None = None) -> Effort:
         """What a plan takes of muscles, lids and jaw, before the skin answers; errors as `posture`.

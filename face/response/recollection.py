@@ -51,6 +51,10 @@ class Recollection:
         weights, doubt = self._weights(amounts)
         return _mixed(weights, self._added), doubt
 
+    def doubt(self, amounts: Floats) -> float:
+        """How far off what is foretold for muscles (k,) may be, metres."""
+        return self._weights(amounts)[1]
+
     def on_sheet(self, amounts: Floats) -> Floats | float:
         """As `foretold`, what springs add on the elastic sheet (n, 3), before sliding and bulging: where to begin."""
         return _mixed(self._weights(amounts)[0], self._on_sheet)

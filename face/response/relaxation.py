@@ -30,8 +30,8 @@ TOLERANCE = 1e-7
 #: The same where rounding ends the search: slivers of a mesh are far stiffer than the skin round them, metres.
 UNSEEN = 5e-6
 
-#: The same for a face that is only sketched; and how far off what is foretold may be, metres.
-SKETCHED, FORETOLD = 2e-5, 5e-5
+#: The same for a face that is only sketched; and how far off what is foretold may be there, and in passing, metres.
+SKETCHED, FORETOLD, IN_PASSING = 2e-5, 5e-5, 2e-4
 
 #: The same for one of the balances that stand for a whole clip, metres.
 SAMPLED = 5e-6
@@ -100,30 +100,46 @@ class Relaxation:
         balanced = self._solver.solve(force, start=start + added, tolerance=tolerance).positions
         return balanced, balanced - start
 
-    def pulled(self, amounts: Amounts, *, known: Recollection | None = None) -> Floats:
+    def pulled(self, amounts: Amounts, *, teaching: Recollection | None = None) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, metres: what `Actuators.low_strain` is at low strain.
 
-        With a recollection, what others foretell is taken where that is near enough; else the search begins there, ends
-        a little short of balance, and what is found is added to it.
+        What is found is added to a recollection, where there is one that could not have foretold it.
 
         Raises
         ------
         SolverError : as `balance`.
         """
-        if not amounts.muscles.any():
-            return np.zeros_like(self.skin.positions)
-        if not self.skin.has(Mechanism.BIPHASIC):
+        if not self._stiffens(amounts):
             return self.actuators.low_strain(amounts)
-        if known is None:
-            return self._shown(self.balance(amounts))
+        balanced, on_sheet = self._balance(amounts, 0.0, TOLERANCE)
+        found = self._shown(balanced)
+        if teaching is not None and teaching.doubt(amounts.muscles) > FORETOLD:
+            teaching.learn(amounts.muscles, found - self.actuators.low_strain(amounts), on_sheet)
+        return found
+
+    def recalled(self, amounts: Amounts, known: Recollection, *, trusted: float = FORETOLD) -> Floats:
+        """(n, 3) as `pulled`, a little short of balance: what others foretell, where its doubt is no more than trusted.
+
+        Else the search begins there, and what is found is added to what is known.
+
+        Raises
+        ------
+        SolverError : as `balance`.
+        """
         linear = self.actuators.low_strain(amounts)
+        if not self._stiffens(amounts):
+            return linear
         foretold, doubt = known.foretold(amounts.muscles)
-        if doubt <= FORETOLD:
+        if doubt <= trusted:
             return linear + foretold
         balanced, on_sheet = self._balance(amounts, known.on_sheet(amounts.muscles), SKETCHED)
         found = self._shown(balanced)
         known.learn(amounts.muscles, found - linear, on_sheet)
         return found
+
+    def _stiffens(self, amounts: Amounts) -> bool:
+        """Whether muscles pull on springs that stiffen: else the skin answers as it does at low strain."""
+        return bool(amounts.muscles.any()) and self.skin.has(Mechanism.BIPHASIC)
 
     def _shown(self, balanced: Floats) -> Floats:
         """(n, 3) what the face shows where its sheet is in balance at positions (n, 3)."""

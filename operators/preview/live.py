@@ -119,7 +119,7 @@ def _look(previews: Previews) -> float:
     if obj is None or ready_reason(obj) is not None:
         previews.due.done(look, shown=False)
         return 0.0
-    face = previews.faces.current(target_of(obj))
+    face = previews.faces.current(target_of(obj), glimpse=not look.exact)
     if face is None:
         return PAUSE
     show(obj, face, exact=look.exact)
@@ -184,7 +184,7 @@ def show(obj: Object, face: LiveFace, *, exact: bool) -> None:
     RisoriusError : it cannot be posed.
     """
     wanted, previews = wanted_of(obj), session().previews
-    pose = face.pose(wanted.faps, **_asked_of(wanted), exact=exact)
+    pose = face.pose(wanted.faps, **_asked_of(wanted), exact=exact, passing=not exact)
     face.show(target_of(obj), pose.displacement)
     context: Context = bpy.context
     with_paths = exact and context.window_manager.risorius.show.paths

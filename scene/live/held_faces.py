@@ -46,8 +46,11 @@ class HeldFaces:
         """The face of this number as it was read, where it is ready."""
         return None if self.is_preparing else self._faces.get(uid)
 
-    def current(self, target: Target) -> LiveFace | None:
+    def current(self, target: Target, *, glimpse: bool = False) -> LiveFace | None:
         """The face of `target` as it is now, read again where it has changed; None as long as it is not ready.
+
+        At a `glimpse` a face that was looked at closely within `REST` seconds is taken to be as it was, unless its
+        meshes have other counts: while a pointer drags, nobody edits them, and a close look takes milliseconds.
 
         Raises
         ------
@@ -55,7 +58,7 @@ class HeldFaces:
         """
         uid = uid_of(target.obj)
         face = self._faces.get(uid)
-        if face is None or not face.is_of(target):
+        if face is None or not (face.is_of(target, since=REST) if glimpse else face.is_of(target)):
             face = LiveFace(target)
             self.forget(uid)
             self._faces[uid] = face

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -16,6 +17,7 @@ from ..bake.motion import Motion
 from ..bake.target import Target
 from ..faces import face_of, keep_steps
 from ..fingerprint import fingerprint, uid_of
+from ..points.kept import mesh_counts
 from . import preview
 from .played import PlayedMotion
 
@@ -56,6 +58,7 @@ class LiveFace:
         """
         self.uid = uid_of(target.obj)
         self._source = target.source()
+        self._seen, self._counts = time.monotonic(), _counts(target)
         self._face = face_of(self._source)
         self._sketcher = self._face.sketcher()
         self._apexes: OrderedDict[str, Floats] = OrderedDict()
@@ -63,9 +66,16 @@ class LiveFace:
         self._motion: Work[None] | None = None
         self._keeping: Work[None] | None = self._explored_and_kept()
 
-    def is_of(self, target: Target) -> bool:
-        """Whether the face is still as it was read."""
-        return fingerprint(target.obj, target.companions).matches(self._source.fingerprint)
+    def is_of(self, target: Target, *, since: float = 0.0) -> bool:
+        """Whether the face is still as it was read.
+
+        Where that was seen less than `since` seconds ago, only the counts of its meshes are looked at.
+        """
+        if time.monotonic() < self._seen + since:
+            return self._counts == _counts(target)
+        same = fingerprint(target.obj, target.companions).matches(self._source.fingerprint)
+        self._seen = time.monotonic() if same else -np.inf
+        return same
 
     def prepare(self) -> Work[None]:
         """Work out what the first sketch needs."""
@@ -119,12 +129,13 @@ class LiveFace:
         emotion: EmotionShares | None = None,
         contractions: Mapping[str, float] | None = None,
         exact: bool = False,
+        passing: bool = False,
     ) -> LivePose:
-        """The face for some FAPs (68,): a sketch (`Face.sketcher`), or in balance as a bake is."""
+        """The face for some FAPs (68,): a sketch (`Face.sketcher`), in passing or not, or in balance as a bake is."""
         if exact:
-            pose = self._face.pose(faps, drive=drive, emotion=emotion, contractions=contractions)
+            pose = self._sketcher.pose(faps, drive=drive, emotion=emotion, contractions=contractions)
             return LivePose(pose.positions - self._face.vertices, pose.contractions, pose.unmet)
-        sketch = self._sketcher.sketch(faps, drive=drive, emotion=emotion, contractions=contractions)
+        sketch = self._sketcher.sketch(faps, drive=drive, emotion=emotion, contractions=contractions, passing=passing)
         return LivePose(sketch.positions - self._face.vertices, sketch.contractions)
 
     def apex(
@@ -197,3 +208,8 @@ class LiveFace:
                 preview.show(obj, piece.local_positions(displacement))
             else:
                 preview.rest([obj])
+
+
+def _counts(target: Target) -> list[tuple[int, tuple[int, int, int]]]:
+    """Number of each object of a face, and how many vertices, corners and polygons it has."""
+    return [(uid_of(obj), mesh_counts(obj.data)) for obj in target.objects()]

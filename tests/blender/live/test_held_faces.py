@@ -56,6 +56,23 @@ def test_a_face_is_handed_out_once_it_is_ready_and_read_again_once_it_has_change
     assert faces.current(target) is not first
 
 
+def test_a_glimpse_sees_counts_and_after_a_while_all_of_a_face(head: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [100.0]
+    monkeypatch.setattr("time.monotonic", lambda: now[0])
+    faces, target = HeldFaces(), Target(head)
+    ready(faces, target)
+    first = faces.current(target)
+    head.data.vertices[0].co.x += 0.001
+    assert faces.current(target, glimpse=True) is first
+    now[0] += 2.0 * REST
+    assert faces.current(target, glimpse=True) is None
+    while faces.is_preparing:
+        faces.prepare()
+    assert faces.current(target, glimpse=True) is not None
+    head.data.vertices.add(1)
+    assert faces.current(target, glimpse=True) is None
+
+
 def test_the_faces_that_were_shown_last_are_held() -> None:
     faces, heads = HeldFaces(), [add_default_head() for _ in range(KEPT + 1)]
     for head in heads:

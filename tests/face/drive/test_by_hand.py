@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import risorius.api as api
 from risorius.errors import ParameterError
+from risorius.physics.equilibrium import EquilibriumSolver
 
 
 def raised(face: api.Face, name: str) -> float:
@@ -54,6 +57,29 @@ def test_a_sketch_is_the_pose_within_a_tenth_of_a_millimetre(face: api.Face, dri
         posed = face.pose(profile.frame(), drive=drive, emotion=profile.weights)
         assert np.linalg.norm(sketched.positions - posed.positions, axis=1).max() < 1e-4
         assert sketched.contractions == pytest.approx(dict(posed.contractions))
+
+
+def test_a_pose_at_rest_is_exact_and_teaches_the_sketches_in_passing(monkeypatch: pytest.MonkeyPatch) -> None:
+    solves, solve = list[int](), EquilibriumSolver.solve
+
+    def counted(self: EquilibriumSolver, *force: Any, **options: Any) -> Any:
+        solves.append(1)
+        return solve(self, *force, **options)
+
+    face = api.default_face().without()
+    sketcher, silent = face.sketcher(), np.full(68, np.nan)
+
+    def smile(share: float) -> dict[str, float]:
+        return {"zygomaticus_major_l": share}
+
+    posed = sketcher.pose(silent, contractions=smile(0.8)).positions
+    np.testing.assert_array_equal(posed, face.pose(silent, contractions=smile(0.8)).positions)
+    monkeypatch.setattr(EquilibriumSolver, "solve", counted)
+    sketched = {s: sketcher.sketch(silent, contractions=smile(s), passing=True).positions for s in (0.76, 0.79, 0.84)}
+    assert not solves
+    for share, positions in sketched.items():
+        there = face.pose(silent, contractions=smile(share)).positions
+        assert np.linalg.norm(positions - there, axis=1).max() < 5e-4
 
 
 @pytest.mark.slow
