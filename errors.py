@@ -85,13 +85,18 @@ class SolverError(RisoriusError):
         step: int | None = None,
         residual: float | None = None,
     ) -> None:
-        self.frame, self.step, self.residual = frame, step, residual
+        self.problem, self.frame, self.step, self.residual = problem, frame, step, residual
         known = [
             f"{name} {value:.3g}" if isinstance(value, float) else f"{name} {value}"
             for name, value in (("frame", frame), ("step", step), ("residual", residual))
             if value is not None
         ]
         super().__init__(problem + (f" ({', '.join(known)})" if known else ""))
+
+    def in_frame(self, frame: int) -> SolverError:
+        """The same error of a motion, which knows the frame too; one of a part of it becomes one of the whole."""
+        problem = self.problem if self.frame is not None else f"the motion could not be solved: {self.problem}"
+        return SolverError(problem, frame=frame, step=self.step, residual=self.residual)
 
 
 class SceneError(RisoriusError):

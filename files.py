@@ -26,16 +26,21 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
     ------
     FormatError : the file cannot be written; an older one is as it was.
     """
-    file = Path(path)
-    data = content.encode("utf-8") if isinstance(content, str) else content
-    draft = _draft_of(file)
+    file, draft = Path(path), None
     try:
+        data = content.encode("utf-8") if isinstance(content, str) else content
+        draft = _draft_of(file)
         draft.write_bytes(data)
         os.replace(draft, file)
-    except OSError as error:
-        with contextlib.suppress(OSError):  # what keeps the draft from being written may keep it from being removed
-            draft.unlink()
-        raise FormatError(file, f"cannot be written ({error.strerror}): choose a folder you may write to") from error
+    except (OSError, ValueError) as error:
+        if draft is not None:
+            with contextlib.suppress(OSError, ValueError):  # what keeps it from being written may keep it from going
+                draft.unlink()
+        if isinstance(error, OSError):
+            problem = f"cannot be written ({error.strerror}): choose a folder you may write to"
+        else:  # a name that is empty or has a null character; letters that are none, in the name or the text
+            problem = f"cannot be written ({error}): choose another name"
+        raise FormatError(file, problem) from error
 
 
 def _draft_of(file: Path) -> Path:

@@ -65,23 +65,27 @@ def main(argv: list[str] | None = None) -> int:
         130 where the user has stopped it.
     """
     parser = _parser()
+    given = with_action(sys.argv[1:] if argv is None else argv)
     try:
-        arguments = parser.parse_args(with_action(sys.argv[1:] if argv is None else argv))
+        for argument in given:
+            if argument.startswith("--") and argument.endswith("=--"):  # argparse makes an empty list of it
+                parser.error(f"{argument[:-3]} needs a value, not --")
+        arguments = parser.parse_args(given)
     except SystemExit as ended:  # argparse has said why
         return int(ended.code or 0)
     try:
         result: Result = arguments.run(arguments)
     except UsageError as error:
-        print(f"risorius {arguments.verb}: {error}", file=sys.stderr)
+        print(_fit_for(sys.stderr, f"risorius {arguments.verb}: {error}"), file=sys.stderr)
         return 2
     except (RisoriusError, OSError) as error:
-        print(f"risorius {arguments.verb}: {error}", file=sys.stderr)
+        print(_fit_for(sys.stderr, f"risorius {arguments.verb}: {error}"), file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print(f"risorius {arguments.verb}: stopped", file=sys.stderr)
         return STOPPED
     with contextlib.suppress(BrokenPipeError):  # the reader (head, less) has seen enough
-        said = json.dumps(plain(result.data), indent=1) if arguments.json else "\n".join(result.lines)
+        said = json.dumps(plain(result.data), indent=1) if arguments.json else "\n".join(map(str, result.lines))
         print(_fit_for(sys.stdout, said), flush=True)
     return result.code
 

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from ..batch.running import Outcome
     from ..batch.table import JobTable
 
+#: Workers, and GB of memory of each, at most.
+MOST_PROCESSES, MOST_MEMORY = 1000, 100_000.0
 #: Seconds between two lines about one job.
 PATIENCE = 20.0
 
@@ -58,8 +60,8 @@ def _batch(arguments: argparse.Namespace) -> Result:
     from ..batch.running import shard
     from ..batch.table import read_jobs
 
-    if arguments.processes < 1 or not arguments.memory > 0.0:
-        raise UsageError("--processes must be 1 or more, and --memory above 0")
+    if not 1 <= arguments.processes <= MOST_PROCESSES or not 0.0 < arguments.memory <= MOST_MEMORY:
+        raise UsageError(f"--processes must be 1 to {MOST_PROCESSES}, --memory above 0 and at most {MOST_MEMORY:.0f}")
     if arguments.dask is not None and arguments.processes != 1:
         raise UsageError("--processes is for this computer alone: leave it out with --dask")
     with _table_of(arguments) as path:

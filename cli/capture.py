@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .options import Verbs, verb
-from .recordings import add_recording, read_as_told
+from .options import Verbs, refuse_ending, verb
+from .recordings import WRITABLE, add_recording, read_as_told
 from .result import Result
 
 
@@ -16,7 +16,7 @@ def add_capture_verb(verbs: Verbs) -> None:
     """Add import to the verbs."""
     importing = verb(verbs, "import", _import)
     importing.add_argument("file", type=Path, help="OpenFace, ARKit, Live Link Face or MediaPipe: .csv, .json, .jsonl")
-    importing.add_argument("--out", type=Path, help="the .fap file to write")
+    importing.add_argument("--out", type=Path, help=f"the stream to write: {WRITABLE}")
     importing.add_argument("--fps", type=float, help="frames per second of the stream (default: the recording's)")
     add_recording(importing)
 
@@ -25,10 +25,11 @@ def _import(arguments: argparse.Namespace) -> Result:
     """Convert a tracker's recording to a FAP stream."""
     from .. import api
 
+    refuse_ending(arguments.out, *api.WRITABLE_STREAMS)
     recording = read_as_told(arguments.file, arguments, fps=arguments.fps)
     stream = recording.stream
     if arguments.out:
-        api.write_fap(arguments.out, stream)
+        api.write_stream(arguments.out, stream)
     known = ~np.isnan(stream.frames)
     faps = [int(place) + 1 for place in np.flatnonzero(known.any(axis=0))]
     unknown = int((~known.any(axis=1)).sum())

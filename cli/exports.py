@@ -3,17 +3,29 @@
 from __future__ import annotations
 
 import argparse
+import io
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import FormatError
+from ..files import write_whole
 from ..tables import read_arrays
 from .films import in_blender, needing_blender
-from .options import Verbs, add_inertia, add_scene, face_to_pose, motion_line, scene_options, verb
+from .options import (
+    Verbs,
+    add_inertia,
+    add_scene,
+    face_to_pose,
+    motion_line,
+    refuse_ending,
+    refuse_idle,
+    scene_options,
+    verb,
+)
 from .progress import ShowProgress
-from .recordings import add_recording, read_as_told, whole_frames
+from .recordings import RECORDING, add_recording, read_as_told, whole_frames
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -26,6 +38,13 @@ KINDS = {
     "shapes": "shape keys for engines",
     "gltf": "the clips that are baked in a .blend",
     "weights": "values of shape keys over time",
+}
+#: Options that each of them uses.
+USED = {
+    "csv": RECORDING,
+    "shapes": ("mesh", "points", "object_name", "names", "morph_normals", "replace"),
+    "gltf": ("mesh", "object_name", "points", "morph_normals"),
+    "weights": (*RECORDING, "mesh", "points", "object_name", "shapes", "symmetric", "inertia"),
 }
 
 
@@ -57,6 +76,9 @@ def add_export_verb(verbs: Verbs) -> None:
 
 def _export(arguments: argparse.Namespace) -> Result:
     """Write FAPs as a table, a face's shape keys or clips for engines, or values of shape keys over time."""
+    used = USED[arguments.what]
+    idle = (name for names in USED.values() for name in names if name not in used)
+    refuse_idle(arguments, f"does nothing in export {arguments.what}: leave it out", *idle)
     exports = {"csv": _export_csv, "shapes": _export_shapes, "gltf": _export_gltf, "weights": _export_weights}
     return exports[arguments.what](arguments)
 
@@ -65,6 +87,7 @@ def _export_csv(arguments: argparse.Namespace) -> Result:
     """A stream as CSV."""
     from .. import api
 
+    refuse_ending(arguments.out, ".csv")
     recording = read_as_told(_source(arguments), arguments)
     stream = recording.stream
     api.write_fap_csv(arguments.out, stream)
@@ -101,15 +124,14 @@ def _shapes_to_npz(arguments: argparse.Namespace) -> dict[str, tuple[str, ...]]:
     """Write names (N,) and displacements (N, V, 3) in metres as NumPy's file; returns what there is to say."""
     from .. import api
 
+    refuse_idle(arguments, "is for a .blend or .glb: leave it out", "replace", "morph_normals")
     scene_options(arguments)  # refuses --object where nothing has objects
     with face_to_pose(arguments) as face:
         shapes = api.arkit_shapes(face, arguments.names)
     moved = np.stack([positions - face.vertices for positions in shapes.values()])
-    try:
-        np.savez_compressed(arguments.out, names=np.array(list(shapes)), displacement=moved.astype(np.float32))
-    except OSError as error:
-        problem = f"cannot be written ({error.strerror}): choose a folder you may write to"
-        raise FormatError(arguments.out, problem) from error
+    held = io.BytesIO()
+    np.savez_compressed(held, names=np.array(list(shapes)), displacement=moved.astype(np.float32))
+    write_whole(arguments.out, held.getvalue())
     remarks = tuple(f"{name}: {why}" for name, why in shapes.unmet.items())
     return {"keys": tuple(shapes), "replaced": (), "remarks": remarks}
 
@@ -154,6 +176,7 @@ def _export_weights(arguments: argparse.Namespace) -> Result:
 
     if arguments.shapes is None:
         raise UsageError("export weights needs --shapes, with the face's shape keys")
+    refuse_ending(arguments.out, ".csv")
     scene_options(arguments)  # refuses --object where nothing has objects
     recording = read_as_told(_source(arguments), arguments)
     stream = recording.stream

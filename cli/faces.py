@@ -15,8 +15,8 @@ from ..arrays import Floats
 from ..errors import ModelError
 from ..files import write_whole
 from .faps import fap_lines, named_faps, range_lines, ranges_of
-from .options import Verbs, add_face, face_of, verb, vertices_of
-from .recordings import add_recording, is_recording, read_as_told
+from .options import Verbs, add_face, face_of, refuse_ending, refuse_idle, verb, vertices_of
+from .recordings import RECORDING, WRITABLE, add_recording, is_recording, read_as_told
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def add_face_verbs(verbs: Verbs) -> None:
     )
     add_recording(measure)
     add_face(measure)
-    measure.add_argument("--out", type=Path, help="write the FAPs to this .fap file, a frame for each mesh")
+    measure.add_argument("--out", type=Path, help=f"write the FAPs to this stream ({WRITABLE}), a frame for each mesh")
 
     points = verb(verbs, "points", _points)
     about = (
@@ -49,8 +49,10 @@ def _measure(arguments: argparse.Namespace) -> Result:
     """Measure the FAPs and features of deformed meshes against a neutral mesh, or the FAPs of a recording."""
     from .. import api
 
+    refuse_ending(arguments.out, *api.WRITABLE_STREAMS)
     if any(is_recording(path) for path in arguments.deformed):
         return _measure_recording(arguments)
+    refuse_idle(arguments, "is for a recording: leave it out with meshes", *RECORDING)
     face = face_of(arguments)
     measured, features = {}, {}
     for path in arguments.deformed:
@@ -58,7 +60,7 @@ def _measure(arguments: argparse.Namespace) -> Result:
         measured[str(path)], features[str(path)] = face.measure(vertices), _features(face, vertices)
     if arguments.out:
         stream = api.FapStream(frames=np.stack(list(measured.values())), fps=arguments.fps, name=arguments.out.stem)
-        api.write_fap(arguments.out, stream)
+        api.write_stream(arguments.out, stream)
     lines = []
     for path, faps in measured.items():
         lines += [path, *fap_lines(faps), *_feature_lines(features[path])]
@@ -71,10 +73,11 @@ def _measure_recording(arguments: argparse.Namespace) -> Result:
 
     if len(arguments.deformed) > 1:
         raise UsageError("give one recording, or meshes only")
+    refuse_idle(arguments, "is for meshes: leave it out with a recording", "mesh", "points", "fps")
     path = arguments.deformed[0]
     recording = read_as_told(path, arguments)
     if arguments.out:
-        api.write_fap(arguments.out, recording.stream)
+        api.write_stream(arguments.out, recording.stream)
     ranges = ranges_of(recording.stream)
     data = {
         "format": str(recording.format),

@@ -25,9 +25,36 @@ def verb(verbs: Verbs, name: str, run: Callable[[argparse.Namespace], Result]) -
     """A verb: its help is the docstring of the function that runs it."""
     about = (run.__doc__ or "").strip()
     parser = verbs.add_parser(name, help=about, description=about)
-    parser.set_defaults(run=run)
+    parser.set_defaults(run=run, parser=parser)
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
     return parser
+
+
+#: Options whose names are not those of what they set.
+OPTIONS = {"object_name": "--object", "word": "--emotion"}
+
+
+def refuse_idle(arguments: argparse.Namespace, why: str, *names: str) -> None:
+    """Refuse options that are given although they would do nothing; `why` ends the message.
+
+    Raises
+    ------
+    UsageError : names the first of them.
+    """
+    for name in names:
+        if getattr(arguments, name) != arguments.parser.get_default(name):
+            raise UsageError(f"{OPTIONS.get(name, '--' + name.replace('_', '-'))} {why}")
+
+
+def refuse_ending(path: Path | None, *endings: str) -> None:
+    """Refuse a file to write whose name ends otherwise: it would not be what its name says.
+
+    Raises
+    ------
+    UsageError : names the endings.
+    """
+    if path is not None and path.suffix.lower() not in endings:
+        raise UsageError(f"--out must end in {' or '.join(endings)}")
 
 
 def add_words(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
@@ -191,7 +218,7 @@ def expression_of(arguments: argparse.Namespace) -> Profile:
     if arguments.angle is not None:
         if arguments.activation is None:
             raise UsageError("--angle needs --activation")
-        return api.expression(angle=arguments.angle, activation=arguments.activation)
+        return api.expression(angle=arguments.angle, activation=arguments.activation, variants=arguments.variant)
     return api.expression(arguments.word, activation=arguments.activation, variants=arguments.variant)
 
 

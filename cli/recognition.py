@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import FormatError, ParameterError, RisoriusError
-from .options import Verbs, add_face, face_of, verb, vertices_of
+from .options import Verbs, add_face, face_of, refuse_ending, refuse_idle, verb, vertices_of
 from .progress import ShowProgress
-from .recordings import add_recording, is_recording, read_as_told
+from .recordings import RECORDING, add_recording, is_recording, read_as_told
 from .result import Result, UsageError
 from .track import OUTSIDE_BLENDER
 
@@ -47,6 +47,7 @@ def _recognise(arguments: argparse.Namespace) -> Result:
         raise UsageError("--over-time cannot be used with --words or --frame")
     if arguments.out is not None and not arguments.over_time:
         raise UsageError("--out needs --over-time")
+    refuse_ending(arguments.out, ".csv")
     if arguments.confidence is not None and arguments.rule != "robust":
         raise UsageError("--confidence needs --rule robust: the paper's rule weighs nothing")
     frames, fps, first, assumed = _frames(arguments)
@@ -88,10 +89,12 @@ def _frames(arguments: argparse.Namespace) -> tuple[Floats, float, int, tuple[st
 
     path, *others = arguments.files
     if not is_recording(path):
+        refuse_idle(arguments, "is for a recording: leave it out with meshes", *RECORDING)
         face = face_of(arguments)
         return np.stack([face.measure(vertices_of(p, face)) for p in arguments.files]), arguments.fps, 0, ()
     if others:
         raise UsageError("give one stream only")
+    refuse_idle(arguments, "is for meshes: leave it out with a recording", "mesh", "points", "fps")
     recording = read_as_told(path, arguments)
     stream = recording.stream
     if not len(stream.frames):

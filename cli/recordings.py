@@ -31,6 +31,12 @@ MESHES = (
     ".usdc",
     ".usdz",
 )
+#: Pixels of an image's side, at most.
+LARGEST_SIDE = 1e6
+#: What `add_recording` sets.
+RECORDING = ("kind", "rate", "start", "face", "flip", "aspect", "steady", "neutral", "neutral_frame")
+#: Endings of the streams that are written.
+WRITABLE = ".fap, .fba, .json, .csv"
 KINDS = ("openface", "py_feat", "arkit", "mediapipe", "landmarks", "faps")
 
 
@@ -104,7 +110,7 @@ def whole_frames(recording: Recording) -> tuple[Floats, tuple[str, ...]]:
 def _aspect(text: str) -> float:
     """16:9, or a number."""
     width, _, height = text.partition(":")
-    try:
-        return float(width) / float(height or 1.0)
-    except ZeroDivisionError:
-        raise argparse.ArgumentTypeError("the height of the image must not be 0") from None
+    sides = float(width), float(height or 1.0)
+    if not all(0.0 < side <= LARGEST_SIDE for side in sides) or not 1e-3 <= sides[0] / sides[1] <= 1e3:
+        raise argparse.ArgumentTypeError("must be WIDTH:HEIGHT of an image, such as 16:9")
+    return sides[0] / sides[1]

@@ -19,6 +19,7 @@ from .options import (
     add_strength,
     expression_of,
     onto_options,
+    refuse_idle,
     scene_options,
     verb,
 )
@@ -30,6 +31,10 @@ if TYPE_CHECKING:
 
 #: Endings of what Blender makes; others are streams.
 BLENDER = (".blend", ".mp4")
+#: What is set for them alone.
+SCENE = (
+    "mesh", "points", "object_name", "onto", "symmetric", "smooth", "into_action", "max_keys", "engine", "creases",
+)  # fmt: skip
 
 
 def add_speech_verb(verbs: Verbs) -> None:
@@ -75,6 +80,10 @@ def _say(arguments: argparse.Namespace) -> Result:
         raise UsageError(f"--out must end in one of {', '.join((*api.WRITABLE_STREAMS, *BLENDER))}")
     if suffix != ".mp4":
         labels_of(arguments)
+    if suffix not in BLENDER:
+        refuse_idle(arguments, "is for a .blend or .mp4: leave it out with a stream", *SCENE)
+    if arguments.word is None and arguments.angle is None:
+        refuse_idle(arguments, "needs --emotion or --angle", "activation", "variant", "lean")
     with _heard(arguments) as (utterance, sound):
         for line in utterance.assumed:
             print(f"note: {line}", file=sys.stderr)
@@ -88,7 +97,7 @@ def _say(arguments: argparse.Namespace) -> Result:
         }
         if suffix in BLENDER:
             return _in_blender(arguments, say, sound, told)
-        saying = run(say(arguments.fps or 25.0), when_slow())
+        saying = run(say(25.0 if arguments.fps is None else arguments.fps), when_slow())
         stream, more = saying.stream, saying.assumed[len(utterance.assumed) :]
         for line in more:
             print(f"note: {line}", file=sys.stderr)

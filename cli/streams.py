@@ -19,18 +19,18 @@ from .options import (
     expression_of,
     motion_line,
     onto_options,
+    refuse_idle,
     scene_options,
     verb,
 )
 from .progress import ShowProgress, when_slow
-from .recordings import add_recording, read_as_told, whole_frames
+from .recordings import RECORDING, WRITABLE, add_recording, read_as_told, whole_frames
 from .result import Result, UsageError
 
 if TYPE_CHECKING:
     from ..api import FapStream, Recording
 
 READABLE = "a FAP stream (.fap, .fba, .json, .csv) or a tracker's recording"
-WRITABLE = ".fap, .fba, .json, .csv"
 
 #: What `fap` does; `of` may be left out.
 ACTIONS = ("info", "convert", "play", "of")
@@ -103,6 +103,7 @@ def _info(arguments: argparse.Namespace) -> Result:
 def _convert(arguments: argparse.Namespace) -> Result:
     """Convert a FAP stream to another format."""
     out = _target(arguments)
+    _tell_idle_writing(arguments, out)
     stream, recording = _read(arguments)
     _write(out, stream, arguments)
     return _described(stream, recording, out=out)
@@ -134,7 +135,12 @@ def _of(arguments: argparse.Namespace) -> Result:
 
     source = Path(arguments.source)
     if source.suffix.lower() in api.READABLE_STREAMS or source.is_file():
+        refuse_idle(arguments, "is for an emotion word: leave it out with a file", "activation", "variant", "fps")
+        _tell_idle_writing(arguments, arguments.out)
         return _convert(arguments) if arguments.out else _info(arguments)
+    read = (*RECORDING, "fill", "expand", "strict")
+    refuse_idle(arguments, "is for a file: leave it out with an emotion word", *read)
+    _tell_idle_writing(arguments, arguments.out)
     stream = _of_word(arguments)
     if arguments.out:
         _write(arguments.out, stream, arguments)
@@ -173,6 +179,14 @@ def _read(arguments: argparse.Namespace) -> tuple[FapStream, Recording]:
     if arguments.expand:
         stream = api.FapStream(stream.expanded(), fps=stream.fps, name=stream.name, first_frame=stream.first_frame)
     return stream, recording
+
+
+def _tell_idle_writing(arguments: argparse.Namespace, out: Path | None) -> None:
+    """Say which options are of formats that are not written; the same ones may be given with every format."""
+    for names, ending in ((("quantiser", "refresh"), ".fba"), (("decimals",), ".fap")):
+        for name in names if out is None or out.suffix.lower() != ending else ():
+            if getattr(arguments, name) != arguments.parser.get_default(name):
+                print(f"note: --{name} is for writing {ending} files: not used", file=sys.stderr)
 
 
 def _write(path: Path, stream: FapStream, arguments: argparse.Namespace) -> None:

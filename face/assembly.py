@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Floats, Ints
+from ..errors import SolverError
 from ..physics.mesh import applied
 from .anatomy import Anatomy
 from .drive.drives import DRIVES
@@ -18,6 +20,19 @@ from .response.folds import Folds
 
 #: Frames are worked out together as long as they have no more figures than this, so that none takes long to come.
 TOGETHER = 4_000_000
+
+
+def check_finite(moved: Floats, frames: Sequence[int] | Ints | None = None) -> None:
+    """Refuse displacements or positions (n, 3), or (T, n, 3) of frames, that are no numbers: nothing is made of them.
+
+    Raises
+    ------
+    SolverError : names the first of the frames.
+    """
+    if np.isfinite(moved).all():
+        return
+    frame = None if frames is None else int(frames[int(np.isfinite(moved).all(axis=(1, 2)).argmin())])
+    raise SolverError("the skin's balance is beyond all numbers: lower the forces", frame=frame, residual=math.inf)
 
 
 class Assembly:

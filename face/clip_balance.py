@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from ..errors import SolverError
 from ..progress import Progress, Work, part_of
 from .drive.plan import Plan
 from .posture import Balance, Effort, Postures
@@ -50,8 +51,11 @@ def clip_balance(balance: Balance, plans: Sequence[Plan]) -> Work[ClipBalance]:
     ParameterError, SolverError : as `Balance.posture`.
     """
     efforts: list[Effort] = []
-    for plan in plans:
-        efforts.append(balance.effort(plan, before=efforts[-1] if efforts else None))
+    for step, plan in enumerate(plans):
+        try:
+            efforts.append(balance.effort(plan, before=efforts[-1] if efforts else None))
+        except SolverError as error:
+            raise error.in_frame(step) from error
         yield Progress(EFFORTS * len(efforts) / len(plans), "Finding the muscles behind the motion")
     amounts = [effort.amounts for effort in efforts]
     pull = yield from part_of(sampled_pull(balance.anatomy.relaxation, amounts), EFFORTS, 1.0)

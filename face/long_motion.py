@@ -18,9 +18,11 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from ..arrays import Bools, Floats, Ints
+from ..errors import SolverError
 from ..mpeg4 import ANGLE_UNIT, FAP_COUNT, FAPS, Feeling
 from ..progress import Progress, Work, part_of
 from .anatomy import Anatomy
+from .assembly import check_finite
 from .clip_balance import clip_balance
 from .drive.request import Drive, Request
 from .mesh.fap_units import unit_length
@@ -101,7 +103,10 @@ def long_motion(poser: Poser, frames: Floats, drive: Drive, *, planned: bool = F
     looked_at = left[:: max(1, len(left) // LOOKED_AT)][:LOOKED_AT]
     posed = np.concatenate([chosen, looked_at])
     requests = [Request(asked[step], drive, Feeling({}) if planned else None) for step in posed]
-    shapes = yield from _shapes(poser, requests)
+    try:
+        shapes = yield from _shapes(poser, requests)
+    except SolverError as error:
+        raise error if error.frame is None else error.in_frame(int(posed[error.frame])) from error
     between = _weights(places[looked_at], places[chosen]) @ shapes[: len(chosen)].reshape(len(chosen), -1)
     apart = shapes[len(chosen) :] - between.reshape(len(looked_at), *shapes.shape[1:])
     off = np.linalg.norm(apart, axis=2).max(axis=1, initial=0.0) * anatomy.mesh.head_frame.scale
@@ -116,6 +121,7 @@ def _shapes(poser: Poser, requests: Sequence[Request]) -> Work[Floats]:
         return shapes
     clip = yield from part_of(clip_balance(poser.balance, [poser.plan(request) for request in requests]), 0.0, BALANCED)
     for steps, postures in clip.along():
+        check_finite(postures.displacements, range(steps.start, steps.stop))
         jaws = np.asarray(postures.surroundings.jaw)
         shown = poser.assembly.positions_each(postures.displacements, jaws, requests[steps])
         for number, positions in enumerate(shown, start=steps.start):

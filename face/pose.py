@@ -20,7 +20,7 @@ from ..arrays import Floats
 from ..mpeg4 import ARCHETYPES, expression
 from ..progress import Progress, Work
 from .anatomy import Anatomy
-from .assembly import Assembly
+from .assembly import Assembly, check_finite
 from .drive.drives import DRIVES
 from .drive.plan import Plan
 from .drive.request import Drive, EmotionShares, Request
@@ -119,7 +119,10 @@ class Poser:
 
     def _positions(self, posture: Posture, request: Request) -> Floats:
         """(V, 3) in the face's coordinates."""
-        return self.assembly.positions(posture.displacement, posture.amounts.jaw, request)
+        check_finite(posture.displacement)
+        positions = self.assembly.positions(posture.displacement, posture.amounts.jaw, request)
+        check_finite(positions)
+        return positions
 
 
 class Sketcher:

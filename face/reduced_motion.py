@@ -19,6 +19,7 @@ from ..physics.reduced import ReducedSkin, principal_fields
 from ..physics.tissue import Tissue
 from ..progress import Progress, Work, part_of
 from .anatomy import Anatomy
+from .assembly import check_finite
 from .bodies.surroundings import Surroundings
 from .clip_balance import ClipBalance, clip_balance
 from .drive.plan import Plan
@@ -96,6 +97,7 @@ class ReducedMotion:
         telling = [0, *farthest(places, [0], WANTED)]
         some = np.array(list(dict.fromkeys([*telling, *pull.steps.tolist()])))
         postures = self.balance.reached_each([efforts[step] for step in some], pull.at(some))
+        check_finite(postures.displacements, some)
         yield Progress(SOLVED, LEFT_BEHIND)
         fields = principal_fields(np.concatenate([postures.displacements, postures.carried]), FIELDS)
         jaws, lids = self._carriers([effort.amounts for effort in efforts])

@@ -13,8 +13,10 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError, SolverError
+from ..mpeg4 import check_fps
 from ..physics.tissue import Tissue
 from ..progress import Prepared, Work
+from .assembly import check_finite
 from .clip_balance import clip_balance
 from .drive.plan import Plan
 from .drive.request import Request
@@ -62,8 +64,7 @@ class Simulation:
         ParameterError : names the parameter and its rule.
         SolverError : a mesh that the integrator cannot follow.
         """
-        if not (np.isfinite(fps) and fps > 0):
-            raise ParameterError("fps", "must be above 0", fps)
+        check_fps(fps)
         if integrator not in list(Integrator):
             raise ParameterError("integrator", f"must be one of {', '.join(Integrator)}", integrator)
         self.poser = poser
@@ -103,21 +104,28 @@ class Simulation:
         done = 0
         for displacements, jaws in moved:
             some = requests[done : done + len(jaws)]
-            yield from self.poser.assembly.positions_each(displacements, jaws, some)
-            done += len(some)
+            check_finite(displacements, range(done, done + len(some)))
+            for positions in self.poser.assembly.positions_each(displacements, jaws, some):
+                check_finite(positions[None], [done])
+                yield positions
+                done += 1
 
     def _followed(self, motion: FaceMotion, plans: Iterable[Plan]) -> Iterator[Floats]:
         """Frames one after the other."""
         moving: MovingFace | None = None
         before: Setpoint | None = None
         for step, plan in enumerate(plans):
-            setpoint = Setpoint.of(self.poser.balance.posture(plan), self.poser.anatomy.contact)
-            if moving is None or before is None:
-                moving = motion.at_rest(setpoint)
-            else:
-                try:
+            try:
+                setpoint = Setpoint.of(self.poser.balance.posture(plan), self.poser.anatomy.contact)
+                if moving is None or before is None:
+                    moving = motion.at_rest(setpoint)
+                else:
                     moving = motion.follow(moving, before, setpoint)
-                except SolverError as error:
-                    raise SolverError(f"the motion could not be solved: {error}", frame=step) from error
+            except SolverError as error:
+                raise error.in_frame(step) from error
             before = setpoint
-            yield self.poser.assembly.positions(motion.displacement(moving), moving.jaw_motion, plan.request)
+            displacement = motion.displacement(moving)
+            check_finite(displacement[None], [step])
+            positions = self.poser.assembly.positions(displacement, moving.jaw_motion, plan.request)
+            check_finite(positions[None], [step])
+            yield positions

@@ -67,6 +67,7 @@ from .standard import (
     Motion,
     Side,
     Unit,
+    check_fps,
     fap,
 )
 from .streams.bridging import Bridged, bridged
@@ -153,6 +154,7 @@ __all__ = [
     "archetype",
     "between",
     "bridged",
+    "check_fps",
     "check_prototype",
     "decode_fba",
     "default_variant",

@@ -6,6 +6,7 @@ Source of every figure: the tables in ``data/`` (ISO/IEC 14496-2, cross-checked 
 from __future__ import annotations
 
 import difflib
+import numbers
 import operator
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -24,6 +25,20 @@ FAP_LIMIT = 1e7
 
 FRAMES_LIMIT = 1_000_000
 """Frames of a stream, at most: eleven hours at 25 a second."""
+
+SLOWEST, FASTEST = 1e-3, 1e5
+"""Frames per second: from one in a quarter of an hour to more than any camera has."""
+
+
+def check_fps(fps: object, name: str = "fps") -> None:
+    """Refuse what is no rate of frames.
+
+    Raises
+    ------
+    ParameterError : it is no number, or so small or large that times are lost in it.
+    """
+    if not (isinstance(fps, numbers.Real) and SLOWEST <= fps <= FASTEST):
+        raise ParameterError(name, f"must be from {SLOWEST:g} to {FASTEST:g} frames per second", fps)
 
 
 class Unit(StrEnum):

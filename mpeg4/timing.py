@@ -19,7 +19,7 @@ from ..errors import ParameterError
 from ..resources import PRESETS
 from ..tables import TomlTable, read_toml
 from .emotions.profile import ARCHETYPES, Profile
-from .standard import FRAMES_LIMIT
+from .standard import FRAMES_LIMIT, check_fps
 
 TIMINGS = PRESETS / "timing.toml"
 """The timing presets that come with Risorius."""
@@ -38,12 +38,6 @@ def _check_peak(value: float) -> None:
     """A strength: 0 to 1."""
     if not 0.0 <= value <= 1.0:
         raise ParameterError("peak", "must be in 0..1", value)
-
-
-def _check_fps(fps: float) -> None:
-    """A frame rate: finite, positive."""
-    if not (isinstance(fps, int | float | np.number) and math.isfinite(fps) and fps > 0.0):
-        raise ParameterError("fps", "must be a positive number of frames per second", fps)
 
 
 class Ramp(StrEnum):
@@ -304,7 +298,7 @@ def step_count(cues: Sequence[Cue], fps: float) -> int:
     ParameterError
         As `sequence`.
     """
-    _check_fps(fps)
+    check_fps(fps)
     if not cues:
         raise ParameterError("cues", "must contain at least one cue", 0)
     end = max(cue.start + cue.duration for cue in cues)

@@ -21,7 +21,7 @@ from ..resources import PRESETS
 from ..tables import TomlTable, read_toml
 from .emotions.profile import ARCHETYPES, Archetype, Profile
 from .emotions.prototypes import load_prototypes
-from .standard import ANGLE_UNIT, FAP_COUNT, FRAMES_LIMIT
+from .standard import ANGLE_UNIT, FAP_COUNT, FRAMES_LIMIT, check_fps
 from .timing import Cue, Ramp
 
 HABITS = PRESETS / "variation.toml"
@@ -348,8 +348,7 @@ def eye_motion(count: int, fps: float, eyes: Drawn, habit: EyesHabit) -> Floats:
 
 def _times(count: int, fps: float) -> Floats:
     """(T,) seconds of frames."""
-    if not (math.isfinite(fps) and fps > 0.0):
-        raise ParameterError("fps", "must be a positive number of frames per second", fps)
+    check_fps(fps)
     if count > FRAMES_LIMIT:
         raise ParameterError("count", f"must be {FRAMES_LIMIT} frames at most", count)
     return np.arange(count) / fps

@@ -82,7 +82,7 @@ class EquilibriumSolver:
             tolerance=allowed,
             max_iterations=self.max_iterations,
         )
-        if not found.converged and found.residual > self.unseen:
+        if not found.converged and not found.residual <= self.unseen:  # a residual may be NaN
             raise SolverError(
                 f"no equilibrium within {allowed:g} m after {found.iterations} iterations; "
                 "lower the forces or allow more iterations",

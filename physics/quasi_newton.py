@@ -30,7 +30,7 @@ class Minimum:
     Parameters
     ----------
     positions : (V, 3) m.
-    residual : m, the largest correction of a node that is still expected.
+    residual : m, the largest correction of a node that is still expected; NaN where forces are beyond any number.
     iterations : solves with the matrix.
     rate : largest ratio of one correction to the one before; a guess for the next problem of the kind.
     converged : the residual is within the tolerance.

@@ -85,7 +85,7 @@ def sampled_pull(relaxation: Relaxation, clip: Sequence[Amounts]) -> Work[Sample
                 # The first is found as a pose is, so that a clip which holds a face holds its pose.
                 found = relaxation.added(clip[step], foretold if added else None)
             except SolverError as error:
-                raise SolverError(f"the motion could not be solved: {error}", frame=step) from error
+                raise error.in_frame(step) from error
             off = max(off, float(np.linalg.norm(found - foretold, axis=1).max()))
             linear = relaxation.actuators.low_strain(clip[step])
             largest = max(largest, float(np.linalg.norm(linear, axis=1).max()))

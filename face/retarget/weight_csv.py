@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import ParameterError
+from ...mpeg4 import check_fps
 from ...tables import write_csv
 
 
@@ -36,7 +37,6 @@ def write_weight_csv(path: str | Path, names: Sequence[str], values: ArrayLike, 
     table = np.asarray(values, dtype=np.float64)
     if table.ndim != 2 or table.shape[1] != len(names) or not np.isfinite(table).all():
         raise ParameterError("values", f"must be finite (frames, {len(names)})", table.shape)
-    if not (np.isfinite(fps) and fps > 0.0):
-        raise ParameterError("fps", "must be above 0", fps)
+    check_fps(fps)
     rows = [[i + 1, f"{i / fps:.6f}", *(f"{value:.6g}" for value in row)] for i, row in enumerate(table)]
     write_csv(path, ["frame", "timestamp", *names], rows)

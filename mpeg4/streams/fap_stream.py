@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
@@ -12,7 +11,7 @@ import numpy as np
 from ...arrays import Bools, Floats
 from ...errors import ParameterError
 from ..high_level import VISEME_SHAPES, ExpressionField, VisemeField, expand, expression_frame, viseme_frame
-from ..standard import FAP_COUNT, FAP_LIMIT
+from ..standard import FAP_COUNT, FAP_LIMIT, check_fps
 from .filling import Filling, checked_filling, fill
 
 T = TypeVar("T")
@@ -71,8 +70,7 @@ class FapStream:
         if (np.abs(frames) > FAP_LIMIT).any():
             rule = f"must be finite, within {FAP_LIMIT:.0f} FAP units, or NaN where masked"
             raise ParameterError("frames", rule, float(np.nanmax(np.abs(frames))))
-        if not (math.isfinite(self.fps) and self.fps > 0.0):
-            raise ParameterError("fps", "must be a positive number of frames per second", self.fps)
+        check_fps(self.fps)
         if not self.name.isprintable():
             raise ParameterError("name", "must be one line of printable text", self.name)
         if self.first_frame < 0:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import ParameterError
-from ...mpeg4 import FAP_COUNT
+from ...mpeg4 import FAP_COUNT, check_fps
 from ...progress import Progress, Work, part_of, run
 from ..phonemes import Phoneme
 from ..utterance import Sound, Utterance
@@ -54,8 +54,7 @@ def articulate_steps(
     ------
     ParameterError : a value outside its range.
     """
-    if not (math.isfinite(fps) and fps > 0.0):
-        raise ParameterError("fps", "must be a positive number of frames per second", fps)
+    check_fps(fps)
     for name, value in (("articulation", articulation), ("jaw", jaw)):
         if not 0.0 <= value <= MOST:
             raise ParameterError(name, f"must be from 0 to {MOST:g}", value)

@@ -383,3 +383,11 @@ def test_where_the_search_ends_early_a_residual_that_nobody_sees_is_enough() -> 
     np.testing.assert_allclose(near.positions, exact.positions, atol=1e-8)
     with pytest.raises(SolverError, match="no equilibrium"):
         EquilibriumSolver(skin, tolerance=1e-22, unseen=1e-9, max_iterations=2).solve(load)
+
+
+def test_forces_beyond_all_numbers_have_no_equilibrium_that_nobody_sees() -> None:
+    """A residual that is no number is not below one that is unseen."""
+    skin = Skin.from_mesh(*dome(), tissue())
+    load = 1e308 * np.sign(np.random.default_rng(1).normal(size=skin.rest.shape))
+    with np.errstate(all="ignore"), pytest.raises(SolverError, match="no equilibrium"):
+        EquilibriumSolver(skin, unseen=1e-3).solve(load)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from ....arrays import Floats
 from ....errors import ParameterError
-from ...standard import FRAMES_LIMIT
+from ...standard import FRAMES_LIMIT, check_fps
 from .rates import LONGEST_STEP, usual_rate
 from .times import USUAL_RATE, Times
 
@@ -72,8 +71,7 @@ class Samples:
         ParameterError : a rate that is no positive number; times so far apart that the stream would never end.
         """
         rate = self.fps if fps is None else fps
-        if not (math.isfinite(rate) and rate > 0.0):
-            raise ParameterError("fps", "must be a positive number of frames per second", rate)
+        check_fps(rate)
         begin = float(self.times[0]) if self.begin is None else self.begin
         count = np.floor((self.times[-1] - begin) * rate + 0.5) + 1
         if count > FRAMES_LIMIT:

@@ -14,6 +14,8 @@ import numpy as np
 
 from ....arrays import Floats, Ints
 from ....errors import FormatError, ParameterError
+from ....tables import large
+from ...standard import check_fps
 from .rates import LONGEST_STEP, Row, even_row, shown_rate
 
 #: Frames per second where nothing says them, for every format.
@@ -117,7 +119,7 @@ class Times:
             if self.clock is None:
                 raise ParameterError("start", rule, start) from None
             clock = self.clock(str(start))
-        if not math.isfinite(clock):
+        if not math.isfinite(large(clock)):
             raise ParameterError("start", rule, start)
         if clock - self.origin > self.seconds[-1]:
             last = self.origin + float(self.seconds[-1])
@@ -167,8 +169,8 @@ def placed(stamps: Stamps, rate: float | None = None) -> Times:
 
 def checked_rate(rate: float | None) -> None:
     """Refuse a rate that is none."""
-    if rate is not None and not (math.isfinite(rate) and rate > 0.0):
-        raise ParameterError("rate", "must be a positive number of frames per second", rate)
+    if rate is not None:
+        check_fps(rate, "rate")
 
 
 def _without_times(stamps: Stamps, why: str) -> Stamps:

@@ -26,6 +26,8 @@ from .syntax import (
     write_time,
 )
 
+#: Seconds from one start code to the next.
+LEAST_REFRESH, MOST_REFRESH = 1e-3, 1e9
 FACE_ONLY, INTRA_FACE = 0b001, 0b101  # is_intra and the two bits of the object mask
 
 
@@ -35,13 +37,14 @@ def encode_fba(
     """The FBA bitstream of a stream, predictive coding.
 
     An I frame with a start code begins the stream, follows after `refresh` seconds, and comes wherever the mask changes
-    or a difference is too large for a P frame. Frames that state nothing are skipped, but for the first and the last.
+    or a difference is too large for a P frame. Frames that state nothing are skipped, but for the first, the last,
+    and one in ten thousand, beyond which a reader takes a skip for damage.
 
     Parameters
     ----------
     stream : what to code; values are rounded to whole FAP units. Name, version and first frame number are not coded.
     quantiser : 0 (lossless, values up to 1860) or 1..31 times each FAP's own step (`Fap.quant_step`).
-    refresh : seconds from one start code to the next: so much is lost at most where bytes are damaged.
+    refresh : seconds from one start code to the next, 0.001 or more: so much is lost at most where bytes are damaged.
     progress : called after each start code's frames.
 
     Raises
@@ -58,8 +61,8 @@ def encode_fba(
     """
     if not 0 <= quantiser <= LARGEST_QUANTISER:
         raise ParameterError("quantiser", f"must be a whole number in 0..{LARGEST_QUANTISER}", quantiser)
-    if not refresh > 0.0:
-        raise ParameterError("refresh", "must be more than 0 seconds", refresh)
+    if not LEAST_REFRESH <= refresh <= MOST_REFRESH:
+        raise ParameterError("refresh", f"must be from {LEAST_REFRESH:g} to {MOST_REFRESH:g} seconds", refresh)
     if not len(stream.frames):
         raise ParameterError("stream", "must contain at least one frame", 0)
     rate = Rate.nearest(stream.fps)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ....arrays import Bools
 from ....errors import ParameterError
+from ..fap_file import LONGEST_GAP
 from ..fap_stream import FapStream
 from .channels import FAP_CHANNELS, LARGEST_LIMIT_CODE, Channel, Limits, channels_of, level_of, limit_code, limit_of
 from .syntax import first_frame_of
@@ -37,11 +38,12 @@ class Run:
 def runs(stream: FapStream, quantiser: int, refresh: float) -> Iterator[Run]:
     """The frames in runs, with their levels."""
     run = Run()
-    seconds = 0
+    count = 0
     for picture in _pictures(stream):
-        due = picture.index >= first_frame_of(seconds * refresh, stream.fps)
-        while picture.index >= first_frame_of(seconds * refresh, stream.fps):
-            seconds += 1
+        due = picture.index >= first_frame_of(count * refresh, stream.fps)
+        count = max(count, int(picture.index / stream.fps / refresh))  # of those that skipped frames have passed
+        while picture.index >= first_frame_of(count * refresh, stream.fps):
+            count += 1
         same = run.pictures and np.array_equal(run.pictures[-1].mask, picture.mask)
         if due or not same or not _follows(run, picture, quantiser):
             if run.pictures:
@@ -85,10 +87,11 @@ def _follows(run: Run, picture: Picture, quantiser: int) -> bool:
 
 def _pictures(stream: FapStream) -> Iterator[Picture]:
     """The frames that are coded."""
-    last = len(stream.frames) - 1
+    last, sent = len(stream.frames) - 1, 0
     for index, (frame, mask) in enumerate(zip(stream.frames, stream.mask, strict=True)):
-        if not mask.any() and index not in (0, last):
+        if not mask.any() and index not in (0, last) and index - sent <= LONGEST_GAP:
             continue
+        sent = index
         viseme, expression = stream.visemes.get(index), stream.expressions.get(index)
         fields = (*(viseme.values[:3] if viseme else ()), *(expression.values[:4] if expression else ()))
         values = np.rint(frame[2:][mask[2:]]).astype(np.int64)
