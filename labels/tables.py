@@ -7,6 +7,7 @@ import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 from importlib import import_module
 from typing import Any, TypeAlias
 
@@ -39,6 +40,26 @@ class Column:
     about: str
     unit: str = ""
     digits: int = 6
+
+
+def parquet_problem() -> str | None:
+    """Why tables are written as CSV alone although pyarrow is installed, and the remedy."""
+    found = _pyarrow()
+    if not isinstance(found, ImportError):
+        return None
+    if isinstance(found, ModuleNotFoundError) and (found.name or "").partition(".")[0] == "pyarrow":
+        return None
+    told = str(found).strip().partition("\n")[0]
+    return f'labels are CSV alone: pyarrow cannot be loaded ({told}): pip install "risorius[labels]"'
+
+
+@lru_cache(maxsize=1)
+def _pyarrow() -> tuple[Any, Any] | ImportError:
+    """pyarrow and its part for Parquet, or why there is none."""
+    try:
+        return import_module("pyarrow"), import_module("pyarrow.parquet")
+    except ImportError as error:
+        return error
 
 
 #: What stands in a column: an array, or texts; NaN and "" where nothing is known.
@@ -88,12 +109,11 @@ class Table:
         return buffer.getvalue().encode("utf-8")
 
     def parquet_bytes(self) -> bytes | None:
-        """As Parquet; None where the package pyarrow is not there."""
-        try:
-            arrow: Any = import_module("pyarrow")
-            parquet: Any = import_module("pyarrow.parquet")
-        except ImportError:
+        """As Parquet; None where the package pyarrow is not there, or cannot be loaded (`parquet_problem`)."""
+        found = _pyarrow()
+        if isinstance(found, ImportError):
             return None
+        arrow, parquet = found
         kinds = {
             Kind.INTEGER: arrow.int32(),
             Kind.NUMBER: arrow.float64(),

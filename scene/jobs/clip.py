@@ -27,7 +27,7 @@ from ..pictures.studio import studio
 from ..sounds import add_sound
 from .files import save
 from .inputs import Input
-from .labelling import Labelling, Labels, begin
+from .labelling import Labelling, Labels, begin, remarks_on_labels
 from .shown import Shown, ShownAt
 from .skin_colour import colour_skin
 from .stage import cover, dress
@@ -233,6 +233,7 @@ def _picture(folder: Path, face: Subject, shown: Shown, clip: Clip, at: int) -> 
             said += remarks
         if labelling is not None:
             labelling.write(clip.look)
+            said += remarks_on_labels()
     finally:
         if labelling is not None:
             labelling.discard()

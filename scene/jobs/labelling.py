@@ -154,6 +154,14 @@ def refuse_unwritable_labels(labels: Labels | None, out: Path) -> None:
     Draft(labels.folder).discard()
 
 
+def remarks_on_labels() -> tuple[str, ...]:
+    """What the user should know of labels that are written here."""
+    from ...labels.tables import parquet_problem
+
+    problem = parquet_problem()
+    return () if problem is None else (problem,)
+
+
 def begin(
     labels: Labels,
     face: Subject,

@@ -14,7 +14,7 @@ from ..pictures.look import Look
 from ..sounds import add_sound
 from .destination import Baked
 from .files import BLEND, Made, save
-from .labelling import Labels, begin
+from .labelling import Labels, begin, remarks_on_labels
 from .stage import cover, dress
 from .subjects import Subject
 
@@ -92,7 +92,7 @@ def film_baked(
         face=face.obj.name,
         frames=rendered.frame_count,
         clips=baked.reports,
-        remarks=face.remarks + baked.remarks + rendered.remarks,
+        remarks=face.remarks + baked.remarks + rendered.remarks + (() if labels is None else remarks_on_labels()),
     )
 
 
