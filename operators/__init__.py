@@ -4,6 +4,7 @@ classes, registration      what Blender is given, and how it is taken back
 saved_by                   which version saved a file, and that a later one did
 props                      the properties that Risorius adds to objects, scenes and the window
 base, sidebar              what all operators and all panels share
+held                       what operators hold that go on between events
 active, changes            the face that it is all about, and who is told when it is to show something else
 session                    what is known of the faces of the open file
 requirements               SciPy, which this Blender may lack

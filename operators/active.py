@@ -8,6 +8,7 @@ from ..errors import SceneError
 from ..scene import refusals
 from ..scene.bake.target import Target
 from ..scene.blender_types import Items
+from ..scene.fingerprint import uid_of
 from ..scene.points.kept import has_points
 from .blender_types import Context, Object, Scene
 from .followers.rows import companions_of, left_behind, unlisted
@@ -30,6 +31,11 @@ def all_objects() -> Items[Object]:
     """All objects of the file."""
     objects: Items[Object] = bpy.data.objects
     return objects
+
+
+def object_of(uid: int) -> Object | None:
+    """The object of a number (`uid_of`), whatever it is called by now; None where it is gone."""
+    return next((obj for obj in all_objects() if uid_of(obj) == uid), None)
 
 
 def target_of(obj: Object, scene: Scene | None = None) -> Target:

@@ -13,7 +13,9 @@ import bpy
 from ..errors import RisoriusError, SceneError
 from ..progress import Progress, Work, run
 from ..scene.blender_types import Event
-from .blender_types import Context, Timer
+from ..scene.fingerprint import uid_of
+from .blender_types import Context, Object, Scene
+from .held import GONE, Held
 from .requirements import MISSING, has_scipy, need_scipy
 from .screen import show_status
 
@@ -49,7 +51,7 @@ def removed_meanwhile(title: str) -> Iterator[None]:
     try:
         yield
     except ReferenceError as gone:
-        if "has been removed" not in str(gone):
+        if GONE not in str(gone):
             raise
         raise SceneError(title, "what it worked on was removed meanwhile; nothing has been changed") from gone
 
@@ -99,11 +101,16 @@ class RisoriusOperator:
 
 
 class WorkOperator(RisoriusOperator, Generic[T]):
-    """Long work: with a window it runs between events and Esc cancels it; without one it runs straight through."""
+    """Long work: with a window it runs between events and Esc cancels it; without one it runs straight through.
+
+    Others may select another object meanwhile: work and what is told of it stay with the object that was active at the
+    beginning, which `context.object` is for both. Where undo or another scene takes its place, the work ends.
+    """
 
     title: ClassVar[str] = "Working"
     _work: Work[T] | None = None
-    _timer: Timer | None = None
+    _held: Held | None = None
+    _about: tuple[Object, Scene] | None = None
 
     def work(self, context: Context) -> Work[T]:
         """The work. It changes the scene only after its last step, so closing it early leaves all as it was."""
@@ -133,10 +140,14 @@ class WorkOperator(RisoriusOperator, Generic[T]):
 
     def begin(self, context: Context) -> None:
         """Begin the work and its timer, whose ticks `modal` hears. Blender ends with an operator that listens twice."""
-        self._work = self.work(context)
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(INTERVAL, window=context.window)
+        self._work, self._held, manager = self.work(context), Held(), context.window_manager
+        self._about = None if context.object is None else (context.object, context.scene)
+        self._held.holds_status(context)
         manager.progress_begin(0.0, 1.0)
+        self._held.gives_back(manager.progress_end)
+        timer = manager.event_timer_add(INTERVAL, window=context.window)
+        self._held.gives_back(manager.event_timer_remove, timer)
+        self._held.gives_back(self._work.close)
         show_status(context, f"{self.title} ...")
 
     def modal(self, context: Context, event: Event) -> set[str]:
@@ -148,7 +159,7 @@ class WorkOperator(RisoriusOperator, Generic[T]):
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         try:
-            with removed_meanwhile(self.title):
+            with removed_meanwhile(self.title), self._on_what_it_began_with(context):
                 return self._advance(context)
         except RisoriusError as refusal:
             self.stop(context)
@@ -157,6 +168,27 @@ class WorkOperator(RisoriusOperator, Generic[T]):
         except BaseException:
             self.stop(context)
             raise
+
+    @contextmanager
+    def _on_what_it_began_with(self, context: Context) -> Iterator[None]:
+        """The object that the work is about as the active one, whatever else is selected now.
+
+        Raises
+        ------
+        SceneError : undo or another scene has taken its place. ReferenceError : it is gone.
+        """
+        if self._held is not None and self._held.is_outdated:
+            raise SceneError(self.title, "was ended by undo or redo; nothing has been changed: start it again")
+        if self._about is None:
+            yield
+            return
+        obj, scene = self._about
+        if context.scene != scene:
+            back = f"go back to the scene {scene.name} and start it again"
+            raise SceneError(self.title, f"was ended because the scene was switched; nothing has been changed: {back}")
+        uid_of(obj)  # raises at once, not after the last step
+        with bpy.context.temp_override(object=obj, active_object=obj):
+            yield
 
     def _advance(self, context: Context) -> set[str]:
         """Work for a share of a second."""
@@ -177,15 +209,9 @@ class WorkOperator(RisoriusOperator, Generic[T]):
 
     def stop(self, context: Context) -> None:
         """Let go of the work, the timer and the status text."""
-        if self._work is not None:
-            self._work.close()
-            self._work = None
-        manager = context.window_manager
-        if self._timer is not None:
-            manager.event_timer_remove(self._timer)
-            self._timer = None
-        manager.progress_end()
-        show_status(context, None)
+        if self._held is not None:
+            self._held.close()
+        self._work = self._held = self._about = None
 
     def cancel(self, context: Context) -> None:
         """Blender ends the operator itself, as when a file is loaded."""

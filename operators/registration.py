@@ -13,7 +13,7 @@ from contextlib import ExitStack
 import bpy
 
 from ..scene.faces import forget_faces
-from . import props, saved_by, translations
+from . import held, props, saved_by, translations
 from .classes import CLASSES
 from .followers import loaded as followers_loaded
 from .kept import folder as kept_folder
@@ -51,6 +51,7 @@ ATTACHED = (
     preview_events.attach,
     show_overlay.attach,
     read_live.attach,
+    held.attach,
 )
 
 #: How all of it is taken back; empty while nothing is registered.

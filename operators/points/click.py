@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
-
 import bpy
 from bpy.props import StringProperty
 
@@ -19,6 +17,7 @@ from ..annotated import Annotated
 from ..base import WorkOperator
 from ..blender_classes import Operator
 from ..blender_types import Context
+from ..held import Held
 from ..requirements import need_scipy
 from ..screen import redraw_viewports, show_status
 from .click_drawing import draw_clicks
@@ -57,7 +56,7 @@ class RISORIUS_OT_click_points(WorkOperator[Finding], Operator):
     #: What has been clicked, in a window.
     _clicks: Clicks | None = None
     #: How the window is given back.
-    _undo: ExitStack | None = None
+    _asking: Held | None = None
 
     @classmethod
     def refusal(cls, context: Context) -> str | None:
@@ -89,16 +88,17 @@ class RISORIUS_OT_click_points(WorkOperator[Finding], Operator):
             self.report({"ERROR"}, str(refusal))
             return {"CANCELLED"}
         self._clicks = Clicks(surface, plane_of_mesh(surface))
-        self._undo = undo = ExitStack()
-        undo.callback(redraw_viewports)
-        undo.callback(area.header_text_set, None)
+        self._asking = asking = Held()
+        asking.gives_back(redraw_viewports)
+        asking.gives_back(area.header_text_set, None)
         points = context.window_manager.risorius.points
-        undo.callback(setattr, points, "show", points.show)
+        asking.gives_back(setattr, points, "show", points.show)
         points.show = False
         handler = bpy.types.SpaceView3D.draw_handler_add(draw_clicks, (self._clicks, area), "WINDOW", "POST_PIXEL")
-        undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handler, "WINDOW")
+        asking.gives_back(bpy.types.SpaceView3D.draw_handler_remove, handler, "WINDOW")
         window.cursor_modal_set("CROSSHAIR")
-        undo.callback(window.cursor_modal_restore)
+        asking.gives_back(window.cursor_modal_restore)
+        asking.holds_status(context)
         context.window_manager.modal_handler_add(self)
         self._ask(context, self._clicks)
         return {"RUNNING_MODAL"}
@@ -171,6 +171,6 @@ class RISORIUS_OT_click_points(WorkOperator[Finding], Operator):
 
     def _let_go(self) -> None:
         """End the asking, and give the window back."""
-        if self._undo is not None:
-            self._undo.close()
-            self._undo = None
+        if self._asking is not None:
+            self._asking.close()
+            self._asking = None

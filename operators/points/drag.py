@@ -11,14 +11,16 @@ from ...arrays import Floats
 from ...mpeg4 import FEATURE_POINTS
 from ...scene import mesh as meshes
 from ...scene.blender_types import Event
+from ...scene.fingerprint import uid_of
 from ...scene.points.bound import Surface, fits, followed, moved, places
 from ...scene.points.kept import KeptPoints, Origin, read_kept, write_kept
 from ...scene.points.mirrored import MirrorPlane, plane_of_points
 from ...scene.points.seen import Visible
-from ..active import active_object
+from ..active import active_object, object_of
 from ..base import RisoriusOperator
 from ..blender_classes import Operator, WorkSpaceTool
 from ..blender_types import Context, Object, UILayout
+from ..held import Held
 from ..screen import redraw_viewports, show_status
 from .ops import label_of
 from .overlay import point_at
@@ -53,31 +55,35 @@ class RISORIUS_OT_drag_point(Operator):
             return {"CANCELLED"}
         self._pressed, self._has_left = pixel, False
         obj = active_object(context)
-        self._name, self._obj = name, obj.name
+        self._name, self._uid, self._held = name, uid_of(obj), Held()
         self._surface = Surface.of(obj.data)
         self._before = read_kept(obj)
         self._now = self._before if fits(self._before, obj.data) else followed(self._before, obj.data).kept
         self._plane = plane_of_points(places(self._now, meshes.rest_vertices(obj.data)))
         mark(context.window_manager.risorius.points, name)
         context.window_manager.modal_handler_add(self)
+        self._held.gives_back(redraw_viewports)
+        self._held.holds_status(context)
         show_status(context, f"{label_of(name)}   Release: Confirm   Esc, Right Mouse: Cancel")
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Context, event: Event) -> set[str]:
         """Follow the mouse; release to put, Esc to leave all as it was."""
-        obj: Object = bpy.data.objects[self._obj]
+        obj = object_of(self._uid)
+        if obj is None or self._held.is_outdated:
+            return self._end({"CANCELLED"})
         if event.type == "MOUSEMOVE":
             self._follow(context, event, obj)
             return {"RUNNING_MODAL"}
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             write_kept(obj, self._before)
-            return self._end(context, {"CANCELLED"})
+            return self._end({"CANCELLED"})
         if event.type == "LEFTMOUSE" and event.value == "RELEASE":
             self._follow(context, event, obj)
             if read_kept(obj) == self._before:
-                return self._end(context, {"CANCELLED"})
+                return self._end({"CANCELLED"})
             self.report({"INFO"}, f"Moved {label_of(self._name)}")
-            return self._end(context, {"FINISHED"})
+            return self._end({"FINISHED"})
         return {"RUNNING_MODAL"}
 
     def _follow(self, context: Context, event: Event, obj: Object) -> None:
@@ -100,15 +106,14 @@ class RISORIUS_OT_drag_point(Operator):
         """The points with this one at a place of the resting surface, and its counterpart on the other side."""
         return with_counterpart(self._now, self._name, place, self._surface, self._plane if mirror else None)
 
-    def _end(self, context: Context, result: set[str]) -> set[str]:
+    def _end(self, result: set[str]) -> set[str]:
         """Let go."""
-        show_status(context, None)
-        redraw_viewports()
+        self._held.close()
         return result
 
     def cancel(self, context: Context) -> None:
         """Blender ends the operator itself."""
-        show_status(context, None)
+        self._held.close()
 
 
 def with_counterpart(

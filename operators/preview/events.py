@@ -8,7 +8,7 @@ import bpy
 
 from ...scene.fingerprint import uid_of
 from ...scene.live import preview
-from ..active import all_objects
+from ..active import all_objects, object_of
 from ..blender_events import Handler, act_on
 from ..blender_types import Scene
 from ..changes import listen, listen_to_time
@@ -25,7 +25,7 @@ def _after_frame(scene: Scene, *_: object) -> None:
     if active is not None and live.held(active) is None:
         live.ask_to_play(active)
     for uid in previews.faces.uids:
-        obj, face = live.object_of(uid), previews.faces.get(uid)
+        obj, face = object_of(uid), previews.faces.get(uid)
         if obj is not None and face is not None:
             live.play_or_rest(obj, face, scene)
 
@@ -36,7 +36,7 @@ def _after_update(*_: object) -> None:
     if count == previews.object_count or not previews.faces.uids:
         return
     previews.object_count = count
-    gone = [uid for uid in previews.faces.uids if live.object_of(uid) is None]
+    gone = [uid for uid in previews.faces.uids if object_of(uid) is None]
     for uid in gone:
         previews.faces.forget(uid)
         previews.shown.pop(uid, None)

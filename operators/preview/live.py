@@ -26,7 +26,7 @@ from ...scene.live.live_face import LiveFace
 from ...scene.live.played import PlayedMotion
 from ...scene.points.kept import has_points
 from ...scene.rig.clips import rig_clips
-from ..active import all_objects, ready_reason, target_of
+from ..active import object_of, ready_reason, target_of
 from ..bake.settings import motion_of, played_settings
 from ..blender_types import Context, Object, Scene, WindowManager
 from ..emotion.performance import Performance, performance_of
@@ -82,11 +82,6 @@ def held(obj: Object) -> LiveFace | None:
 def shown(obj: Object) -> Shown | None:
     """What the preview shows on `obj`, or showed last."""
     return session().previews.shown.get(uid_of(obj))
-
-
-def object_of(uid: int) -> Object | None:
-    """The object of this number, or None where it is gone."""
-    return next((obj for obj in all_objects() if uid_of(obj) == uid), None)
 
 
 def _answer() -> float | None:

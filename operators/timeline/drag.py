@@ -10,9 +10,11 @@ import bpy
 from ...errors import RisoriusError
 from ...scene.bake.timing import scene_fps
 from ...scene.blender_types import Event
-from ..active import active_object
+from ...scene.fingerprint import uid_of
+from ..active import active_object, object_of
 from ..blender_classes import Operator
 from ..blender_types import Context, Object, Scene, WindowManager
+from ..held import Held
 from ..screen import redraw_timelines
 from ..speech.bars import is_stretched, stretched_by
 from ..speech.fitting import fit_sound
@@ -52,7 +54,9 @@ end of speech to stretch it. Esc cancels"""
         if hit is None or area is None or region is None:
             return {"PASS_THROUGH"}
         (bar, grip), self._area, self._region = hit, area, region
-        self._dragged = _Dragged.of(active_object(context), bar.number, grip)
+        obj = active_object(context)
+        self._dragged, self._uid, self._held = _Dragged.of(obj, bar.number, grip), uid_of(obj), Held()
+        self._held.gives_back(area.header_text_set, None)
         self._from = self._frame(event)
         context.window_manager.modal_handler_add(self)
         redraw_timelines()
@@ -60,23 +64,30 @@ end of speech to stretch it. Esc cancels"""
 
     def modal(self, context: Context, event: Event) -> set[str]:
         """Follow the pointer until the button is let go."""
-        obj = active_object(context)
+        obj = object_of(self._uid)
+        if obj is None or self._held.is_outdated or not self._dragged.is_there(obj):
+            self._held.close()
+            return {"CANCELLED"}
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             self._dragged.undo(obj)
-            self._area.header_text_set(None)
+            self._held.close()
             return {"CANCELLED"}
         is_released = event.type == "LEFTMOUSE" and event.value == "RELEASE"
         if event.type == "MOUSEMOVE" or is_released:  # where it is let go counts, seen to move there or not
             said = self._dragged.by(obj, self._frame(event) - self._from, scene_fps(context.scene))
             self._area.header_text_set(f"{said}   Esc: Cancel")
         if is_released:
-            self._area.header_text_set(None)
+            self._held.close()
             try:
                 self._dragged.finish(obj, context.scene)
             except RisoriusError as refusal:
                 self.report({"WARNING"}, f"The sound keeps its length: {refusal}")
             return {"FINISHED"}
         return {"RUNNING_MODAL"}
+
+    def cancel(self, context: Context) -> None:
+        """Blender ends the operator itself."""
+        self._held.close()
 
     def _frame(self, event: Event) -> float:
         """The frame under the pointer."""
@@ -105,6 +116,10 @@ class _Dragged:
         field = "stretch" if is_stretched(grip) else "start"
         was, speech.active = speech.active, number
         return cls(number, grip, field, getattr(speech.strips[number], field), was, is_speech=True)
+
+    def is_there(self, obj: Object) -> bool:
+        """Whether the object still has it."""
+        return self.number < len(obj.risorius.speech.strips if self.is_speech else obj.risorius.timeline.clips)
 
     def _owner(self, obj: Object) -> object:
         """The clip or speech."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import ClassVar
 
-import bpy
-
 from ...scene.blender_types import Event
-from ..active import active_object
-from ..blender_types import Context, Object
+from ...scene.fingerprint import uid_of
+from ..active import active_object, object_of
+from ..blender_types import Context
 from ..emotion.props import RISORIUS_PG_emotion
+from ..held import Held
 from ..screen import redraw_viewports, show_status
 from .caption import title_of
 from .choice import REACH, Choice, Hand, choose_pixel
@@ -29,13 +29,16 @@ class Dragging:
 
     def _take_hold(self, context: Context, wheel: Wheel, hand: Hand, scale: float) -> None:
         """Remember what there is, to be able to put it back."""
-        self._wheel, self._hand, self._scale, self._obj = wheel, hand, scale, active_object(context).name
-        self._before, self._clicked = Choice.of(active_object(context).risorius.emotion), False
+        obj = active_object(context)
+        self._wheel, self._hand, self._scale, self._uid = wheel, hand, scale, uid_of(obj)
+        self._before, self._clicked, self._held = Choice.of(obj.risorius.emotion), False, Held()
+        self._held.gives_back(redraw_viewports)
+        self._held.holds_status(context)
 
     def modal(self, context: Context, event: Event) -> set[str]:
         """Follow the pointer; the left button keeps, Esc or the right button to have it back."""
-        if self._obj not in bpy.data.objects:
-            self._let_go(context)
+        if object_of(self._uid) is None:
+            self._held.close()
             return {"CANCELLED"}
         if event.type == "MOUSEMOVE":
             pixel: Pixel = (float(event.mouse_region_x), float(event.mouse_region_y))
@@ -47,16 +50,17 @@ class Dragging:
                 self._show(context)
         elif event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             self._before.write(self._emotion())
-            self._let_go(context)
+            self._held.close()
             return {"CANCELLED"}
         elif event.type == "LEFTMOUSE" and event.value == self.chooses_on:
-            self._let_go(context)
+            self._held.close()
             return {"CANCELLED"} if Choice.of(self._emotion()) == self._before else {"FINISHED"}
         return {"RUNNING_MODAL"}
 
     def _emotion(self) -> RISORIUS_PG_emotion:
         """The emotion that is being chosen."""
-        obj: Object = bpy.data.objects[self._obj]
+        obj = object_of(self._uid)
+        assert obj is not None
         return obj.risorius.emotion
 
     def _choose(self, event: Event) -> None:
@@ -73,11 +77,6 @@ class Dragging:
         """Keys."""
         return f"Ctrl: No Snapping to Words   Shift: Fine   {self.chooses_by}: Choose   Esc, Right Mouse: Cancel"
 
-    def _let_go(self, context: Context) -> None:
-        """Give the status bar back."""
-        show_status(context, None)
-        redraw_viewports()
-
     def cancel(self, context: Context) -> None:
         """Blender ends the operator itself."""
-        self._let_go(context)
+        self._held.close()

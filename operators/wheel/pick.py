@@ -8,9 +8,9 @@ from typing import ClassVar, NamedTuple
 import bpy
 
 from ...scene.blender_types import Event
-from ..active import active_object
+from ..active import active_object, object_of
 from ..blender_classes import Menu, Operator
-from ..blender_types import Context, Object
+from ..blender_types import Context
 from .caption import caption
 from .choice import Choice, Hand
 from .dragging import Dragging
@@ -20,11 +20,11 @@ from .view import FOOT, MARGIN, free_of, no_face_reason, scale_of
 
 
 class _Shown(NamedTuple):
-    """A wheel that is shown: in which region, of which object; and Blender's handle of its drawing."""
+    """A wheel that is shown: in which region, the number of which object; and Blender's handle of its drawing."""
 
     wheel: Wheel
     region: int
-    obj: str
+    uid: int
     handle: object
 
 
@@ -62,31 +62,29 @@ class RISORIUS_OT_pick_emotion(Dragging, Operator):
         margin = (MARGIN + FOOT) * scale
         wheel = under(free, pointer, now.degrees(), away, radius=size / 2.0 * scale, margin=margin)
         self._take_hold(context, wheel, Hand(now.pixel(wheel), pointer), scale)
-        _show(wheel, region.as_pointer(), self._obj)
+        _show(wheel, region.as_pointer(), self._uid)
+        self._held.gives_back(_hide)
         context.window_manager.modal_handler_add(self)
         self._show(context)
         return {"RUNNING_MODAL"}
 
-    def _let_go(self, context: Context) -> None:
-        """Take the wheel away."""
-        _hide()
-        super()._let_go(context)
 
-
-def _show(wheel: Wheel, region: int, obj: str) -> None:
+def _show(wheel: Wheel, region: int, uid: int) -> None:
     """Begin to draw it."""
     global _shown
     _hide()
-    _shown = _Shown(wheel, region, obj, bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_PIXEL"))
+    _shown = _Shown(wheel, region, uid, bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_PIXEL"))
 
 
 def _draw() -> None:
     """Draw handler: in pixels of the region."""
     context: Context = bpy.context
     region = context.region
-    if _shown is None or region is None or region.as_pointer() != _shown.region or _shown.obj not in bpy.data.objects:
+    if _shown is None or region is None or region.as_pointer() != _shown.region:
         return
-    obj: Object = bpy.data.objects[_shown.obj]
+    obj = object_of(_shown.uid)
+    if obj is None:
+        return
     now = Choice.of(obj.risorius.emotion)
     draw_wheel(_shown.wheel, now, caption(now), scale_of(context), context.preferences.themes[0])
 

@@ -18,15 +18,19 @@ pytestmark = pytest.mark.smoke
 def test_an_operator_that_clicks_and_then_works_listens_once(head: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Twice, and Blender calls it again after it has ended and is gone."""
     listeners: list[Any] = []
+    removed: list[str] = []
     manager = SimpleNamespace(
         event_timer_add=lambda *_, **__: "timer",
+        event_timer_remove=removed.append,
         progress_begin=lambda *_: None,
+        progress_end=lambda: None,
         modal_handler_add=listeners.append,
     )
     context = SimpleNamespace(window_manager=manager, window=None, workspace=None, object=head, scene=None)
-    operator = SimpleNamespace(work=lambda _: iter(()), title="Working")
+    operator = SimpleNamespace(work=lambda _: (step for step in ()), title="Working")
     click.RISORIUS_OT_click_points.begin(operator, context)
-    assert operator._timer == "timer"
+    operator._held.close()
+    assert removed == ["timer"]
     assert listeners == []
 
 

@@ -10,10 +10,10 @@ import pytest
 import risorius.api as api
 from risorius.errors import SolverError
 from risorius.face.face import Face
+from risorius.operators.active import object_of
 from risorius.operators.bake.settings import stale_clips
 from risorius.operators.emotion.performance import drawn_ways, performance_of
 from risorius.operators.emotion.profile import Wanted
-from risorius.operators.preview.live import object_of
 from risorius.scene.bake import shape_keys
 from risorius.scene.bake.notes import BakeKind
 from risorius.scene.fingerprint import uid_of

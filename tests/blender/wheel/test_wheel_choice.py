@@ -17,7 +17,6 @@ from risorius.operators.gizmo_keys import forget_keymap
 from risorius.operators.wheel import gizmo, ops, pick
 from risorius.operators.wheel.caption import caption, caption_at
 from risorius.operators.wheel.choice import Choice, Hand, choose_pixel, choose_point, choose_word, strengthen, turn
-from risorius.operators.wheel.dragging import Dragging
 from risorius.operators.wheel.geometry import Box, Wheel
 from risorius.operators.wheel.places import spots
 from risorius.operators.wheel.view import reason_hidden
@@ -37,7 +36,6 @@ class Drag(SimpleNamespace):
         monkeypatch.setattr(pick, "free_of", lambda *where: Box(0.0, 0.0, 1000.0, 800.0))
         for name in ("_take_hold", "_emotion", "_choose", "_show", "_help"):
             setattr(self, name, getattr(operator, name).__get__(self))
-        self._let_go = Dragging._let_go.__get__(self)
         self.context = SimpleNamespace(
             object=bpy.context.object,
             area=SimpleNamespace(type="VIEW_3D"),
