@@ -9,7 +9,7 @@ from .session import MIDDLE, PICTURES, QUALITY, Session
 #: Frames at which the six emotions of the button are full.
 FULL = (24, 89, 154, 219, 284, 349)
 #: Of the window, where a face is that the view was turned to.
-FACE = (356, 120, 756, 700)
+FACE = (486, 200, 826, 690)
 
 
 def own_head(session: Session) -> None:

@@ -26,6 +26,15 @@ def test_the_manifests_version_comes_first_with_its_date() -> None:
     assert ".".join(map(str, versions()[0][0])) == VERSION
 
 
+def test_what_names_the_version_names_this_one() -> None:
+    """The readme's files, and the citation with the changelog's date."""
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"risorius-(\d+\.\d+\.\d+)", readme)) == {VERSION}
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {VERSION}\n" in citation
+    assert f"\ndate-released: {versions()[0][1]}\n" in citation
+
+
 def test_versions_go_from_new_to_old() -> None:
     for (newer, later), (older, earlier) in itertools.pairwise(versions()):
         assert newer > older
