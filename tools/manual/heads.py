@@ -8,8 +8,20 @@ from .session import MIDDLE, PICTURES, QUALITY, Session
 
 #: Frames at which the six emotions of the button are full.
 FULL = (24, 89, 154, 219, 284, 349)
-#: Of the window, where a face is that the view was turned to.
-FACE = (486, 200, 826, 690)
+#: Half of a picture of a face, across and up, and its middle below the eyes, as shares of the way from eyes to chin.
+ACROSS, UP, BELOW = 1.45, 2.1, 0.35
+#: Where in the window a face is: the middle between its eyes, and its chin, in pixels from the upper left.
+PLACES = """
+from importlib import import_module
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+points = import_module("bl_ext.user_default.risorius.scene.points.kept").read_kept(bpy.context.object).points
+region, view = viewport()[2]["WINDOW"], viewport()[1].spaces.active.region_3d
+found = [
+    location_3d_to_region_2d(region, view, bpy.context.object.matrix_world @ Vector(points[name].at))
+    for name in ("3.7", "3.12", "2.1")
+]
+result = [[region.x + place.x, 900 - region.y - place.y] for place in ((found[0] + found[1]) / 2.0, found[2])]
+"""
 
 
 def own_head(session: Session) -> None:
@@ -70,7 +82,11 @@ def body(session: Session) -> None:
     for frame in FULL:
         session.run(f"bpy.context.scene.frame_set({frame})")
         shots.append(str(session.shot(f"body-{frame}")))
-    left, top, right, bottom = FACE
+    (x, y), (_, chin) = session.window.ask("from mathutils import Vector" + PLACES)
+    middle, long = y + BELOW * (chin - y), chin - y
+    left, top, right, bottom = (
+        round(edge) for edge in (x - ACROSS * long, middle - UP * long, x + ACROSS * long, middle + UP * long)
+    )
     out = session.folder / "points-six.jpg"
     session.window.ask(
         "import numpy as np\n"

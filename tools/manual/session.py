@@ -55,8 +55,10 @@ class Session:
         print(f"{name}.jpg", flush=True)
 
     def shot(self, name: str) -> Path:
-        """The whole window, as a PNG in the folder."""
-        time.sleep(DRAWN)
+        """The whole window, as a PNG in the folder. Panels that open slide there first."""
+        for _ in range(2):
+            time.sleep(DRAWN)
+            self.run("bpy.ops.wm.redraw_timer(type='DRAW_WIN_SWAP', iterations=3)")
         return self.window.shot(self.folder / f"{name}.png")
 
     def fresh(self) -> None:
