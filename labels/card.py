@@ -71,5 +71,5 @@ def _plain(value: object) -> str:
     if isinstance(value, Mapping):
         return "; ".join(f"{name} {_plain(each)}" for name, each in value.items())
     if isinstance(value, list | tuple):
-        return ", ".join(_plain(each) for each in value)
+        return ", ".join(_plain(each) for each in value) or "none"
     return "not known" if value is None or value == "" else str(value)

@@ -238,7 +238,7 @@ def _head(face: Subject, source: FaceSource, labels: Labels) -> dict[str, object
     own = path is None and not face.in_own_scene
     return {
         "name": face.obj.name,
-        "file": "" if path is None else path.name,
+        "file": ("built by Risorius" if own else "") if path is None else path.name,
         "sha256": "" if path is None else sha256(path.read_bytes()).hexdigest(),
         "vertices": len(source.vertices),
         "licence": labels.licence or (OWN_LICENCE if own else ""),

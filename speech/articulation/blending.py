@@ -57,20 +57,20 @@ def blended(aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[Floats]:
     return frames
 
 
-def shared(aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[Floats]:
-    """(T, 15) the share of each viseme in the mouth, mean over its parts, times how distinctly it is said; 0: rest.
+def shared(aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[dict[MouthPart, Floats]]:
+    """Part of the mouth -> (T, 15) the share of each viseme in it, times how distinctly it is said; 0: rest.
 
     Parameters as for `blended`.
     """
-    shares = np.zeros((len(times), len(VISEMES)))
+    shares = {}
     for place, part in enumerate(MouthPart):
         yield Progress.counted(place, len(MouthPart), "parts of the mouth shared")
-        told, weights = np.zeros_like(shares), np.zeros(len(times))
+        told, weights = np.zeros((len(times), len(VISEMES))), np.zeros(len(times))
         for aim, first, last in zip(aims, *_felt(aims, times, manner, part), strict=True):
             weight = _weight(aim, times[first:last], manner, part)
             weights[first:last] += weight
             told[first:last, aim.viseme] += weight * aim.strength
-        shares += told / np.maximum(weights, np.finfo(float).tiny)[:, None] / len(MouthPart)
+        shares[part] = told / np.maximum(weights, np.finfo(float).tiny)[:, None]
     return shares
 
 

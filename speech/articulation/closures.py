@@ -12,6 +12,9 @@ from ...progress import Progress, Work
 from .blending import AT_ONCE, Aim
 from .parts import FAPS_OF, JAW, Closure, Manner, MouthPart
 
+#: Parts that a closure draws; tongue and corners stay with its neighbours.
+DRAWN = (MouthPart.JAW, MouthPart.OPENING, MouthPart.ROUNDING)
+
 
 def closed(frames: Floats, aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[Floats]:
     """(T, 68) frames that reach the closure of every sound that has one.
@@ -21,9 +24,17 @@ def closed(frames: Floats, aims: Sequence[Aim], times: Floats, manner: Manner) -
     frames : (T, 68) FAPs with what the jaw carries. times : (T,) seconds, evenly apart.
     """
     moved = frames.copy()
+    for viseme, share in (yield from closing_shares(aims, times, manner)).items():
+        moved = _drawn(moved, share, viseme, manner.closures[viseme])
+    return moved
+
+
+def closing_shares(aims: Sequence[Aim], times: Floats, manner: Manner) -> Work[dict[int, Floats]]:
+    """Viseme -> (T,) how far its closure is reached at some times, evenly apart: 0 to 1."""
     step = float(times[1] - times[0]) if len(times) > 1 else 0.0
+    shares = {}
     for place, (viseme, closure) in enumerate(manner.closures.items()):
-        share = np.zeros(len(times))
+        shares[viseme] = share = np.zeros(len(times))
         for number, aim in enumerate(aims):
             if number % AT_ONCE == 0:
                 done = (place + number / len(aims)) / len(manner.closures)
@@ -31,8 +42,7 @@ def closed(frames: Floats, aims: Sequence[Aim], times: Floats, manner: Manner) -
             if aim.viseme == viseme:
                 near = span(times, *reached(aim, closure, step))
                 share[near] = np.maximum(share[near], closing(aim, closure, times[near], step))
-        moved = _drawn(moved, share, viseme, closure)
-    return moved
+    return shares
 
 
 def span(times: Floats, first: float, last: float) -> slice:
@@ -55,7 +65,7 @@ def closing(aim: Aim, closure: Closure, times: Floats, step: float) -> Floats:
 
 
 def _drawn(frames: Floats, share: Floats, viseme: int, closure: Closure) -> Floats:
-    """Frames drawn to a closure: FAPs of jaw and lips; tongue and corners stay with their neighbours."""
+    """Frames drawn to a closure: FAPs of `DRAWN`."""
     moved, shape = frames.copy(), VISEME_SHAPES[viseme]
     jaw = frames[:, JAW - 1]
     moved[:, JAW - 1] = jaw + share * (np.minimum(jaw, closure.jaw) - jaw)

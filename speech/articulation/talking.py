@@ -14,7 +14,7 @@ from ...progress import Progress, Work, part_of, run
 from ..phonemes import Phoneme
 from ..utterance import Sound, Utterance
 from .blending import AT_ONCE, Aim, blended, shared
-from .closures import closed
+from .closures import DRAWN, closed, closing_shares
 from .parts import FAPS_OF, JAW, Manner, beside_jaw, carried_by_jaw, manner, target
 
 #: FAPs that speech moves.
@@ -78,16 +78,21 @@ def viseme_shares(utterance: Utterance, times: Floats) -> Work[Floats]:
 
     Parameters
     ----------
-    times : (T,) seconds, ascending.
+    times : (T,) seconds, ascending, evenly apart.
 
     Returns
     -------
-    (T, 15) by number of the viseme, 0 the mouth at rest: shares that add up to 1 where all sounds are said as
-    distinctly as usual; each is multiplied by the strength of its sounds.
+    (T, 15) by number of the viseme, 0 the mouth at rest: shares, mean over the mouth's parts, that add up to 1 where
+    all sounds are said as distinctly as usual; each is multiplied by the strength of its sounds.
     """
     how = manner()
     aims = yield from part_of(_aims(utterance, how), 0.0, 0.2)
-    return (yield from part_of(shared(aims, times, how), 0.2, 1.0))
+    of_parts = yield from part_of(shared(aims, times, how), 0.2, 0.8)
+    for viseme, closing in (yield from part_of(closing_shares(aims, times, how), 0.8, 1.0)).items():
+        for part in DRAWN:
+            of_parts[part] *= (1.0 - closing)[:, None]
+            of_parts[part][:, viseme] += closing
+    return np.asarray(np.mean(list(of_parts.values()), axis=0))
 
 
 def spoken_frames(utterance: Utterance, fps: float) -> int:

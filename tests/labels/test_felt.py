@@ -89,3 +89,10 @@ def test_a_viseme_is_as_strong_as_its_share_of_the_mouth_and_as_it_is_articulate
     assert all(row["viseme_strength"] == 0.0 for row in full if row["viseme"] == 0)
     assert {row["emotion_from"] for row in full} == {"request"}
     assert {row["strength"] for row in full} == {0.0}
+
+
+def test_lips_that_close_for_a_short_sound_are_its_own() -> None:
+    a, m = (Phoneme("a", 10, vowel=True), Phoneme("m", 1))
+    quick = Utterance((Sound(0.0, 0.2, a), Sound(0.2, 0.24, m), Sound(0.24, 0.5, a)), 0.5)
+    told = rows(Felt.of_saying(api.say(quick, fps=100.0)))
+    assert max(float(str(row["viseme_strength"])) for row in told if row["sound"] == "m") > 0.7
