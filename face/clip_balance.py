@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..errors import SolverError
 from ..progress import Progress, Work, part_of
 from .drive.plan import Plan
@@ -40,7 +42,14 @@ class ClipBalance:
         together = max(1, min(TOGETHER, FIGURES // self.balance.anatomy.skin.positions.size))
         for start in range(0, len(self.efforts), together):
             steps = slice(start, min(start + together, len(self.efforts)))
-            yield steps, self.balance.reached_each(self.efforts[steps], self.pull.at(steps))
+            yield steps, self._reached(start, self.efforts[steps])
+
+    def _reached(self, start: int, efforts: Sequence[Effort]) -> Postures:
+        """Postures of efforts from one step on; what is held for several steps is worked out once."""
+        new = [not number or not efforts[number].reached_as(efforts[number - 1]) for number in range(len(efforts))]
+        chosen = np.flatnonzero(new)
+        postures = self.balance.reached_each([efforts[number] for number in chosen], self.pull.at(start + chosen))
+        return postures if all(new) else postures.some(np.cumsum(new) - 1)
 
 
 def clip_balance(balance: Balance, plans: Sequence[Plan]) -> Work[ClipBalance]:

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..arrays import Floats
+from ..arrays import Floats, Ints
 from .anatomy import Anatomy
 from .bodies.contact import lip_share
 from .bodies.surroundings import Look, Surroundings
@@ -87,6 +87,14 @@ class Postures:
         """(T, n, 3) of the outer skin, all together."""
         return self.carried + self.elastic + self.pushed
 
+    def some(self, chosen: Ints) -> Postures:
+        """Some of them, each as often as it is chosen."""
+        lids, carried, elastic, pushed, explained, shares = (
+            each[chosen]
+            for each in (self.lids, self.carried, self.elastic, self.pushed, self.explained, self.lip_shares)
+        )
+        return Postures(lids, carried, elastic, pushed, self.surroundings.some(chosen), explained, shares)
+
 
 @dataclass(frozen=True, eq=False)
 class Effort:
@@ -101,6 +109,12 @@ class Effort:
     targets: Targets
     amounts: Amounts
     guessed: Floats | float = 0.0
+
+    def reached_as(self, other: Effort) -> bool:
+        """Whether it is known to take the skin where another, of which its amounts are, takes it."""
+        mine, theirs = ((each.plan.request.faps, each.plan.evened) for each in (self, other))
+        alike = all(np.array_equal(a, b, equal_nan=True) for a, b in zip(mine, theirs, strict=True))
+        return alike and self.amounts is other.amounts
 
 
 class Balance:

@@ -47,6 +47,7 @@ class EquilibriumSolver:
         anchors: Floats | None = None,
         start: Floats | None = None,
         tolerance: float | None = None,
+        rate: float | None = None,
     ) -> Minimum:
         """Positions where elastic forces balance the load.
 
@@ -56,6 +57,7 @@ class EquilibriumSolver:
         anchors : (V, 3) m, places on the bone; the rest positions if left out.
         start : (V, 3) m, a nearby shape; the anchors if left out.
         tolerance : m, another one than the solver's own.
+        rate : by which corrections are expected to shrink, as for `minimise`: it saves the last solve.
 
         Returns
         -------
@@ -81,6 +83,7 @@ class EquilibriumSolver:
             self.factor,
             tolerance=allowed,
             max_iterations=self.max_iterations,
+            rate=rate,
         )
         if not found.converged and not found.residual <= self.unseen:  # a residual may be NaN
             raise SolverError(

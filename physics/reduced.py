@@ -127,8 +127,9 @@ def _with_answers(skin: Skin, factor: Factor, balances: Floats, count: int) -> F
     """(k, n, 3) balances (m, n, 3), the answers to their inertia and damping, and answers to these up to a count."""
     fields, last = [balances], balances
     while len(fields) == 1 or sum(map(len, fields)) + 2 * len(last) <= count:
-        answers = [factor.solve(weight[:, None] * field) for field in last for weight in _inertias(skin)]
-        last = _orthonormal(np.array(answers), skin.mass)
+        loads = np.concatenate([weight[:, None] * last for weight in _inertias(skin)])
+        columns = factor.solve(loads.transpose(1, 0, 2).reshape(len(skin.rest), -1))
+        last = _orthonormal(columns.reshape(len(skin.rest), -1, 3).transpose(1, 0, 2), skin.mass)
         fields.append(last)
     return np.concatenate(fields)
 

@@ -33,8 +33,9 @@ UNSEEN = 5e-6
 #: The same for a face that is only sketched; and how far off what is foretold may be there, and in passing, metres.
 SKETCHED, FORETOLD, IN_PASSING = 2e-5, 5e-5, 2e-4
 
-#: The same for one of the balances that stand for a whole clip, metres.
-SAMPLED = 5e-6
+#: The same for one of the balances that stand for a whole clip, metres; and by how much its corrections shrink from one
+#: to the next, which they do faster as a rule.
+SAMPLED, SHRINKING = 5e-6, 0.25
 
 #: Matrices that differ by less than this share are one.
 ROUNDING = 1e-12
@@ -89,15 +90,17 @@ class Relaxation:
             return np.zeros_like(self.skin.positions)
         if foretold is None:
             return self._balance(amounts, 0.0, TOLERANCE)[1]
-        return self._balance(amounts, foretold, SAMPLED)[1]
+        return self._balance(amounts, foretold, SAMPLED, rate=SHRINKING)[1]
 
-    def _balance(self, amounts: Amounts, added: Floats | float, tolerance: float) -> tuple[Floats, Floats]:
+    def _balance(
+        self, amounts: Amounts, added: Floats | float, tolerance: float, *, rate: float | None = None
+    ) -> tuple[Floats, Floats]:
         """Positions of the sheet in balance, and what springs add there, where they add about so much; (n, 3) each."""
         pulling = amounts.muscles != 0.0
         low_strain = np.tensordot(amounts.muscles[pulling], self.actuators.sheets[pulling], axes=1)
         force = self._membrane * np.asarray(self.sheet.stiffness @ low_strain)
         start = self.skin.positions + low_strain
-        balanced = self._solver.solve(force, start=start + added, tolerance=tolerance).positions
+        balanced = self._solver.solve(force, start=start + added, tolerance=tolerance, rate=rate).positions
         return balanced, balanced - start
 
     def pulled(self, amounts: Amounts, *, teaching: Recollection | None = None) -> Floats:

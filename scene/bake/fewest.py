@@ -26,6 +26,9 @@ ROUNDS, SHARPNESS, LEAST = 14, 0.7, 0.02
 VERTICES, FRAMES, JOINING, NEARLY = 3000, 120, 500, 0.9
 #: How often vertices may join for one number of shapes.
 JOINED = 4
+#: Vertices join early, too, once a number of shapes does that leaves the first share of the tolerance, if they are off by
+#: the second: else a number would be looked for that does for the first vertices alone.
+EARLY, JOINING_EARLY = 0.5, 0.25
 #: After so many rounds, an error so many times the tolerance will not come down to it; nor will one that has not fallen
 #: for so many rounds.
 PATIENCE, HOPELESS, STILL = 3, 1.25, 4
@@ -74,14 +77,18 @@ class Search:
 
         `most` : no more than these, even where they do not stay within it.
         """
-        low, high = 0, len(self.fields)
+        low, high, joined = 0, len(self.fields), False
         while low < high:
             yield Progress(0.5, TEXT)
             middle = (low + high) // 2
-            if self._best(middle, tolerance, hopeless=HOPELESS * tolerance)[1] <= tolerance:
-                high = middle
-            else:
+            few, sampled = self._best(middle, tolerance, hopeless=HOPELESS * tolerance)
+            if sampled > tolerance:
                 low = middle + 1
+                continue
+            high = middle
+            if not joined and sampled > EARLY * tolerance:
+                self._join((yield from self.off(few)), JOINING_EARLY * tolerance)
+                joined = True
         last = len(self.fields) if most is None else min(most, len(self.fields))
         count = min(low, last)
         while True:
@@ -102,14 +109,20 @@ class Search:
             off = yield from self.off(few)
             if found is None or off.max(initial=0.0) < found[1].max():
                 found = few, off
-            worst = np.argsort(off)[::-1][:JOINING]
-            joined = np.union1d(self._vertices, worst[off[worst] > NEARLY * max(tolerance, sampled)])
             ended = off.max(initial=0.0) <= tolerance or (sampled > tolerance and hopeless < np.inf)
-            if ended or len(joined) == len(self._vertices):
+            if ended or not self._join(off, NEARLY * max(tolerance, sampled)):
                 break
-            self._sampled(joined)
         assert found is not None
         return found
+
+    def _join(self, off: Floats, least: float) -> bool:
+        """Let the worst vertices by how far (V,) they are off stand for all, too, from so much on; whether any is new."""
+        worst = np.argsort(off)[::-1][:JOINING]
+        joined = np.union1d(self._vertices, worst[off[worst] > least])
+        new = len(joined) > len(self._vertices)
+        if new:
+            self._sampled(joined)
+        return new
 
     def off(self, few: Few) -> Work[Floats]:
         """(V,) how far each vertex is off in any frame, metres."""

@@ -90,17 +90,17 @@ class Gathered:
         for fields in self._fields:
             shown.append(frames @ fields.T)
             _take_away(frames, shown[-1], fields)
-        new = list[Singles]()
+        new, left = list[Singles](), _farthest(frames)
         for _ in range(STAGES):
-            fields, share = _principal(frames, self.within)
-            if not len(fields):
+            if left <= self.within:
                 break
+            fields, share = _principal(frames, self.within)
             new.append(fields)
             shown.append(share)
             _take_away(frames, share, fields)
+            left = _farthest(frames)
         self._fields += [np.concatenate(new)] if new else []
-        left = [float(squares(frames[:, some]).max(initial=0.0)) for some in _blocks(frames)]
-        self.off = max(self.off, float(np.sqrt(max(left, default=0.0))))
+        self.off = max(self.off, left)
         self._taken += list(np.concatenate(shown, axis=1).astype(np.float64))
         self._waiting = []
 
@@ -112,9 +112,12 @@ def _principal(frames: Singles, within: float) -> tuple[Singles, Singles]:
     """
     values, vectors = np.linalg.eigh((frames @ frames.T).astype(np.float64))
     many = int((values > max(ROUNDING * values[-1], np.finfo(float).tiny)).sum())
+    # All that so many fields leave, spread evenly, is the least that they may leave where they leave most.
+    spread = np.cumsum(np.maximum(values, 0.0))[::-1] / (frames.size / 3)
+    few = min(int((spread > within**2).sum()), many)
     fields = np.ascontiguousarray(vectors[:, ::-1][:, :many].T).astype(np.float32) @ frames
     fields /= np.linalg.norm(fields, axis=1, keepdims=True)
-    share, few = frames @ fields.T, 0
+    share = frames @ fields.T
     while few < many:
         count = (few + many) // 2
         if _shows(within, frames, share[:, :count], fields[:count]):
@@ -130,6 +133,11 @@ def _shows(within: float, frames: Singles, share: Singles, fields: Singles) -> b
         if squares(frames[:, some] - share @ fields[:, some]).max(initial=0.0) > within**2:
             return False
     return True
+
+
+def _farthest(frames: Singles) -> float:
+    """The longest vector in frames (n, 3 V)."""
+    return float(np.sqrt(max((squares(frames[:, some]).max(initial=0.0) for some in _blocks(frames)), default=0.0)))
 
 
 def _take_away(frames: Singles, share: Singles, fields: Singles) -> None:

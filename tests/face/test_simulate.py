@@ -16,6 +16,7 @@ from risorius.errors import ParameterError
 from risorius.face.drive.over_time import stream_plans
 from risorius.face.drive.request import Drive
 from risorius.face.pose import Poser
+from risorius.face.posture import Balance, Effort
 from risorius.face.simulate import Simulation
 from risorius.physics.elastic import Factor
 from risorius.physics.tissue import Tissue, tissue
@@ -192,13 +193,13 @@ def test_skin_lags_behind_whatever_moves_it(small: Face, drive: str) -> None:
 
 @pytest.mark.slow
 def test_equilibria_are_solved_for_few_frames_only(face: Face, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whatever the clock says: few solves with a factored matrix for each frame."""
-    solved: list[int] = []
+    """Whatever the clock says: few solves of a displacement field with a factored matrix for each frame."""
+    solved: list[float] = []
     solve = Factor.solve
 
     def counted(factor: Factor, right: np.ndarray) -> np.ndarray:
         if factor.shape[0] == face.anatomy.skin.vertex_count:
-            solved.append(1)
+            solved.append(right.shape[1] / 3.0)
         return solve(factor, right)
 
     face.pose(JOY.frame())
@@ -207,9 +208,27 @@ def test_equilibria_are_solved_for_few_frames_only(face: Face, monkeypatch: pyte
     for integrator in ("reduced", "implicit"):
         solved.clear()
         frames = len(list(face.performance(OVERLAPPING, 50.0, integrator=integrator)))
-        counts[integrator] = len(solved) / frames
+        counts[integrator] = sum(solved) / frames
     assert counts["implicit"] > 15.0
     assert counts["reduced"] < 4.0
+
+
+def test_what_is_held_is_settled_once(small: Face, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Contact and correction of a pose that is held for many frames, and a look elsewhere is another pose."""
+    asked = clip_of([0.2, 0.6, *[1.0] * 6, 0.5, *[0.0] * 3])
+    asked[5:8, 22] = 20.0
+    settled = []
+    reached_each = Balance.reached_each
+
+    def counting(balance: Balance, efforts: Any, pulled: Any) -> Any:
+        settled.append(len(efforts))
+        return reached_each(balance, efforts, pulled)
+
+    monkeypatch.setattr(Balance, "reached_each", counting)
+    held = small.simulate(asked, integrator="balance").positions
+    assert sum(settled) == 6
+    monkeypatch.setattr(Effort, "reached_as", lambda *_: False)
+    np.testing.assert_allclose(held, small.simulate(asked, integrator="balance").positions, atol=1e-12)
 
 
 def test_what_comes_before_the_first_frame_can_be_done_bit_by_bit(small: Face) -> None:
