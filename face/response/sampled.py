@@ -3,8 +3,8 @@
 Along a clip the amounts of the muscles run through few directions, and what stiffening springs add to the low-strain
 response is small and smooth over them. So the equilibrium is solved for some of the clip's own amounts, the farthest
 from all others first, and what it adds is interpolated for the rest by radial functions over the amounts: powers of the
-distance (Wendland 2005, Scattered data approximation, chapter 8). Each new equilibrium is sought from what the others foretold of it, and held
-against that; none is added any more where it agrees.
+distance (Wendland 2005, Scattered data approximation, chapter 8). Each new equilibrium is sought from what the others
+foretold of it, and held against that; none is added any more where it agrees.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ SAME = 1e-4
 #: So many amounts are tried at once, or this share of those that are sampled already.
 TRIED, TRIED_SHARE = 3, 0.25
 
-#: The power of the distance that foretells. Springs that stiffen one after the other bend a field often: a cube, which is
-#: smoother, and a plane through all amounts, which takes a sample for each direction, need a third more equilibria.
+#: The power of the distance that foretells. Springs that stiffen one after the other bend a field often: a cube, which
+#: is smoother, and a plane through all amounts, which takes a sample for each direction, need a third more equilibria.
 POWER = 1.5
 
 #: What is said meanwhile.

@@ -26,8 +26,8 @@ ROUNDS, SHARPNESS, LEAST = 14, 0.7, 0.02
 VERTICES, FRAMES, JOINING, NEARLY = 3000, 120, 500, 0.9
 #: How often vertices may join for one number of shapes.
 JOINED = 4
-#: Vertices join early, too, once a number of shapes does that leaves the first share of the tolerance, if they are off by
-#: the second: else a number would be looked for that does for the first vertices alone.
+#: Vertices join early, too, once a number of shapes does that leaves the first share of the tolerance, if they are off
+#: by the second: else a number would be looked for that does for the first vertices alone.
 EARLY, JOINING_EARLY = 0.5, 0.25
 #: After so many rounds, an error so many times the tolerance will not come down to it; nor will one that has not fallen
 #: for so many rounds.
@@ -116,7 +116,7 @@ class Search:
         return found
 
     def _join(self, off: Floats, least: float) -> bool:
-        """Let the worst vertices by how far (V,) they are off stand for all, too, from so much on; whether any is new."""
+        """Let the worst by how far (V,) each vertex is off, from so much on, stand for all, too; whether any is new."""
         worst = np.argsort(off)[::-1][:JOINING]
         joined = np.union1d(self._vertices, worst[off[worst] > least])
         new = len(joined) > len(self._vertices)

@@ -70,7 +70,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "response/recollection.py": (0.02, 0.8, 2e-3, 5.0, 3.0),  # a kernel; how it learns to be trusted
     "response/relaxation.py": (2e-5, 5e-5, 2e-4, 0.25),  # how near a sketch is; how fast corrections shrink
     "response/rotations.py": (3e-5,),  # when an iteration that converges quadratically ends
-    "response/sampled.py": (2e-3, 2e-5, 1e-4, 0.25, 1.5),  # how near what is foretold comes; how many are tried; a kernel
+    "response/sampled.py": (2e-3, 2e-5, 1e-4, 0.25, 1.5),  # how near it comes; how many are tried; a kernel
     "response/rooted.py": (0.02, 1e-3),  # ties that keep matrices regular
     "response/spring_skin.py": (3e-3,),  # when a sheet buckles
     "skin/coarse.py": (0.8, 0.04, 2.2, 0.7, 0.05, 2.4, 0.05, 1e-3),  # how skin is thinned out; weights of its vertices
