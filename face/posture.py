@@ -198,9 +198,11 @@ class Balance:
 
     def _moved_by_hand(self, targets: Targets, found: Amounts, amounts: Amounts) -> Targets:
         """Targets that want what was set by hand, too: the difference that it makes is not corrected away."""
-        actuators = self.anatomy.actuators
-        before, after = (actuators.carried(each) + actuators.low_strain(each) for each in (found, amounts))
-        change = np.asarray(self.anatomy.inverse.matrix @ (after - before).ravel())
+        actuators, inverse = self.anatomy.actuators, self.anatomy.inverse
+        change = inverse.muscles_on_rows(amounts) - inverse.muscles_on_rows(found)
+        if (found.jaw, found.lids) != (amounts.jaw, amounts.lids):
+            carried = actuators.carried(amounts) - actuators.carried(found)
+            change = change + np.asarray(inverse.matrix @ carried.ravel())
         return replace(targets, displacements=targets.displacements + change)
 
     def _read(self, displacements: Floats) -> Floats:

@@ -252,8 +252,16 @@ def _unique_pairs(pairs: Sequence[Ints]) -> Ints:
 def applied(matrix: Sparse, fields: Floats) -> Floats:
     """(k, m, 3) a matrix (m, n) applied to each of some fields (k, n, 3)."""
     count, n, _ = fields.shape
+    if count == 1 and matrix.nnz > 2 * n:  # three plain vectors are faster than rows of three, where rows are long
+        return np.stack([matrix @ column for column in np.ascontiguousarray(fields[0].T)], axis=1)[None]
     columns = np.asarray(matrix @ fields.transpose(1, 0, 2).reshape(n, 3 * count))
     return np.ascontiguousarray(columns.reshape(-1, count, 3).transpose(1, 0, 2))
+
+
+def with_short_indices(matrix: Sparse) -> Sparse:
+    """The same matrix with indices of 32 bits, which run through the processor's cache in half the time."""
+    parts = (matrix.data, matrix.indices.astype(np.int32), matrix.indptr.astype(np.int32))
+    return sparse.csr_array(parts, shape=matrix.shape)
 
 
 def surface_samples(corners: Floats, spacing: float) -> Floats:

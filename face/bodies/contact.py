@@ -119,15 +119,21 @@ class Contact:
         shares = np.broadcast_to(lip_share, len(positions))
         at, going = at.each(len(positions)), np.arange(len(positions))
         closings = [meeting.closing(positions) if shut else None for meeting, _ in self._meetings(shares)]
+        looked_at: list[Floats | None] = [None] * len(self.bodies)
         for _ in range(SWEEPS):
-            met = positions[going]
+            whole = len(going) == len(positions)
+            met = positions if whole else positions[going]
             for (meeting, share), closing in zip(self._meetings(shares[going]), closings, strict=True):
                 met = meeting.settle(met, share, closing=None if closing is None else closing.some(going))
-            cleared = met.copy()
-            self._lift(cleared, at if len(going) == len(positions) else at.some(going))
-            positions[going] = cleared
-            moved = np.abs(cleared[:, self._kept_out] - met[:, self._kept_out]).max(axis=(1, 2), initial=0.0)
-            going = going[moved >= UNDISTURBED]
+            before = met.take(self._kept_out, axis=1)
+            self._lift(met, at if whole else at.some(going), looked_at=looked_at)
+            if whole:
+                positions = met
+            else:
+                positions[going] = met
+            moved = np.abs(met.take(self._kept_out, axis=1) - before).max(axis=(1, 2), initial=0.0)
+            stays = moved >= UNDISTURBED
+            going, looked_at = going[stays], [None if seen is None else seen[stays] for seen in looked_at]
             if not len(going):
                 break
         return positions.reshape(displacement.shape) - self.skin.positions
@@ -183,10 +189,24 @@ class Contact:
         return np.unique(np.concatenate([np.empty(0, dtype=np.int64), *(body.index for body in self.bodies)]))
 
     def _lift(
-        self, positions: Floats, at: Surroundings, slack: Sequence[Floats] = (), spared: Floats | None = None
+        self,
+        positions: Floats,
+        at: Surroundings,
+        slack: Sequence[Floats] = (),
+        spared: Floats | None = None,
+        looked_at: list[Floats | None] | None = None,
     ) -> None:
-        """Lift positions (T, n, 3), in place, out of bodies as far as they lie deeper than a slack, of each (T, k)."""
-        for body, deep in zip(self.bodies, slack or [np.zeros(1)] * len(self.bodies), strict=True):
+        """Lift positions (T, n, 3), in place, out of bodies as far as they lie deeper than a slack, of each (T, k).
+
+        `looked_at` holds the places (T, k, 3) of each body's skin when it was last seen to; where they are the same
+        there is nothing to be done.
+        """
+        for number, (body, deep) in enumerate(zip(self.bodies, slack or [np.zeros(1)] * len(self.bodies), strict=True)):
+            if looked_at is not None:
+                near, seen = positions.take(body.index, axis=1), looked_at[number]
+                if seen is not None and np.array_equal(near, seen):
+                    continue
+                looked_at[number] = near
             depth, out = body.depths(positions, at)
             way = np.maximum(depth - deep, 0.0) * body.firmness
             if spared is not None:

@@ -7,11 +7,12 @@ over direction and height, with the gaps between teeth closed. The lower row goe
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from scipy import ndimage
 
-from ...arrays import Floats, Ints
+from ...arrays import Bools, Floats, Ints
 from ...physics.mesh import sample_blocks
 from ...progress import Progress, Work
 from ..figures import Length, read_figures
@@ -59,7 +60,7 @@ class Front:
         x, y, z = np.moveaxis(positions, -1, 0)
         aside, before, line = x - self.axis[0], z - self.axis[1], (y - self.bottom) / RISE
         distance = np.maximum(np.sqrt(aside**2 + before**2), 1e-9)
-        farthest, top = self.reach.max(initial=-np.inf) + TEETH.clearance, self.reach.shape[1] - 1
+        farthest, top = self._farthest + TEETH.clearance, self.reach.shape[1] - 1
         near = np.nonzero((distance < farthest) & (line >= 0.0) & (line <= top))
         deep, outwards = np.full(distance.shape, -np.inf), np.zeros_like(positions)
         way = np.stack([aside[near], np.zeros(len(near[0])), before[near]], axis=1)
@@ -74,10 +75,26 @@ class Front:
         first = np.clip(np.floor(column).astype(np.int64), 0, self.reach.shape[0] - 2)
         second = np.clip(np.floor(line).astype(np.int64), 0, self.reach.shape[1] - 2)
         u, v = column - first, line - second
-        corners = np.stack([self.reach[first + i, second + j] for i in (0, 1) for j in (0, 1)])
-        on_row = (np.abs(u - 0.5) <= 0.5) & (np.abs(v - 0.5) <= 0.5) & np.isfinite(corners).all(axis=0)
-        shares = np.stack([(1 - u) * (1 - v), (1 - u) * v, u * (1 - v), u * v])
-        return np.where(on_row, (shares * np.where(on_row, corners, 0.0)).sum(axis=0), -np.inf)
+        whole, known = self._known
+        cell, width = first * self.reach.shape[1] + second, self.reach.shape[1]
+        on_row = (np.abs(u - 0.5) <= 0.5) & (np.abs(v - 0.5) <= 0.5) & whole.take(cell)
+        reached = (1 - u) * (1 - v) * known.take(cell) + (1 - u) * v * known.take(cell + 1)
+        reached += u * (1 - v) * known.take(cell + width)
+        reached += u * v * known.take(cell + width + 1)
+        return np.where(on_row, reached, -np.inf)
+
+    @cached_property
+    def _farthest(self) -> float:
+        """How far the row reaches out at most, metres."""
+        return float(self.reach.max(initial=-np.inf))
+
+    @cached_property
+    def _known(self) -> tuple[Bools, Floats]:
+        """Of every place of the grid, flat: whether there is a tooth there and at the three next, and `reach` or 0."""
+        tooth = np.isfinite(self.reach)
+        whole = np.zeros_like(tooth)
+        whole[:-1, :-1] = tooth[:-1, :-1] & tooth[1:, :-1] & tooth[:-1, 1:] & tooth[1:, 1:]
+        return whole.ravel(), np.where(tooth, self.reach, 0.0).ravel()
 
 
 def front_steps(vertices: Floats, triangles: Ints) -> Work[Front]:

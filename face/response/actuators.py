@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.linalg.blas import daxpy
 
 from ...arrays import Floats, Ints
 from ...physics.mesh import Sparse
@@ -145,11 +146,17 @@ class Actuators:
     def low_strain_each(self, muscles: Floats) -> Floats:
         """(T, n, 3) as `low_strain`, of muscles (T, k)."""
         pulling = muscles.any(axis=0)  # most muscles rest in most faces
+        if len(muscles) == 1:
+            moved = np.zeros(self.skin.positions.size)
+            for muscle in np.flatnonzero(pulling):  # none of these fields is copied: each is run through once
+                daxpy(self.fields[muscle].ravel(), moved, a=muscles[0, muscle])
+            return moved.reshape(1, -1, 3)
         return np.asarray(np.tensordot(muscles[:, pulling], self.fields[pulling], axes=1), dtype=np.float64)
 
     def contractions(self, amounts: Amounts) -> dict[str, float]:
         """Actuator name -> contraction in [0, 1]; the jaw as "jaw_open"."""
-        named = {muscle.name: a / muscle.amplitude for muscle, a in zip(self.muscles, amounts.muscles, strict=True)}
+        strengths = zip(self.muscles, amounts.muscles.tolist(), strict=True)
+        named = {muscle.name: amount / muscle.amplitude for muscle, amount in strengths}
         for (side, move), amount in amounts.lids.items():
             named[f"{LID_MOVERS[move].name}_{side}"] = amount / LID_MOVERS[move].amplitude
         if self.skin.has(Mechanism.JAW):

@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Bools, Floats, Ints
 from ...physics.elastic import Factor, diagonal_matrix, laplacian
-from ...physics.mesh import Sparse, applied, vertex_areas
+from ...physics.mesh import Sparse, applied, vertex_areas, with_short_indices
 from ...polygons import PolygonTable
 from ...progress import Progress, Work, run
 from ..figures import Length, read_figures
@@ -75,7 +75,7 @@ class InnerSkin:
         keep[self.index] = 0.0
         coupling: Sparse = (flesh - rows @ diagonal_matrix(keep)).tocsr()
         self._leads: Ints = np.unique(coupling.indices)
-        self._coupling: Sparse = coupling[:, self._leads]
+        self._coupling: Sparse = with_short_indices(coupling[:, self._leads])
 
     def follow(self, displacements: Floats) -> None:
         """Fill in the inner rows of displacement fields (..., V, 3), in place."""

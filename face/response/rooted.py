@@ -96,7 +96,7 @@ class RootedParts:
         readers = [_reader(carried, part, len(positions)) for part in (shares, *np.moveaxis(lean, 2, 0))]
         read = sparse.vstack(readers).tocsc()
         self._read: Ints = np.flatnonzero(np.diff(read.indptr))
-        self._reader: Sparse = read[:, self._read].tocsr()
+        self._reader: Sparse = mesh.with_short_indices(read[:, self._read].tocsr())
         yield Progress(1.0, FOLLOWING)
         if len(self._rest):
             own = edges[~touching]
