@@ -148,11 +148,11 @@ def say_steps(
     if emotion is not None and cues:
         raise ParameterError("cues", "must be left out where an emotion is given", len(cues))
     felt_cues = tuple(cues) if emotion is None else (_throughout(emotion, utterance, seed),)
-    spoken = yield from part_of(articulate_steps(utterance, fps, articulation=articulation, jaw=jaw), 0.0, 0.6)
-    yield Progress(0.6, "Laying out the feeling")
     ahead, count = round(begin * fps), frames_of(utterance, felt_cues, begin=begin, fps=fps)
+    speaking = articulate_steps(utterance, fps, articulation=articulation, jaw=jaw, least=count)
+    spoken = yield from part_of(speaking, 0.0, 0.6)
+    yield Progress(0.6, "Laying out the feeling")
     shown = emotion_weights(felt_cues, fps=fps) if felt_cues else np.zeros((0, len(ARCHETYPES)))
-    spoken = _lasting(spoken, count)
     emotions = _shifted(shown, ahead, count, 0.0)
     felt = _shifted((yield from part_of(_planned(felt_cues, fps), 0.6, 0.7)), ahead, count, np.nan)
     strong = _shifted(strengths(felt_cues, fps=fps) if felt_cues else np.zeros((0, 0)), ahead, count, 0.0)
@@ -186,11 +186,6 @@ def _throughout(emotion: Profile, utterance: Utterance, seed: int | None) -> Cue
     """An emotion that is there from the beginning, and goes when all is said."""
     timing = load_timings()[TIMING]
     return Cue(emotion, onset=0.0, apex=utterance.duration, offset=timing.offset, ramp=timing.ramp, seed=seed)
-
-
-def _lasting(spoken: Floats, count: int) -> Floats:
-    """Frames that last longer: the mouth stays at rest, as the last one has it."""
-    return np.concatenate([spoken, np.repeat(spoken[-1:], count - len(spoken), axis=0)])
 
 
 def _planned(cues: Sequence[Cue], fps: float) -> Work[Floats]:

@@ -46,9 +46,9 @@ def articulate(utterance: Utterance, fps: float = 25.0, *, articulation: float =
 
 
 def articulate_steps(
-    utterance: Utterance, fps: float = 25.0, *, articulation: float = 1.0, jaw: float = 1.0
+    utterance: Utterance, fps: float = 25.0, *, articulation: float = 1.0, jaw: float = 1.0, least: int = 0
 ) -> Work[Floats]:
-    """`articulate`, bit by bit.
+    """`articulate`, bit by bit, and on for at least so many frames: the mouth comes to rest after the last sound.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def articulate_steps(
         if not 0.0 <= value <= MOST:
             raise ParameterError(name, f"must be from 0 to {MOST:g}", value)
     how = manner()
-    times = np.arange(spoken_frames(utterance, fps)) / fps
+    times = np.arange(max(spoken_frames(utterance, fps), least)) / fps
     share = np.full(FAP_COUNT, articulation)
     share[JAW - 1] = jaw
     if utterance.mouth is not None:

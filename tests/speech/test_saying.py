@@ -153,3 +153,15 @@ def test_an_emotion_and_cues_exclude_each_other() -> None:
     cue = api.Cue(joy, onset=0.4, apex=0.5, offset=0.4)
     with pytest.raises(ParameterError, match="cues must be left out where an emotion is given"):
         api.say(uttered("a"), emotion=joy, cues=[cue])
+
+
+def test_the_mouth_comes_to_rest_when_the_file_ends_with_its_last_sound() -> None:
+    """The feeling fades for longer than the speech; the mouth does not wait for that where the sound left it."""
+    vowel = api.Utterance((api.Sound(0.1, 0.5, phonemes()["a"]),), 0.5)
+    saying = api.say(vowel, emotion=api.expression("joy"), fps=FPS)
+    jaw, tongue = (saying.stream.frames[:, number - 1] for number in (3, 44))
+    spoken = round(0.5 * FPS)
+    assert jaw[:spoken].max() > 300.0
+    assert len(jaw) > spoken + 5
+    assert abs(jaw[-1]) < 1.0
+    assert abs(tongue[-1]) < 1.0
