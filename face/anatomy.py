@@ -40,6 +40,7 @@ from .response.relaxation import Relaxation
 from .response.rooted import RootedParts
 from .response.sheet import ElasticSheet
 from .skin.coarse import MOST, Thinning
+from .skin.dense import DenseSkin
 from .skin.fine import SOLVED, fine_skin
 from .skin.outer import OuterSkin
 
@@ -143,7 +144,7 @@ class Anatomy:
         def inside(opening: Opening) -> Opening:
             return Opening(*(local[arc][local[arc] >= 0] for arc in (opening.upper, opening.lower)))
 
-        return OuterSkin(
+        skin = OuterSkin(
             index=index,
             positions=face_mesh.positions[index],
             polygons=kept.numbered(local),
@@ -154,16 +155,17 @@ class Anatomy:
             web=int(web.sum()),
             mechanisms=self.mechanisms,
         )
+        return DenseSkin.of(skin) if skin.vertex_count > MOST else skin
 
     @property
     def is_thinned(self) -> bool:
         """Whether the outer skin is solved on a share of its vertices, as there are too many of them."""
-        return self.given_skin.vertex_count > MOST
+        return self._thinning is not None
 
-    @cached_property
+    @property
     def _thinning(self) -> Thinning | None:
         """The outer skin thinned out, where it is dense."""
-        return Thinning(self.given_skin) if self.is_thinned else None
+        return self.given_skin.thinning if isinstance(self.given_skin, DenseSkin) else None
 
     @stepwise
     def skin(self) -> Work[OuterSkin]:

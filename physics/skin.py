@@ -16,9 +16,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..arrays import Bools, Floats
+from ..arrays import Bools, Floats, Ints
 from ..errors import ParameterError
-from .elastic import bending_matrix, diagonal_matrix, laplacian
+from .elastic import bending_matrix, diagonal_matrix, dirichlet_springs, pair_laplacian
 from .mesh import Polygons, Sparse, vertex_areas, within
 from .springs import SpringLaw, SpringNetwork
 from .tissue import Tissue
@@ -103,6 +103,7 @@ class Skin:
         damping: Floats | float | None = None,
         depth: Floats | float | None = None,
         mask: Bools | None = None,
+        springs: tuple[Ints, Floats] | None = None,
         law: SpringLaw | str = SpringLaw.CONTINUOUS,
     ) -> Skin:
         """Build a skin whose every figure is scaled by area, so that a tissue means the same on any mesh.
@@ -117,6 +118,8 @@ class Skin:
         damping : (V,) or one value, 1/s, c / m; the tissue's if left out.
         depth : (V,) or one value, m, of the soft tissue that moves with the sheet; the tissue's if left out.
         mask : (V,) bool, only polygons with all corners in it are skin.
+        springs : pairs (S, 2) and weights (S,) of the springs, as of `elastic.dirichlet_springs`; those of the
+            polygons if left out.
         law : of the springs.
 
         Notes
@@ -140,18 +143,21 @@ class Skin:
         mass = tissue.density * (tissue.depth if depth is None else depth) * lumps
         squared = tissue.bending_length**2 if bending is None else bending
         operator = None
+        pairs, weights = dirichlet_springs(vertices, polygons) if springs is None else springs
         if np.any(squared):
-            operator = tissue.membrane * bending_matrix(laplacian(vertices, polygons), areas, squared)
-        springs = SpringNetwork.from_polygons(
+            evenness = pair_laplacian(pairs, weights, len(vertices))
+            operator = tissue.membrane * bending_matrix(evenness, areas, squared)
+        network = SpringNetwork.between(
             vertices,
-            polygons,
+            pairs,
+            weights,
             stiffness=tissue.membrane,
             stiffening=tissue.stiffening,
             threshold=tissue.threshold,
             law=law,
         )
         rate = tissue.damping_rate if damping is None else damping
-        return cls(vertices, springs, mass, tissue.membrane * bed * lumps, operator, rate * mass)
+        return cls(vertices, network, mass, tissue.membrane * bed * lumps, operator, rate * mass)
 
     @cached_property
     def _linear(self) -> Sparse:

@@ -162,10 +162,28 @@ class SpringNetwork:
         ------
         ParameterError : values outside their rule.
         """
+        springs = dirichlet_springs(np.asarray(vertices, dtype=np.float64), polygons)
+        return cls.between(vertices, *springs, stiffness=stiffness, stiffening=stiffening, threshold=threshold, law=law)
+
+    @classmethod
+    def between(
+        cls,
+        vertices: Floats,
+        pairs: Ints,
+        weights: Floats,
+        *,
+        stiffness: Floats | float,
+        stiffening: float,
+        threshold: float,
+        law: SpringLaw | str = "continuous",
+    ) -> SpringNetwork:
+        """Springs between pairs (S, 2) of vertices with weights (S,), as of `elastic.dirichlet_springs`.
+
+        The other parameters and the errors are those of `from_polygons`.
+        """
         if not (np.isfinite(stiffening) and stiffening >= 1):
             raise ParameterError("stiffening", "must be 1 or more (k_h at least k_l)", stiffening)
         vertices = np.asarray(vertices, dtype=np.float64)
-        pairs, weights = dirichlet_springs(vertices, polygons)
         i, j = pairs.T
         length = np.linalg.norm(vertices[j] - vertices[i], axis=1)
         real = (length > 0) & (weights > 0)  # a doubled vertex gives a spring that has no direction

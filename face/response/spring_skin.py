@@ -67,5 +67,6 @@ def spring_skin(skin: OuterSkin, tissue: str | Tissue = "default") -> Skin:
         anchor=anchor,
         bending=regions.bending(skin, figures),
         depth=depth,
+        springs=skin.springs,
         damping=2.0 * ratio * np.sqrt(figures.membrane * anchor / (figures.density * depth)),
     )

@@ -7,7 +7,7 @@ What these do, the other vertices do by their place among them along the skin.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 
@@ -23,7 +23,8 @@ from ...polygons import PolygonTable
 from ...progress import Progress, Work, stepwise, worked_out
 from ..mesh.openings import Opening
 from ..mesh.template import MM
-from .outer import OuterSkin
+from .outer import Denser, OuterSkin
+from .stiffness import springs_on, stiffness_round, turned
 
 #: A skin of more vertices than this is thinned out; with fewer it is fast enough whole, and truer at mouth and lids.
 MOST = 20_000
@@ -34,6 +35,10 @@ NEAREST, WIDENING, FARTHEST = 0.8 * MM, 0.04, 2.2 * MM
 
 #: Vertices as near to a margin as this share of that distance are left out: the margin's own stand for them.
 BESIDE = 0.7
+
+#: At the corners, where the lips' and the lids' ways part within a millimetre, they are nearer: so much at them, and so
+#: much more by each metre from them; metres.
+AT_CORNERS, ROUND_CORNERS = 0.3 * MM, 0.12
 
 #: One that stands for less skin than this share of the square of that distance is not kept.
 LEAST = 0.05
@@ -92,12 +97,14 @@ class Cells:
     ----------
     kept : (N,) vertices that are kept. owners : (n,) the nearest of them along the skin, by its number among them.
     triangles : (T, 3) between those whose surroundings meet; the last `web` of them are of webs.
+    springs : pairs (S, 2) and weights (S,) of the springs between them, which stand for all of the skin's.
     """
 
     kept: Ints
     owners: Ints
     triangles: Ints
     web: int
+    springs: tuple[Ints, Floats]
 
 
 class Thinning:
@@ -134,7 +141,9 @@ class Thinning:
     @cached_property
     def _apart(self) -> Floats:
         """(n,) how far from each other vertices are kept, metres."""
-        return np.minimum(NEAREST + WIDENING * self._places.off, FARTHEST)
+        places = self._places
+        beside = np.minimum(NEAREST + WIDENING * places.off, FARTHEST)
+        return np.minimum(beside, AT_CORNERS + ROUND_CORNERS * places.corner)
 
     @cached_property
     def _webs(self) -> PolygonTable:
@@ -144,7 +153,11 @@ class Thinning:
     def chosen(self) -> Work[Ints]:
         """(M,) vertices that are far enough from each other."""
         positions = self.given.positions
-        arcs = [_thinned(positions, arc) for opening in self._openings for arc in (opening.upper, opening.lower)]
+        arcs = [
+            _thinned(positions, arc, self._apart)
+            for opening in self._openings
+            for arc in (opening.upper, opening.lower)
+        ]
         stay = np.unique(np.concatenate([*arcs, self._webs.loops]))
         return (yield from _chosen(positions, self._apart, stay, self._places.off > BESIDE * self._apart))
 
@@ -165,8 +178,14 @@ class Thinning:
             triangles, web = _dual(owners[self._triangles], first_web)
             surface = vertex_areas(self.given.positions[kept], triangles) > LEAST * self._apart[kept] ** 2
             if surface.all():
-                return Cells(kept, owners, triangles, web)
+                break
             kept = kept[surface]
+        places = self.given.positions[kept]
+        stiffness = yield from stiffness_round(self.given.positions, self.given.polygons, owners, self.given.areas)
+        sheet, webs = np.split(triangles, [len(triangles) - web])
+        triangles = np.concatenate([(yield from turned(places, sheet, stiffness)), webs])
+        yield Progress(1.0, "Preparing the skin")
+        return Cells(kept, owners, triangles, web, springs_on(places, triangles, stiffness))
 
     @property
     def kept(self) -> Ints:
@@ -182,15 +201,17 @@ class Thinning:
         def inside(opening: Opening) -> Opening:
             return Opening(*(local[arc][local[arc] >= 0] for arc in (opening.upper, opening.lower)))
 
-        return replace(
-            self.given,
+        return OuterSkin(
             index=self.given.index[self.kept],
             positions=self.given.positions[self.kept],
             polygons=PolygonTable.of(self.cells.triangles),
-            web=self.cells.web,
+            points=self.given.points,
             mouth=inside(self.given.mouth),
             eyes={side: inside(opening) for side, opening in self.given.eyes.items()},
-            _cache={},
+            sewn=self.given.sewn,
+            web=self.cells.web,
+            mechanisms=self.given.mechanisms,
+            stands_for=Denser(self.given, self.kept, self.cells.springs),
         )
 
     @stepwise
@@ -243,11 +264,12 @@ class Thinning:
         return across * (places.corner[part][:, None] + places.corner[others])
 
 
-def _thinned(positions: Floats, arc: Ints) -> Ints:
-    """Those of a margin's vertices (k,) that are kept: its ends, and between them as many as may be."""
-    steps = np.linalg.norm(np.diff(positions[arc], axis=0), axis=1)
+def _thinned(positions: Floats, arc: Ints, apart: Floats) -> Ints:
+    """Those of a margin's vertices (k,) that are kept: its ends, and between them as many as may be `apart` (n,)."""
+    between = 0.5 * (apart[arc[1:]] + apart[arc[:-1]])
+    steps = np.linalg.norm(np.diff(positions[arc], axis=0), axis=1) / between
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    count = max(int(along[-1] / NEAREST), 1) + 1
+    count = max(int(along[-1]), 1) + 1
     places = np.searchsorted(along, np.linspace(0.0, along[-1], count) - 0.5 * steps.min(initial=0.0))
     return np.unique(arc[places])
 

@@ -75,6 +75,7 @@ def fine_skin(skin: OuterSkin, spacing: float) -> tuple[OuterSkin, Sparse]:
             web=web,
             mouth=_halved(fine.mouth, once),
             eyes={side: _halved(opening, once) for side, opening in fine.eyes.items()},
+            stands_for=None,
             _cache={},
         )
     return fine, matrix

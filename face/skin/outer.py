@@ -60,6 +60,25 @@ def gaussian(positions: Floats, centre: Floats, radii: Floats | float) -> Floats
 
 
 @dataclass(frozen=True, eq=False)
+class Denser:
+    """What a skin of few vertices stands for.
+
+    Attributes
+    ----------
+    skin : the denser one. kept : (n,) those of its vertices that are the few ones.
+    springs : pairs (S, 2) and weights (S,) between the few that stand for the springs between all.
+    """
+
+    skin: OuterSkin
+    kept: Ints
+    springs: tuple[Ints, Floats]
+
+    def distance_from(self, sources: Ints) -> Floats:
+        """(n,) distance from the nearest of some of the few along the skin of all, which is less rough, metres."""
+        return self.skin.distance_from(self.kept[sources])[self.kept]
+
+
+@dataclass(frozen=True, eq=False)
 class OuterSkin:
     """The visible skin in head space.
 
@@ -73,6 +92,7 @@ class OuterSkin:
     mouth, eyes : the openings, in local vertex numbers; eyes by "l" and "r".
     sewn : which of the openings "mouth", "l" and "r" are sewn (`mesh.sewn`). web : how many polygons are webs.
     mechanisms : those that this skin has; what is built on it leaves the others out.
+    stands_for : the denser skin that it is a part of; None: it stands for itself.
     """
 
     index: Ints
@@ -84,6 +104,7 @@ class OuterSkin:
     sewn: frozenset[str] = frozenset()
     web: int = 0
     mechanisms: frozenset[Mechanism] = EVERY
+    stands_for: Denser | None = None
     _cache: dict[str, Floats] = field(default_factory=dict, repr=False)
 
     def has(self, mechanism: Mechanism) -> bool:
@@ -105,12 +126,17 @@ class OuterSkin:
         """(n,) area of skin that each vertex stands for, m^2."""
         return mesh.vertex_areas(self.positions, self.polygons)
 
+    @cached_property
+    def springs(self) -> tuple[Ints, Floats]:
+        """Pairs (S, 2) of vertices and weights (S,), as of `physics.elastic.dirichlet_springs`."""
+        return dirichlet_springs(self.positions, self.polygons) if self.stands_for is None else self.stands_for.springs
+
     @stepwise
     def laplacian(self) -> Work[Sparse]:
         """(n, n) L with u'Lu the integral of |grad u|^2 over the skin."""
-        pairs, weights = dirichlet_springs(self.positions, self.polygons)
+        yield from worked_out(self, "springs")
         yield Progress(0.5, "Preparing the skin")
-        return pair_laplacian(pairs, weights, self.vertex_count)
+        return pair_laplacian(*self.springs, self.vertex_count)
 
     @cached_property
     def fans(self) -> tuple[Ints, Floats]:
@@ -139,6 +165,8 @@ class OuterSkin:
         if not self.has(Mechanism.SEPARATION):
             through_the_air, _ = cKDTree(self.positions[sources]).query(self.positions)
             return np.minimum(np.asarray(through_the_air, dtype=np.float64), 1.0)
+        if self.stands_for is not None:
+            return self.stands_for.distance_from(sources)
         distance = dijkstra(self.graph, directed=self.web > 0, indices=np.unique(sources), min_only=True)
         return np.minimum(distance, 1.0)
 

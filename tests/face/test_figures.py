@@ -73,10 +73,22 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     "response/sampled.py": (2e-3, 2e-5, 1e-4, 0.25, 1.5),  # how near it comes; how many are tried; a kernel
     "response/rooted.py": (0.02, 1e-3),  # ties that keep matrices regular
     "response/spring_skin.py": (3e-3,),  # when a sheet buckles
-    "skin/coarse.py": (0.8, 0.04, 2.2, 0.7, 0.05, 2.4, 0.05, 1e-3),  # how skin is thinned out; weights of its vertices
+    "skin/coarse.py": (
+        0.8,
+        0.04,
+        2.2,
+        0.7,
+        0.3,
+        0.12,
+        0.05,
+        2.4,
+        0.05,
+        1e-3,
+    ),  # how skin is thinned out; weights of its vertices
     "skin/fine.py": (6.0, 3.5),  # how finely skin is split
     "skin/lines.py": (0.1,),  # which place of a line is nearest
     "skin/outer.py": (3.0,),  # the smooth step
+    "skin/stiffness.py": (0.02, 0.25),  # how narrow a triangle counts; the mean of four
 }
 
 
