@@ -160,7 +160,7 @@ class Anatomy:
     @property
     def is_thinned(self) -> bool:
         """Whether the outer skin is solved on a share of its vertices, as there are too many of them."""
-        return self._thinning is not None
+        return self.given_skin.vertex_count > MOST
 
     @property
     def _thinning(self) -> Thinning | None:

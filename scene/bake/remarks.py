@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 NAMED = 3
 
 #: How far poses on a share of a dense skin's vertices are from those on all of it (docs/performance.md).
-THINNED_RMS, THINNED_WORST = "1 %", "9 %"
+THINNED_RMS, THINNED_WORST = "0.5 %", "7 %"
 
 
 def shown_remarks(obj: Object) -> tuple[str, ...]:

@@ -213,8 +213,8 @@ def test_a_bake_tells_that_dense_skin_is_solved_on_a_share_of_its_vertices(
     assert not any("dense" in line for line in remarks(head, face))
     monkeypatch.setattr(anatomy, "MOST", 1000)
     (said,) = (line for line in remarks(head, face) if "dense" in line)
-    assert "off by about 1 %" in said
-    assert "9 % at the worst vertex" in said
+    assert "off by about 0.5 %" in said
+    assert "7 % at the worst vertex" in said
 
 
 def test_what_is_fine_is_remarked_on(head: Any) -> None:
