@@ -140,6 +140,7 @@ class Table:
             for each in self.columns
         ]
         return {
+            "profile": "tabular-data-resource",
             "name": self.name,
             "path": f"{self.name}.csv",
             "format": "csv",

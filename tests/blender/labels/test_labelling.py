@@ -86,7 +86,9 @@ def test_every_table_tells_every_frame(smiling: Any, tmp_path: Path) -> None:
 def test_the_schema_names_every_column_of_every_table(smiling: Any, tmp_path: Path) -> None:
     folder = labelled(smiling, tmp_path, 0, frames=(1, 1))
     package = json.loads((folder / "datapackage.json").read_text(encoding="utf-8"))
+    assert package["profile"] == "tabular-data-package"
     for resource in package["resources"]:
+        assert resource["profile"] == "tabular-data-resource"  # that profile asks for it
         table = rows(folder, resource["name"])
         fields = resource["schema"]["fields"]
         assert [field["name"] for field in fields] == list(table[0])
