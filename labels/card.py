@@ -12,8 +12,8 @@ from .tables import Table
 LIMITS = (
     "Faces are rendered models moved by a model of muscles. They tell what a method does with these, not with people.",
     "Emotion words name what was asked of the face. No person felt or named it.",
-    "FAPs achieved are measured on the very mesh of the frame. Contractions and planned action units drive the motion; "
-    "inertia and elasticity of the skin lie between them and the frame.",
+    "FAPs achieved are measured on the very mesh of the frame, before any subdivision. Contractions and planned action "
+    "units drive the motion; inertia and elasticity of the skin lie between them and the frame.",
     "Explained action units are the mixture that best explains the FAPs achieved; several mixtures may explain "
     "one face.",
     "Whether a landmark is hidden is told by meshes. Hair made of curves, volumes, depth of field, motion blur and "

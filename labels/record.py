@@ -43,7 +43,13 @@ FAP = (
     Column("name", Kind.TEXT, "name of the FAP"),
     Column("asked", Kind.NUMBER, "as asked; empty where the request is silent", "FAP unit", 3),
     Column("goal", Kind.NUMBER, "what the plan of the face makes of it; empty where it knows nothing", "FAP unit", 3),
-    Column("achieved", Kind.NUMBER, "measured on the mesh of this frame; empty where it cannot be", "FAP unit", 3),
+    Column(
+        "achieved",
+        Kind.NUMBER,
+        "measured on the mesh of this frame, undivided; empty where it cannot be",
+        "FAP unit",
+        3,
+    ),
 )
 UNIT = (
     FRAME,
