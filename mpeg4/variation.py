@@ -31,6 +31,12 @@ HABITS = PRESETS / "variation.toml"
 UPPER_LIDS, LOWER_LIDS = (19, 20), (21, 22)
 HEAD, EYES_ASIDE, EYES_DOWN = (48, 49, 50), (23, 24), (25, 26)
 
+#: Blinks per minute, and multiples of the usual motions of head and eyes, at most.
+MOST_BLINKS, MOST_MOVED = 300.0, 20.0
+
+#: Seconds of blinks and looks, at most: a day and more.
+LONGEST = 1e5
+
 #: Units of IRISD0 that make the neutral gap of the lids.
 GAP = 1024.0
 
@@ -127,8 +133,8 @@ class Drawn:
         """Check both."""
         if not (math.isfinite(self.amount) and self.amount >= 0.0):
             raise ParameterError("amount", "must be 0 or more", self.amount)
-        if self.seed < 0:
-            raise ParameterError("seed", "must be 0 or more", self.seed)
+        if not isinstance(self.seed, int | np.integer) or self.seed < 0:
+            raise ParameterError("seed", "must be a whole number, 0 or more", self.seed)
 
 
 @dataclass(frozen=True)
@@ -139,11 +145,22 @@ class Liveliness:
     ----------
     blinks : amount in blinks per minute. head, eyes : amount as a multiple of the usual. Words that turn head and eyes
         (`Bearing`) do so as far as these are above 0, and in full from 1 on.
+
+    Raises
+    ------
+    ParameterError : more blinks than there is time for, or motions beyond head and eyes.
     """
 
     blinks: Drawn = Drawn()
     head: Drawn = Drawn()
     eyes: Drawn = Drawn()
+
+    def __post_init__(self) -> None:
+        """Check that a face can do so much."""
+        for name, most in (("blinks", MOST_BLINKS), ("head", MOST_MOVED), ("eyes", MOST_MOVED)):
+            amount = getattr(self, name).amount
+            if amount > most:
+                raise ParameterError(f"amount of {name}", f"must be {most:g} or less", amount)
 
     @classmethod
     def usual(cls, seed: int | None = None) -> Liveliness:
@@ -305,10 +322,10 @@ def blink_closure(count: int, fps: float, blinks: Drawn, habit: BlinkHabit) -> F
 
 def head_motion(count: int, fps: float, head: Drawn, habit: HeadHabit) -> Floats:
     """(T, 68) small turns of the head as FAPs 48-50: waves of several frequencies, at rest at both ends."""
+    times = _times(count, fps)
     frames = np.full((count, FAP_COUNT), np.nan)
     if head.amount == 0.0:
         return frames
-    times = _times(count, fps)
     rng = np.random.default_rng(head.seed)
     ends = _settled(times, habit.settle, habit.settle)
     for number, degrees in zip(HEAD, (habit.pitch, habit.yaw, habit.roll), strict=True):
@@ -321,10 +338,10 @@ def head_motion(count: int, fps: float, head: Drawn, habit: HeadHabit) -> Floats
 
 def eye_motion(count: int, fps: float, eyes: Drawn, habit: EyesHabit) -> Floats:
     """(T, 68) looks of both eyes as FAPs 23-26: saccades between fixations, straight ahead at both ends."""
+    times = _times(count, fps)
     frames = np.full((count, FAP_COUNT), np.nan)
     if eyes.amount == 0.0:
         return frames
-    times = _times(count, fps)
     rng = np.random.default_rng(eyes.seed)
     gaze, held, here, begin = np.zeros((count, 2)), np.zeros((count + 1, 2)), np.zeros(2), 0.0
     end = times[-1] - habit.settle if count else 0.0
@@ -349,8 +366,10 @@ def eye_motion(count: int, fps: float, eyes: Drawn, habit: EyesHabit) -> Floats:
 def _times(count: int, fps: float) -> Floats:
     """(T,) seconds of frames."""
     check_fps(fps)
-    if count > FRAMES_LIMIT:
-        raise ParameterError("count", f"must be {FRAMES_LIMIT} frames at most", count)
+    if not 0 <= count <= FRAMES_LIMIT:
+        raise ParameterError("count", f"must be 0 to {FRAMES_LIMIT} frames", count)
+    if count / fps > LONGEST:
+        raise ParameterError("frames", f"must last {LONGEST:.0f} seconds at most", count / fps)
     return np.arange(count) / fps
 
 

@@ -8,9 +8,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import risorius.api as api
-from hypothesis import given, settings
+from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from risorius.errors import RisoriusError
+from risorius.mpeg4 import FAP_LIMIT
+from risorius.mpeg4.variation import Overlay
 
 bounded = settings(max_examples=60, derandomize=True, deadline=None, database=None)
 
@@ -69,16 +71,57 @@ def test_expressions_in_time(times: tuple[float, float, float, float], peak: flo
         assert not np.isinf(frames).any()
 
 
-@bounded
-@given(amounts=st.tuples(number, number, number), fps=number, count=st.sampled_from([0, 1, 2, 50]))
-def test_liveliness(amounts: tuple[float, float, float], fps: float, count: int) -> None:
-    def frames() -> object:
-        lively = api.Liveliness(*(api.Drawn(amount, 3) for amount in amounts))
-        return lively.frames(count, fps=fps) if hasattr(lively, "frames") else None
+def mostly(usual: st.SearchStrategy[float], odd: st.SearchStrategy[float]) -> st.SearchStrategy[float]:
+    """Nine in ten of what is usual, so that of many values together not all are refused."""
+    return st.integers(0, 9).flatmap(lambda chance: usual if chance else odd)
 
-    found = or_refused(frames)
-    if found is not None:
-        finite(np.nan_to_num(np.asarray(found), nan=0.0))
+
+#: How much blinks, head and eyes may do, by which seed, and over how long a time.
+amount = mostly(st.floats(0.0, 20.0), st.sampled_from([301.0, 1e9, 1e30, 1e308, np.inf, np.nan, -1.0, -0.0, 5e-324]))
+seed = mostly(st.integers(0, 2**70), st.one_of(st.integers(-3, 3), number))
+frames_per_second = mostly(st.floats(2.0, 300.0), st.one_of(st.sampled_from([0.001, 1e5]), number))
+frame_count = mostly(st.sampled_from([0, 1, 2, 50, 3000]), st.sampled_from([-1, 10**9]))
+
+
+@settings(bounded, max_examples=120)
+@given(
+    drawn=st.tuples(*[st.tuples(amount, seed)] * 3),
+    fps=frames_per_second,
+    count=frame_count,
+    open_lids=st.booleans(),
+)
+def test_liveliness(drawn: tuple[tuple[float, float], ...], fps: float, count: int, open_lids: bool) -> None:
+    """Blinks close the lids at most once over, head and eyes stay where necks and lids let them, and rest at both ends;
+    a longer one begins as a shorter one. Frames of it alone are those of it all."""
+
+    def laid() -> tuple[Overlay, np.ndarray]:
+        overlay = api.Liveliness(*(api.Drawn(*each) for each in drawn)).over(count, fps)
+        frames = np.full((count, 68), np.nan)
+        frames[:, 18:20] = -100.0 if open_lids else np.nan
+        return overlay, overlay.upon_all(frames)
+
+    found = or_refused(laid)
+    event("refused" if found is None else "laid")
+    if found is None:
+        return
+    overlay, frames = found
+    assert len(frames) == count
+    assert not np.isinf(frames).any()
+    finite(overlay.closure, np.nan_to_num(frames))
+    assert ((overlay.closure >= 0.0) & (overlay.closure <= 1.0 + 1e-12)).all()
+    assert np.nanmax(np.abs(frames), initial=0.0) < FAP_LIMIT
+    if count > 1:
+        np.testing.assert_allclose(np.nan_to_num(overlay.added[0]), 0.0, atol=1e-6)
+        np.testing.assert_array_equal(
+            overlay.upon(frames[0] * 0.0, 0)[18:22], overlay.upon_all(frames[:1] * 0.0)[0, 18:22]
+        )
+
+
+def test_liveliness_is_drawn_for_most_of_what_is_tried() -> None:
+    """The property above is none if all is refused: ordinary amounts move lids, head and eyes."""
+    overlay = api.Liveliness(api.Drawn(30.0, 1), api.Drawn(1.0, 2), api.Drawn(1.0, 3)).over(1500, 25.0)
+    assert overlay.closure.max() > 0.9
+    assert set(np.flatnonzero(np.nan_to_num(overlay.added).std(axis=0) > 1.0) + 1) == {23, 24, 25, 26, 48, 49, 50}
 
 
 @bounded
