@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import re
+import select
+import stat
 import tempfile
 import zlib
 from collections.abc import Iterator
@@ -15,6 +18,8 @@ from .resources import PRESETS, STANDARD
 
 #: Bytes of the largest file that is read: more than any of use has.
 LARGEST_FILE = 1 << 30
+#: Seconds until something is written to a pipe.
+PATIENCE = 10.0
 #: Bytes read at once of what does not tell its size.
 AT_ONCE = 1 << 22
 
@@ -81,8 +86,9 @@ def read_bytes(path: str | Path) -> bytes:
     """
     file = Path(path)
     try:
-        with file.open("rb") as source:
+        with open(file, "rb", opener=_opened_at_once) as source:
             size = os.fstat(source.fileno()).st_size
+            _wait_for_writer(source.fileno())
             pieces, left = list[bytes](), LARGEST_FILE + 1
             # A pipe or a device tells no size, and may never end.
             while size <= LARGEST_FILE and left and (piece := source.read(min(left, max(size + 1, AT_ONCE)))):
@@ -90,7 +96,7 @@ def read_bytes(path: str | Path) -> bytes:
                 left -= len(piece)
     except (OSError, ValueError) as error:  # ValueError: a path with a null character
         remedy = "give a file that you may read"
-        with contextlib.suppress(OSError, ValueError):
+        with contextlib.suppress(OSError, ValueError, RuntimeError):  # RuntimeError: links that lead in a circle
             own = any(file.resolve().is_relative_to(tables) for tables in (PRESETS, STANDARD))
             remedy = "install Risorius again" if own else remedy
         reason = error.strerror if isinstance(error, OSError) else error
@@ -98,6 +104,25 @@ def read_bytes(path: str | Path) -> bytes:
     if size > LARGEST_FILE or not left:
         raise FormatError(file, f"is larger than {LARGEST_FILE >> 30} GiB: cut it into parts")
     return pieces[0] if len(pieces) == 1 else b"".join(pieces)
+
+
+def _opened_at_once(path: str, flags: int) -> int:
+    """Open a file; a pipe without waiting for whoever writes to it."""
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
+
+
+def _wait_for_writer(descriptor: int) -> None:
+    """Of a pipe, wait until something is written to it, or it is at its end; then read on as of any file.
+
+    Raises
+    ------
+    OSError : nobody writes to it.
+    """
+    if not hasattr(os, "O_NONBLOCK"):
+        return
+    if stat.S_ISFIFO(os.fstat(descriptor).st_mode) and not select.select([descriptor], [], [], PATIENCE)[0]:
+        raise OSError(errno.ETIMEDOUT, "it is a pipe to which nobody writes")
+    os.set_blocking(descriptor, True)
 
 
 #: Names that Windows gives to devices, whatever ending stands behind them.

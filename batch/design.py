@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import os
 import re
 import shlex
 from collections import Counter
@@ -43,10 +44,14 @@ Level: TypeAlias = str
 MOST, DIGITS = 1_000_000, 6
 #: Rows that are weighed against one another for the next one of a counterbalanced design.
 WEIGHED = 2000
+#: Letters of a design that is a line.
+LONGEST_LINE = 100_000
+#: Cells that are shuffled as a list.
+SHUFFLED = 10_000_000
 #: The keys of a design beside its factors.
 KEYS = ("kind", "count", "repeats", "draw")
 #: A range in a line: 3..7, 3..7/5.
-RANGE = re.compile(r"(-?[\d.]+(?:e-?\d+)?)\.\.(-?[\d.]+(?:e-?\d+)?)(?:/(\d+))?")
+RANGE = re.compile(r"(-?[\d.]+(?:e-?\d+)?)\.\.(-?[\d.]+(?:e-?\d+)?)(?:/([0-9]{1,18}))?")
 
 
 class Kind(StrEnum):
@@ -138,6 +143,9 @@ def _grid(levels: Sequence[Sequence[Level]], design: Design) -> Iterator[tuple[L
 def _random(levels: Sequence[Sequence[Level]], design: Design) -> Iterator[tuple[Level, ...]]:
     """Cells by chance; each once before any comes again."""
     rng, cells = np.random.default_rng((design.draw, 0)), math.prod(map(len, levels))
+    if cells > SHUFFLED:
+        yield from _sparse(levels, design, rng)
+        return
     places: list[int] = []
     for _ in range(design.row_count):
         places = places or rng.permutation(cells).tolist()
@@ -146,6 +154,16 @@ def _random(levels: Sequence[Sequence[Level]], design: Design) -> Iterator[tuple
             place, at = divmod(place, len(each))
             cell.append(each[at])
         yield tuple(cell)
+
+
+def _sparse(levels: Sequence[Sequence[Level]], design: Design, rng: np.random.Generator) -> Iterator[tuple[Level, ...]]:
+    """As `_random`, of so many cells that they are not listed."""
+    seen = set[tuple[Level, ...]]()
+    while len(seen) < design.row_count:
+        cell = tuple(each[int(rng.integers(len(each)))] for each in levels)
+        if cell not in seen:
+            seen.add(cell)
+            yield cell
 
 
 def _balanced(levels: Sequence[Sequence[Level]], design: Design) -> Iterator[tuple[Level, ...]]:
@@ -243,13 +261,15 @@ def _level(table: TomlTable, name: str, value: object, folder: Path) -> Level:
 
 def _from(folder: Path, name: str, value: str) -> str:
     """A level; a file as seen from anywhere."""
-    return str((folder / Path(value).expanduser()).resolve()) if name in file_columns() and value else value
+    return os.path.abspath(folder / os.path.expanduser(value)) if name in file_columns() and value else value
 
 
 def _range(least: float, most: float, whole: bool, steps: int | None) -> tuple[Level, ...] | Drawn:
     """A range as levels at equal distances, or drawn."""
     if not (math.isfinite(least) and math.isfinite(most) and least < most):
         raise ParameterError("least", "must be below most", least)
+    if steps is not None and steps > MOST:
+        raise ParameterError("steps", f"must be {MOST} or fewer", steps)
     if steps is None:
         return Drawn(least, most, whole)
     return tuple(f"{level:.6g}" for level in np.linspace(least, most, steps))
@@ -257,6 +277,8 @@ def _range(least: float, most: float, whole: bool, steps: int | None) -> tuple[L
 
 def _from_line(line: str) -> Design:
     """A design of one line."""
+    if len(line) > LONGEST_LINE:
+        raise ParameterError("--design", f"must have {LONGEST_LINE} letters at most: write a .toml file", line)
     try:
         words = shlex.split(line)
     except ValueError as error:
@@ -271,7 +293,7 @@ def _from_line(line: str) -> Design:
         said[name] = value
     numbers = {name: said.pop(name) for name in KEYS[1:] if name in said}
     for name, value in numbers.items():
-        if not value.isdigit() or (name != "draw" and int(value) < 1):
+        if not re.fullmatch(r"[0-9]{1,18}", value) or (name != "draw" and int(value) < 1):
             raise ParameterError(name, "must be a whole number", value)
     kind = said.pop("kind", Kind.GRID)
     if kind not in list(Kind):

@@ -14,9 +14,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..errors import FormatError
+from ..errors import LONGEST_PART, FormatError, short
 from ..resources import version
-from ..tables import read_json
+from ..tables import KeyedTable, read_json
 from .jobs import Job, digest_of
 
 #: Name of a record in a job's folder.
@@ -115,24 +115,34 @@ def read_record(folder: Path) -> Record | None:
     path = folder / RECORD
     if not path.is_file():
         return None
-    table = read_json(path, kind=FORMAT, version=VERSION)
     try:
-        document = table.cells
-        return Record(
-            id=str(document["id"]),
-            row=dict(document["row"]),
-            fingerprint=str(document["fingerprint"]),
-            inputs=dict(document["inputs"]),
-            files={name: Written(int(file["bytes"]), str(file["sha256"])) for name, file in document["files"].items()},
-            contents=dict(document["contents"]),
-            versions=dict(document["versions"]),
-            seconds=float(document["seconds"]),
-            began=float(document["began"]),
-            frames=int(document["frames"]),
-            remarks=tuple(document["remarks"]),
-        )
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise FormatError(path, f"is not the record of a job ({error!r}): remove its folder") from error
+        return _record(read_json(path, kind=FORMAT, version=VERSION))
+    except FormatError as error:
+        problem = f"is not the record of a job ({short(str(error), LONGEST_PART)}): remove its folder"
+        raise FormatError(path, problem) from error
+
+
+def _record(table: KeyedTable) -> Record:
+    """A record as JSON has it."""
+    files = {name: table.table("files").table(name) for name in table.table("files")}
+    return Record(
+        id=table.text("id"),
+        row=dict(table.table("row").cells),
+        fingerprint=table.text("fingerprint"),
+        inputs=_texts(table.table("inputs")),
+        files={name: Written(file.integer("bytes", least=0), file.text("sha256")) for name, file in files.items()},
+        contents=_texts(table.table("contents")),
+        versions=_texts(table.table("versions")),
+        seconds=table.number("seconds", least=0.0),
+        began=table.number("began", least=0.0),
+        frames=table.integer("frames", least=0),
+        remarks=table.texts("remarks"),
+    )
+
+
+def _texts(table: KeyedTable) -> dict[str, str]:
+    """The texts of a table."""
+    return {name: table.text(name, "") for name in table}
 
 
 def damage(folder: Path, record: Record) -> str | None:

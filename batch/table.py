@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -190,7 +191,7 @@ def _known_words(cells: Cells, values: dict[str, Value]) -> None:
 def _files_there(cells: Cells, values: dict[str, Value]) -> None:
     """Every file that is named is there."""
     for name in file_columns():
-        if values[name] is not None and not _file(cells, values, name).is_file():
+        if values[name] is not None and not os.path.isfile(_file(cells, values, name)):
             raise cells.refuse(f"names no file: {_file(cells, values, name)} is not there; correct the path", name)
 
 
@@ -225,5 +226,5 @@ def _suffix(value: Value) -> str:
 
 def _file(cells: Cells, values: dict[str, Value], name: str) -> Path:
     """A file that a row names, seen from the table's folder."""
-    path = Path(str(values[name])).expanduser()
+    path = Path(os.path.expanduser(str(values[name])))  # Path's own raises where there is no such user
     return path if path.is_absolute() else cells.path.parent / path

@@ -23,11 +23,15 @@ BY_OTHERS = 0o022
 
 
 def kept_folder() -> Path | None:
-    """Where prepared faces are kept; None where that is turned off, or others can write there."""
+    """Where prepared faces are kept; None where that is turned off, there is no such place, or
+    others can write there."""
     told = os.environ.get(VARIABLE, "")
     if told.lower() == OFF:
         return None
-    folder = Path(told).expanduser() if told else _cache() / "risorius" / "faces"
+    try:
+        folder = Path(told).expanduser() if told else _cache() / "risorius" / "faces"
+    except RuntimeError:  # nobody of that name, or no home
+        return None
     with suppress(OSError):
         if os.name == "posix" and folder.exists():
             state = folder.stat()

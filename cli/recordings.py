@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -71,7 +72,7 @@ def is_recording(path: Path) -> bool:
     from .. import api
 
     ending = path.suffix.lower()
-    return ending in api.READABLE_STREAMS or (ending not in MESHES and path.is_file())
+    return ending in api.READABLE_STREAMS or (ending not in MESHES and os.path.isfile(path))
 
 
 def read_as_told(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -134,7 +135,7 @@ def _of(arguments: argparse.Namespace) -> Result:
     from .. import api
 
     source = Path(arguments.source)
-    if source.suffix.lower() in api.READABLE_STREAMS or source.is_file():
+    if source.suffix.lower() in api.READABLE_STREAMS or os.path.isfile(source):
         refuse_idle(arguments, "is for an emotion word: leave it out with a file", "activation", "variant", "fps")
         _tell_idle_writing(arguments, arguments.out)
         return _convert(arguments) if arguments.out else _info(arguments)

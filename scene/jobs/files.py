@@ -5,6 +5,7 @@ A job opens a file of its own, so it refuses to run in a Blender with a window, 
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -66,10 +67,10 @@ def open_file(path: Path, fps: float | None) -> None:
     _refuse_window()
     if fps is not None:
         _refuse_wrong_rate(fps)
-    if not path.is_file():
+    if not os.path.isfile(path):  # Path's own raises where a name is too long
         raise FormatError(path, "does not exist: check the path")
     try:
-        bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False)
+        bpy.ops.wm.open_mainfile(filepath=os.path.abspath(path), load_ui=False)
     except RuntimeError as problem:
         raise FormatError(path, f"cannot be read by this Blender ({str(problem).strip()})") from problem
     if fps is not None:

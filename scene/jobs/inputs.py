@@ -6,6 +6,7 @@ else is read into an empty file.
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -121,11 +122,13 @@ def _from_arrays(path: Path) -> Object:
 
 def _from_gltf(path: Path) -> list[Object]:
     """The meshes of a glTF file."""
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise FormatError(path, "does not exist: check the path")
     before = set(bpy.data.objects)
     try:
         bpy.ops.import_scene.gltf(filepath=str(path))
     except (RuntimeError, AttributeError) as problem:
-        raise FormatError(path, f"cannot be imported: {problem}") from problem
+        told = [line for line in str(problem).splitlines() if line.strip()] or ["Blender does not say why"]
+        reason = told[-1].strip().removeprefix("Error: ")
+        raise FormatError(path, f"cannot be imported ({reason}): export it again") from problem
     return [obj for obj in bpy.data.objects if obj not in before and obj.type == "MESH"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -53,7 +54,7 @@ def say_file(
     ------
     RisoriusError : nothing has been written then.
     """
-    if sound is not None and not Path(sound).is_file():
+    if sound is not None and not os.path.isfile(sound):
         raise FormatError(sound, "does not exist: check the path of the sound")
     asked, look = Input.of(mesh, points, object_name, fps), Look(engine=engine_of(engine))
     return run(_say(Path(out), say, asked, destination, look, creases, sound, labels), progress)

@@ -143,3 +143,18 @@ def test_a_wrong_file_is_told_with_its_key(tmp_path: Path) -> None:
 def test_parameters_are_checked() -> None:
     with pytest.raises(ParameterError):
         Design({}, {})
+
+
+def test_a_design_of_more_cells_than_memory_has_room_for_is_drawn_all_the_same() -> None:
+    factors = " ".join(f"{name}=0..30/1000" for name in ("yaw", "pitch", "distance", "onset", "apex", "offset"))
+    rows = list(rows_of(read_design(f"emotion=joy,fear {factors} kind=random count=50")))
+    assert len({tuple(row.values()) for row in rows}) == 50
+    assert rows[:10] == list(rows_of(read_design(f"emotion=joy,fear {factors} kind=random count=10")))
+
+
+@pytest.mark.parametrize("count", ["9" * 5000, "²", "1e3", "٣", "-1"])
+def test_counts_that_are_none_are_refused(count: str) -> None:
+    with pytest.raises(ParameterError, match="whole number"):
+        read_design(f"emotion=joy,fear seed=0..9 kind=random count={count}")
+    with pytest.raises(ParameterError, match="steps must be"):
+        read_design(f"emotion=joy,fear yaw=0..9/{'9' * 15} kind=random count=3")

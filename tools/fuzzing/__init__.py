@@ -2,6 +2,7 @@
 
 readers    what is read, and what is done with what was read
 seeds      sound files of every kind, in a few lines each
+batches    tables, designs and records of a batch
 blend      what Risorius keeps in a .blend as text
 meshes     meshes with one damage after another
 mutations  what happens to files

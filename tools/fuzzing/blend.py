@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import base64
+import contextlib
+import io
 import json
+import struct
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -11,6 +15,7 @@ from typing import Any
 import bpy
 import numpy as np
 from risorius.operators.points.clicks import clicks_of
+from risorius.scene.jobs.inputs import meshes_of
 from risorius.scene.points import bound
 from risorius.scene.points.kept import POINTS, read_kept
 from risorius.scene.rig.kept import FOLLOWED, _followed
@@ -18,6 +23,9 @@ from risorius.scene.rig.layers import INTO, REST, noted
 from risorius.scene.shape_mix import RECORD, own_keys
 
 from .attempts import Reader
+
+#: How glTF holds data in its text.
+INLINE = "data:application/octet-stream;base64,"
 
 
 def blend_readers() -> list[Reader]:
@@ -42,6 +50,7 @@ def blend_readers() -> list[Reader]:
         Reader("blend_into", _noted(INTO), _json(spans)),
         Reader("blend_followed", _follows, _json(followed)),
         Reader("blend_clicks", lambda path: clicks_of(_text(path)), _json(clicks)),
+        Reader("blend_gltf", _head, _gltf()),
     ]
 
 
@@ -64,6 +73,41 @@ def _cube() -> Any:
     made.shape_key_add(name="Basis")
     made.shape_key_add(name="joy")
     return made
+
+
+def _gltf() -> dict[str, bytes]:
+    """A square as text and in binary."""
+    places = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype="<f4").tobytes()
+    data = places + np.array([0, 1, 2, 0, 2, 3], dtype="<u2").tobytes()
+    document = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "face"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+            {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+        ],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+        "buffers": [{"byteLength": len(data)}],
+    }  # fmt: skip
+    told = {**document, "buffers": [{"byteLength": len(data), "uri": INLINE + base64.b64encode(data).decode()}]}
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    parts = (struct.pack("<II", len(piece), kind) + piece for piece, kind in ((text, 0x4E4F534A), (data, 0x004E4942)))
+    whole = b"".join(parts)
+    return {"a.gltf": json.dumps(told).encode(), "a.glb": struct.pack("<4sII", b"glTF", 2, 12 + len(whole)) + whole}
+
+
+def _head(path: Path) -> object:
+    """The meshes of a glTF file; they go again."""
+    before = {obj.name for obj in bpy.data.objects}
+    try:
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # of the importer
+            found = meshes_of(path)
+        return [(obj.name, np.array([[*vertex.co] for vertex in obj.data.vertices])) for obj in found]
+    finally:
+        for obj in [each for each in bpy.data.objects if each.name not in before]:
+            bpy.data.objects.remove(obj)
+        bpy.data.orphans_purge()
 
 
 @cache

@@ -12,15 +12,22 @@ import numpy as np
 import risorius.api as api
 from risorius.cli.exports import _controls_of
 from risorius.errors import RisoriusError
+from risorius.face.default_head.figures import read_figures
 from risorius.face.kept.entries import DIGEST, MARK, Entries
+from risorius.face.muscles.table import read_muscles
+from risorius.face.products.crease_table import read_creases
+from risorius.face.response.folds import read_folds
+from risorius.mpeg4.emotions.prototypes import TABLE, load_prototypes
 from risorius.mpeg4.preset_file import read_preset
 from risorius.mpeg4.variation import load_habits
+from risorius.physics.tissue import load_tissues
 from risorius.polygons import PolygonTable
 from risorius.progress import run
 from risorius.track.confidence_file import COLUMNS, read_confidence
 
 from . import seeds
 from .attempts import Reader
+from .batches import batch_readers
 
 #: Frames up to which a stream is written again.
 WRITTEN = 2000
@@ -44,6 +51,13 @@ def readers() -> list[Reader]:
         Reader("keys", lambda path: dict(api.load_key_names(path)), seeds.presets("capture/keys/*.toml")),
         Reader("topology", topology, seeds.presets("topologies/default_head.toml", "topologies/mediapipe_468.toml")),
         Reader("kept", kept, _kept()),
+        Reader("tissue", lambda path: dict(load_tissues(path)), seeds.presets("tissue.toml")),
+        Reader("muscles", read_muscles, seeds.presets("anatomy/muscles/*.toml")),
+        Reader("folds", read_folds, seeds.presets("anatomy/folds.toml")),
+        Reader("creases", read_creases, seeds.presets("anatomy/creases.toml")),
+        Reader("ways", lambda path: dict(load_prototypes(path)), _ways()),
+        Reader("head_figures", read_figures, seeds.presets("heads/default.toml")),
+        *batch_readers(),
     ]
     if importlib.util.find_spec("bpy") is not None:
         from .blend import blend_readers
@@ -168,7 +182,29 @@ def _confidence() -> dict[str, bytes]:
 def _presets() -> dict[str, bytes]:
     found = seeds.presets("timelines/*.toml")
     emotion, by_hand = "[emotion]\nangle = 20.5\nactivation = 5.0\nseed = 3\n", "[contractions]\nrisorius_l = 0.5\n"
-    return found | {"joy.toml": f'risorius = "expression"\n{emotion}{by_hand}'.encode()}
+    found["joy.toml"] = f'risorius = "expression"\n{emotion}{by_hand}'.encode()
+    clip = '[[clips]]\nword = "joy"\nactivation = 5.0\nstart = 0.0\nonset = 0.2\napex = 0.2\noffset = 0.3\n'
+    return found | {"said.toml": f'risorius = "timeline"\n{clip}{SPEECH}'.encode()}
+
+
+SPEECH = """[[speech]]
+name = "Hello"
+start = 0.5
+stretch = 1.2
+
+[[speech.words]]
+name = "Hello"
+start = 0.0
+end = 0.4
+sounds = ["p", "a"]
+visemes = [1, 10]
+times = [0.0, 0.1, 0.1, 0.4]
+"""
+
+
+def _ways() -> dict[str, bytes]:
+    """Ways of showing emotions."""
+    return {TABLE.name: TABLE.read_bytes()}
 
 
 def _kept() -> dict[str, bytes]:
