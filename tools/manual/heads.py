@@ -8,19 +8,26 @@ from .session import MIDDLE, PICTURES, QUALITY, Session
 
 #: Frames at which the six emotions of the button are full.
 FULL = (24, 89, 154, 219, 284, 349)
-#: Half of a picture of a face, across and up, and its middle below the eyes, as shares of the way from eyes to chin.
-ACROSS, UP, BELOW = 1.45, 2.1, 0.35
-#: Where in the window a face is: the middle between its eyes, and its chin, in pixels from the upper left.
-PLACES = """
+#: Renders of the active face at some frames, as an array (height, width, 4) in a file.
+ROW = """
+import numpy as np
 from importlib import import_module
-from bpy_extras.view3d_utils import location_3d_to_region_2d
-points = import_module("bl_ext.user_default.risorius.scene.points.kept").read_kept(bpy.context.object).points
-region, view = viewport()[2]["WINDOW"], viewport()[1].spaces.active.region_3d
-found = [
-    location_3d_to_region_2d(region, view, bpy.context.object.matrix_world @ Vector(points[name].at))
-    for name in ("3.7", "3.12", "2.1")
-]
-result = [[region.x + place.x, 900 - region.y - place.y] for place in ((found[0] + found[1]) / 2.0, found[2])]
+pictures = "bl_ext.user_default.risorius.scene.pictures."
+look, framing, studio = (import_module(pictures + name) for name in ("look", "framing", "studio"))
+seen = look.Look(width=320, height=400, engine=look.Engine.WORKBENCH)
+tiles = []
+with studio.studio([bpy.context.object], framing.framing_of(bpy.context.object), seen) as scene:
+    for frame in {frames!r}:
+        tile = bpy.data.images.load(str(studio.render_frame(scene, frame, Path({folder!r}))))
+        pixels = np.empty(4 * 320 * 400, dtype=np.float32)
+        tile.pixels.foreach_get(pixels)
+        tiles.append(pixels.reshape(400, 320, 4))
+        bpy.data.images.remove(tile)
+sheet = np.ascontiguousarray(np.concatenate(tiles, axis=1))
+picture = bpy.data.images.new("sheet", sheet.shape[1], sheet.shape[0])
+picture.pixels.foreach_set(sheet.ravel())
+picture.filepath_raw, picture.file_format = {out!r}, "JPEG"
+picture.save(quality={quality})
 """
 
 
@@ -66,45 +73,22 @@ def body(session: Session) -> None:
         "mesh = bpy.data.meshes.new('Body')\n"
         "mesh.from_pydata(np.stack([x, z, -y], axis=1).tolist(), [], faces)\n"
         "mesh.polygons.foreach_set('use_smooth', [True] * len(mesh.polygons))\n"
+        "clay = bpy.data.materials.new('Clay')\n"
+        "clay.diffuse_color = (0.5, 0.42, 0.37, 1.0)\n"
+        "mesh.materials.append(clay)\n"
         "obj = bpy.data.objects.new('Body', mesh)\n"
         "bpy.context.scene.collection.objects.link(obj)\n"
         "bpy.context.view_layer.objects.active = obj\n"
         "obj.select_set(True)\n"
-        "viewport()[1].spaces.active.overlay.show_overlays = False\n"
-        "viewport()[1].spaces.active.clip_end = 10000.0\n"
         "bpy.context.window_manager.risorius.wheel.show = bpy.context.window_manager.risorius.preview.show = False"
     )
     session.run("bpy.ops.risorius.bake_six('INVOKE_DEFAULT')")
     session.window.wait(
         "not any('bake_six' in op.bl_idname for op in bpy.context.window_manager.windows[0].modal_operators)", 300.0
     )
-    shots = []
-    for frame in FULL:
-        session.run(f"bpy.context.scene.frame_set({frame})")
-        shots.append(str(session.shot(f"body-{frame}")))
-    (x, y), (_, chin) = session.window.ask("from mathutils import Vector" + PLACES)
-    middle, long = y + BELOW * (chin - y), chin - y
-    left, top, right, bottom = (
-        round(edge) for edge in (x - ACROSS * long, middle - UP * long, x + ACROSS * long, middle + UP * long)
-    )
     out = session.folder / "points-six.jpg"
-    session.window.ask(
-        "import numpy as np\n"
-        "parts = []\n"
-        f"for path in {shots!r}:\n"
-        "    image = bpy.data.images.load(path)\n"
-        "    w, h = image.size\n"
-        "    pixels = np.empty(4 * w * h, dtype=np.float32)\n"
-        "    image.pixels.foreach_get(pixels)\n"
-        f"    parts.append(pixels.reshape(h, w, 4)[h - {bottom}:h - {top}, {left}:{right}])\n"
-        "    bpy.data.images.remove(image)\n"
-        "sheet = np.concatenate(parts, axis=1)\n"
-        "picture = bpy.data.images.new('sheet', sheet.shape[1], sheet.shape[0])\n"
-        "picture.pixels.foreach_set(np.ascontiguousarray(sheet).ravel())\n"
-        f"picture.filepath_raw, picture.file_format = {str(out)!r}, 'JPEG'\n"
-        f"picture.save(quality={QUALITY})\n"
-        "viewport()[1].spaces.active.overlay.show_overlays = True"
-    )
+    row = ROW.format(frames=FULL, folder=str(session.folder), out=str(out), quality=QUALITY)
+    session.window.ask("from pathlib import Path" + row)
     (PICTURES / out.name).write_bytes(out.read_bytes())
     print(out.name, flush=True)
 
