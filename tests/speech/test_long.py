@@ -12,7 +12,8 @@ from risorius.face.drive.over_time import cue_goals, cue_plans
 from risorius.face.drive.request import Drive
 from risorius.progress import Progress, run
 from risorius.speech.glimpse import glimpse
-from risorius.speech.phonemes import phonemes
+
+from ..long_speech import lasting
 
 FPS = 10.0
 JOY, FEAR = api.expression("joy"), api.expression("fear")
@@ -21,16 +22,6 @@ CUES = [
     api.Cue(FEAR, start=1.5, onset=0.4, apex=1.0, offset=0.6, seed=3),
     api.Cue(JOY, start=5.0, onset=0.4, apex=1.0, offset=0.6),
 ]
-
-
-def lasting(seconds: float) -> api.Utterance:
-    """Syllables without end, a pause after every eighth sound."""
-    sounds, at = list[api.Sound](), 0.3
-    while at < seconds - 0.5:
-        symbol = ["m", "a", "p", "i", "f", "u", "t", "o"][len(sounds) % 8]
-        sounds.append(api.Sound(at, at + 0.12, phonemes()[symbol], symbol))
-        at += 0.12 if len(sounds) % 8 else 0.7
-    return api.Utterance(tuple(sounds), seconds)
 
 
 def test_longer_speech_tells_more_of_its_progress() -> None:

@@ -14,20 +14,11 @@ from risorius.progress import run
 from risorius.scene.bake.speech_motion import SpeechMotion
 from risorius.scene.live.played import PlayedMotion
 from risorius.speech.accompaniment import BY_RULE
-from risorius.speech.phonemes import phonemes
+
+from ...long_speech import lasting
 
 FPS = 10.0
 CUES = [api.Cue(api.expression("joy"), onset=0.4, apex=1.0, offset=0.6)]
-
-
-def lasting(seconds: float) -> api.Utterance:
-    """Syllables without end, a pause after every eighth sound."""
-    sounds, at = list[api.Sound](), 0.3
-    while at < seconds - 0.5:
-        symbol = ["m", "a", "p", "i", "f", "u", "t", "o"][len(sounds) % 8]
-        sounds.append(api.Sound(at, at + 0.12, phonemes()[symbol], symbol))
-        at += 0.12 if len(sounds) % 8 else 0.7
-    return api.Utterance(tuple(sounds), seconds)
 
 
 def test_a_motion_shows_a_moment_before_it_is_worked_out() -> None:
