@@ -105,6 +105,16 @@ class Feeling(dict[Archetype, float]):
         """Shares as they are felt; those without an activation at each archetype's own."""
         return shares if isinstance(shares, cls) else cls(shares)
 
+    def faded(self, share: float) -> Feeling:
+        """The same as a share 0..1 of it shows, while it comes or goes."""
+        return Feeling(
+            self,
+            activation=self.activation,
+            strength=share * self.strength,
+            prototypes=self.prototypes,
+            shows=self.shows,
+        )
+
 
 @dataclass(frozen=True)
 class Profile:

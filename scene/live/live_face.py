@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...arrays import Floats, Ints
+from ...mpeg4 import Feeling
 from ...progress import Work
 from ..bake.motion import Motion
 from ..bake.target import Target
@@ -171,7 +172,8 @@ class LiveFace:
         """(k, T, 3) the skin's ways from rest to FAPs (68,), in the head mesh's own coordinates."""
         rest, stops = self._source.vertices[self._traced], [np.zeros((len(self._traced), 3))]
         for share in np.linspace(0.0, 1.0, STOPS)[1:]:
-            pose = self.pose(share * faps, drive=drive, emotion=emotion, contractions=contractions)
+            felt = None if emotion is None else Feeling.of(emotion).faded(share)
+            pose = self.pose(share * faps, drive=drive, emotion=felt, contractions=contractions)
             stops.append(pose.displacement[self._traced])
         return self._local(np.stack([rest + moved for moved in stops], axis=1))
 
