@@ -11,7 +11,7 @@ take `progress` call it in the same way.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import Any, Generic, NamedTuple, Self, TypeAlias, TypeVar, overload
 
 from .errors import ParameterError
@@ -45,6 +45,12 @@ class Progress(_Step):
         return cls(done / count if count else 1.0, f"{done} of {count} {things}")
 
 
+class Writing(Progress):
+    """The last step of work that computes first and writes last: what follows yields nothing more."""
+
+    __slots__ = ()
+
+
 #: A generator that yields Progress and returns T. Closing it before its end undoes whatever it had begun.
 Work: TypeAlias = Generator[Progress, None, T]
 
@@ -73,10 +79,27 @@ def part_of(work: Work[T], start: float, end: float) -> Work[T]:
             result: T = stop.value
             return result
         try:
-            yield Progress(start + (end - start) * step.fraction, step.text)
+            yield type(step)(start + (end - start) * step.fraction, step.text)
         except GeneratorExit:
             work.close()
             raise
+
+
+def written_together(works: Sequence[Work[T]]) -> Work[list[T]]:
+    """Several works that end with `Writing`: all are computed before any is written, so all are done or none."""
+    results: list[T] = []
+    try:
+        for index, work in enumerate(works):
+            step: Progress = Progress(0.0, "")
+            while not isinstance(step, Writing):
+                step = next(work)
+                yield Progress((index + step.fraction) / len(works), step.text)
+        for work in works:
+            results.append(run(work))
+    finally:
+        for work in works:
+            work.close()
+    return results
 
 
 class stepwise(Generic[T]):

@@ -11,6 +11,7 @@ shape_mix             the mix of the user's shape keys that the resting face is
 posed                 a face that a rig has brought into another shape, and the way back
 mesh, head            meshes to arrays and back; the default head
 faces, companions     from objects to a face: the head, and what belongs to it
+as_read               whether objects are still as they were read
 fingerprint           which object it is, and which face
 following             which objects belong to a face, and how they follow it
 parts_found           parts of a face's mesh, told and corrected

@@ -65,7 +65,7 @@ def write_blendshapes(target: Target, names: str | Path = "arkit", *, replace: b
     posed = yield from part_of(arkit_shape_steps(face, wanted), 0.0, 0.97)
     shapes = {name: positions - face.vertices for name, positions in posed.items()}
     yield Progress(0.97, "Writing the shape keys")
-    source.refuse_changed()
+    target.refuse_changed(source)
     if target.make_single_user:
         for obj in source.objects:
             own_mesh(obj)

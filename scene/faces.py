@@ -14,19 +14,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..errors import SceneError
 from ..face.mesh.parts import Part, Told
 from ..face.mesh.point_files import PointTable
 from ..polygons import PolygonTable
 from ..progress import Work, run
 from . import mesh as meshes
+from .as_read import AsRead
 from .blender_types import Mesh, Object, Scene
 from .companions import Companion, placements, refuse_confused
 from .fingerprint import Fingerprint, fingerprint
 from .points.stored import moved_points, stored_points
 from .points.stored import store_points as store_points
 from .posed import Posed, posed
-from .refusals import refuse_broken_vertices, refuse_unreadable, refuse_unwritable
+from .refusals import refuse_broken_vertices, refuse_unreadable
 from .shape_mix import Resting, resting_values, settle_drivers
 
 if TYPE_CHECKING:
@@ -117,6 +117,7 @@ class FaceSource:
     polygons : between `vertices`.
     points : name -> vertex index, or position (3,) in metres.
     parts : (V,) of `Part` and `Told`; None where nothing is known.
+    as_read : what each object was.
     """
 
     pieces: tuple[Piece, ...]
@@ -125,6 +126,7 @@ class FaceSource:
     points: Mapping[str, int | Floats]
     parts: Ints | None
     fingerprint: Fingerprint
+    as_read: tuple[AsRead, ...]
 
     @property
     def head(self) -> Object:
@@ -136,18 +138,19 @@ class FaceSource:
         """All objects of the face, the head first."""
         return tuple(piece.obj for piece in self.pieces)
 
-    def refuse_changed(self) -> None:
+    def refuse_changed(self, *, same_mesh: bool = False) -> None:
         """Refuse to write on objects that others have changed since they were read; to be asked just before writing.
+
+        Parameters
+        ----------
+        same_mesh : what is written names the very meshes that were read.
 
         Raises
         ------
-        SceneError : one cannot be written to any more, or its mesh has other vertices.
+        SceneError : see `AsRead.refuse_changed`.
         """
-        for piece in self.pieces:
-            refuse_unwritable(piece.obj, make_single_user=True)
-            if len(piece.obj.data.vertices) != len(piece.mix):
-                problem = "was changed while its face was computed: do it again; nothing has been written"
-                raise SceneError(piece.obj.name, problem)
+        for obj, read in zip(self.objects, self.as_read, strict=True):
+            read.refuse_changed(obj, same_mesh=same_mesh)
 
 
 def read_face(
@@ -206,6 +209,7 @@ def read_face(
         metric,
         None if (parts == Told.ANYTHING).all() else parts,
         fingerprint(obj, companions, points=points, scene=scene, resting=resting, rigged=rigged),
+        tuple(AsRead.of(member) for member in members),
     )
 
 

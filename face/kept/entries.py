@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
+from secrets import token_hex
 from typing import Any
 
 import numpy as np
@@ -93,7 +94,7 @@ class Entries:
     def _write(self, path: Path, head: bytes, arrays: Sequence[Any]) -> Work[bool]:
         """Write a file and put it in its place."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        part = path.with_suffix(f".{os.getpid()}.part")
+        part = path.with_suffix(f".{os.getpid()}-{token_hex(4)}.part")  # of another computer the number may be the same
         digest = sha256()
         try:
             with part.open("wb") as file:
@@ -143,8 +144,9 @@ class Entries:
         with suppress(OSError):
             for path in self.folder.iterdir():
                 if path.suffix == suffix and len(path.name.split(".")[0]) == 2 * DIGEST:
-                    state = path.stat()
-                    found.append((state.st_mtime_ns, state.st_size, path))
+                    with suppress(FileNotFoundError):  # another Blender has deleted it meanwhile
+                        state = path.stat()
+                        found.append((state.st_mtime_ns, state.st_size, path))
         return found
 
     def _path(self, key: str) -> Path:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
-from ...progress import Work
+from ...progress import Work, written_together
 from ...scene import bake, refusals
 from ...scene.bake import shape_keys
 from ...scene.bake.notes import BakeKind
@@ -183,11 +183,13 @@ class RISORIUS_OT_bake_again(BakeOperator, Operator):
             BakeKind.STRIP: strips_work,
             BakeKind.MOTION: motion_work,
         }
-        results: list[bake.BakeResult] = []
-        for onto in sorted({onto for onto, _ in stale}):
-            for kind, work in works.items():
-                if (onto, kind) in stale:
-                    results.append((yield from work(obj, scene, destination_again(obj, onto))))
+        wanted = [
+            work(obj, scene, destination_again(obj, onto))
+            for onto in sorted({onto for onto, _ in stale})
+            for kind, work in works.items()
+            if (onto, kind) in stale
+        ]
+        results = yield from written_together(wanted)
         return results[0] if len(results) == 1 else bake.joined(results)
 
 

@@ -9,7 +9,7 @@ import bpy
 
 from ...progress import Work
 from ...scene import bake
-from ...scene.bake import performance, shape_keys
+from ...scene.bake import performance
 from ...scene.points.found import Finding
 from ...scene.points.kept import read_kept
 from ...scene.rig import bake_expressions_onto
@@ -49,21 +49,15 @@ or to your own keys or bones as the Bake panel says. If the mesh has no feature 
         return with_points(active_object(context), lambda: self.baking(context), scene=context.scene)
 
     def baking(self, context: Context) -> Work[list[bake.BakeResult]]:
-        """One after another; closed early, those that are done and were not there before are taken away again."""
+        """One after another on the timeline; all six or, closed early, none."""
         obj, target = active_object(context), target_of(active_object(context), context.scene)
-        cues, before = performance.cues_of(performance.ARCHETYPES), set(shape_keys.read_own(obj.data).clips)
+        cues = performance.cues_of(performance.ARCHETYPES)
         fps, creases = bake.scene_fps(context.scene), creases_wanted(obj)
         where, start = destination_of(obj), context.scene.frame_start
         if where.to is not BakeTo.NEW:
             expressions = [_expression(cue, start, fps) for cue in cues]
             return (yield from bake_expressions_onto(target, expressions, find_rig(where.to), onto=where.onto))
-        try:
-            return (yield from performance.pose_all(target, cues, fps, creases, first_frame=start))
-        except GeneratorExit:
-            made = set(shape_keys.read_own(obj.data).clips) - before
-            if made:
-                bake.clear(target, clips=sorted(made))
-            raise
+        return (yield from performance.pose_all(target, cues, fps, creases, first_frame=start))
 
     def finish(self, context: Context, result: list[bake.BakeResult] | Finding) -> str:
         """Put them on the timeline, and show the first at its apex."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...arrays import Floats
 from ...errors import SceneError
-from ...progress import Progress, Work, part_of
+from ...progress import Progress, Work, Writing, part_of
 from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_of, face_steps
 from . import action as actions
@@ -101,9 +101,9 @@ def bake_expression(
     yield from part_of(face.prepare(), 0.15, 0.9)
     yield Progress(0.9, f"Solving the skin for {clip}")
     pose = face.pose(faps, drive=drive, emotion=emotion, contractions=contractions)
-    yield Progress(0.95, "Writing the shape key")
     shapes = (np.asarray(pose.positions) - face.vertices)[None]
     marks = crease_marks.prepare(source, creases)
+    yield Writing(0.95, "Writing the shape key")
     written = write_baked(
         target, source, clip, [clip], shapes, [timing.curve(peak)], slider_min=0.0, creases=marks, note=note
     )
@@ -159,11 +159,11 @@ def bake_motion(
     said += few_keys_remarks(clip, packed, within)
     if len(packed.shapes) == 0:
         raise SceneError(source.head.name, "nothing moves in this motion: increase its activation or its duration")
-    yield Progress(0.97, "Writing the shape keys")
     names = [shape_keys.fitting(clip, f" {number + 1:02d}") for number in range(len(packed.shapes))]
     times = start + np.arange(count, dtype=np.float64)
     curves = [actions.Curve(times, weights, linear=True) for weights in packed.weights.T]
     marks = crease_marks.prepare(source, creases)
+    yield Writing(0.97, "Writing the shape keys")
     written = write_baked(target, source, clip, names, packed.shapes, curves, slider_min=-1.0, creases=marks, note=note)
     return _result(clip, written, target, source, missed, error=packed.error, said=said)
 

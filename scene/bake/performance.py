@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ...errors import ParameterError
-from ...progress import Work, part_of
+from ...progress import Work, written_together
 from . import tracks
 from .baking import BakeResult, bake_expression
 from .target import Target
@@ -58,9 +58,9 @@ def clip_names(cues: Sequence[Cue]) -> list[str]:
 def pose_all(
     target: Target, cues: Sequence[Cue], fps: float, creases: bool | None, *, first_frame: int = FIRST_FRAME
 ) -> Work[list[BakeResult]]:
-    """One shape key per cue, each clip at its cue's time from `first_frame` on."""
-    results = []
-    for index, (clip, cue) in enumerate(zip(clip_names(cues), cues, strict=True)):
+    """One shape key per cue, each clip at its cue's time from `first_frame` on; all are written, or none."""
+    works = []
+    for clip, cue in zip(clip_names(cues), cues, strict=True):
         timing = ClipTiming(
             start=first_frame + cue.start * fps, onset=cue.onset, apex=cue.apex, offset=cue.offset, fps=fps
         )
@@ -73,9 +73,8 @@ def pose_all(
             emotion=cue.profile.weights,
             creases=creases,
         )
-        share = 1.0 / len(cues)
-        results.append((yield from part_of(work, index * share, (index + 1) * share)))
-    return results
+        works.append(work)
+    return (yield from written_together(works))
 
 
 def line_up(target: Target, results: Sequence[BakeResult]) -> int:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ...arrays import Floats
-from ...progress import Progress, Work, part_of
+from ...progress import Progress, Work, Writing, part_of
 from ..blender_types import Action, Key, NlaTrack
 from ..creases import marks as crease_marks
 from ..faces import FaceSource, face_steps
@@ -69,7 +69,7 @@ def bake_strips(
         yield Progress(0.2 + 0.75 * number / len(shapes), f"Solving the skin for {shape.clip}")
         poses.append(face.pose(shape.faps, drive=drive, emotion=shape.emotion, contractions=shape.contractions))
     marks = crease_marks.prepare(source, creases)
-    yield Progress(0.95, "Writing the shape keys")
+    yield Writing(0.95, "Writing the shape keys")
     said = {*remarks(source.head, face), *target.remarks()}
     written = [
         _write(target, source, shape, pose.positions - face.vertices, marks)

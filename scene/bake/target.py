@@ -35,9 +35,28 @@ class Target:
 
     def source(self, *, replacing: Iterable[str] = ()) -> FaceSource:
         """Read the face, refusing what must not be written to; shape keys that are replaced are no part of its rest."""
+        self.refuse_unwritable()
+        return read_face(self.obj, companions=self.companions, resting=resting_without(replacing))
+
+    def refuse_unwritable(self) -> None:
+        """Refuse what must not be written to.
+
+        Raises
+        ------
+        SceneError : see `refusals`.
+        """
         for member in self.objects():
             refuse_unwritable(member, make_single_user=self.make_single_user)
-        return read_face(self.obj, companions=self.companions, resting=resting_without(replacing))
+
+    def refuse_changed(self, source: FaceSource) -> None:
+        """Refuse to write what was computed from `source`; to be asked just before.
+
+        Raises
+        ------
+        SceneError : others have changed or shared an object since it was read.
+        """
+        self.refuse_unwritable()
+        source.refuse_changed()
 
     def remarks(self) -> tuple[str, ...]:
         """What stays behind, in words."""

@@ -59,7 +59,7 @@ def write_baked(
     ------
     SceneError : an object was changed since it was read.
     """
-    source.refuse_changed()
+    target.refuse_changed(source)
     if target.make_single_user:
         for obj in source.objects:
             own_mesh(obj)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 import numpy as np
 
 from ...arrays import Floats
-from ...progress import Progress, Work, part_of
+from ...progress import Progress, Work, Writing, part_of
 from ..bake.action import Curve
 from ..bake.baking import BakeResult, long_remark
 from ..bake.motion import Motion
@@ -132,7 +132,8 @@ def bake_expressions_onto(
         part = 0.7 + 0.3 * index / len(expressions), 0.7 + 0.3 * (index + 1) / len(expressions)
         found = yield from part_of(settled_values(rig, retargeting, take, requested=each.faps), *part)
         solved.append((each, found, pose.unmet))
-    yield Progress(1.0, "Writing keyframes")
+    yield Writing(1.0, "Writing keyframes")
+    rig.refuse_changed()
     remove_rig_clips(source.head, [each.clip for each in expressions])
     results: list[BakeResult] = []
     for each, found, missed in solved:
@@ -189,6 +190,8 @@ def bake_motion_onto(
     keyframes = Keyframes(start + np.arange(count, dtype=np.float64), values, linear=True)
     about = _about(target, rig, face)
     said = about if long is None else (*about, long_remark(clip, long))
+    yield Writing(1.0, "Writing keyframes")
+    rig.refuse_changed()
     return _write(source, rig, clip, keyframes, onto, found, said, note=note)
 
 

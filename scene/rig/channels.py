@@ -2,12 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
 
 import bpy
 
-from ..blender_types import Datablock, WithProperties
+from ...errors import SceneError
+from ..blender_types import Datablock, Object, WithProperties
+
+
+@contextmanager
+def refusing_what_is_gone(face: Object, control: str) -> Iterator[None]:
+    """Refuse a control of a face that others have renamed or removed since it was found.
+
+    Raises
+    ------
+    SceneError : names both.
+    """
+    try:
+        yield
+    except (ValueError, KeyError, IndexError, AttributeError) as gone:
+        problem = f"its control {control} was renamed or removed meanwhile: do it again; nothing has been written"
+        raise SceneError(face.name, problem) from gone
 
 
 class Form(Enum):

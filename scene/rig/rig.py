@@ -12,7 +12,8 @@ from ...arrays import Floats
 from ...errors import SceneError
 from ...progress import Work
 from ..faces import FaceSource
-from .channels import Channel
+from .channels import Channel, refusing_what_is_gone
+from .clips import refuse_unkeyable
 
 if TYPE_CHECKING:
     from ...api import Controls
@@ -76,6 +77,20 @@ class Rig:
             raise SceneError(self.source.head.name, problem)
         limits = np.array([entry.limits for entry in self.entries])
         return api.Controls(tuple(e.name for e in self.entries), self.effects, limits[:, 0], limits[:, 1])
+
+    def refuse_changed(self) -> None:
+        """Refuse to key controls that others have changed since they were measured; to be asked just before writing.
+
+        Raises
+        ------
+        SceneError : the face was changed; a control was renamed or removed, or cannot be keyed any more.
+        """
+        self.source.refuse_changed(same_mesh=True)
+        places = [(entry.name, place) for entry in self.entries for place in entry.channel.places]
+        refuse_unkeyable(place.owner for _, place in places)
+        for name, place in places:
+            with refusing_what_is_gone(self.source.head, name):
+                place.read(place.owner)
 
     def channel_values(self, names: Sequence[str], values: Floats) -> dict[Channel, Floats]:
         """Channel -> (T,) how far from rest it goes, from the values (T, K) of controls that are named."""

@@ -16,13 +16,14 @@ import bpy
 import numpy as np
 
 from ...arrays import Floats
+from ..as_read import is_there
 from ..blender_types import Datablock, Object, Scene, WithPointers
 from ..faces import FaceSource, Piece
 from ..fcurves import all_curves, changes
 from ..mesh import mesh_vertices, remove_all_keys, world_matrix
 from ..posed import MOVING, rigid_motion
 from ..shape_mix import resting_values
-from .channels import Channel, Place
+from .channels import Channel, Place, refusing_what_is_gone
 from .turns import keyed_values
 
 NAME = "Risorius Rig Copy"
@@ -63,14 +64,18 @@ class RigCopy:
         self._set.clear()
         plain = keyed_values({channel: np.array([value]) for channel, value in values.items()})
         for channel, moved in plain.items():
-            for place in channel.places:
-                copy = self.copies[place.owner]
-                self._set[place] = place.read(copy)
-                place.write(channel.resting + float(moved[0]), copy)
-        for owner in {self.copies[channel.place.owner] for channel in values}:
-            owner.update_tag()
+            with refusing_what_is_gone(self.source.head, channel.name):
+                self._move(channel, float(moved[0]))
         self._layer.update()
         return np.asarray((self._world() - self._rest) @ self.unit.T)
+
+    def _move(self, channel: Channel, moved: float) -> None:
+        """Put a channel so far from its rest, and note what was there."""
+        for place in channel.places:
+            copy = self.copies[place.owner]
+            self._set[place] = place.read(copy)
+            place.write(channel.resting + moved, copy)
+            copy.update_tag()
 
     def _world(self) -> Floats:
         """(V, 3) all vertices of the face in the world, as they show."""
@@ -88,7 +93,13 @@ class RigCopy:
 
 @contextmanager
 def rig_copy(source: FaceSource) -> Iterator[RigCopy]:
-    """The copy of a face and its rig, as long as it is needed."""
+    """The copy of a face and its rig, as long as it is needed.
+
+    Raises
+    ------
+    SceneError : others have changed the face since it was read.
+    """
+    source.refuse_changed()
     scene = bpy.data.scenes.new(NAME)
     copies: dict[Datablock, Datablock] = {}
     try:
@@ -105,8 +116,7 @@ def rig_copy(source: FaceSource) -> Iterator[RigCopy]:
         scene.frame_set(bpy.context.scene.frame_current)
         yield RigCopy(source, copies, scene)
     finally:
-        _remove(copies)
-        bpy.data.scenes.remove(scene)
+        _remove(copies, scene)
 
 
 def needed_objects(objects: Iterable[Object]) -> list[Object]:
@@ -236,12 +246,15 @@ def _rest(piece: Piece, copy: Object) -> None:
             key.value = 0.0
 
 
-def _remove(copies: Mapping[Datablock, Datablock]) -> None:
-    """Take all copies out of the file."""
-    objects = [copy for copy in copies.values() if isinstance(copy, bpy.types.Object)]
-    data = [obj.data for obj in objects if obj.type in {"MESH", "ARMATURE", "LATTICE"}]
+def _remove(copies: Mapping[Datablock, Datablock], scene: Scene) -> None:
+    """Take all copies out of the file, and their scene; others may have removed some with what they are copies of."""
+    there = [copy for copy in copies.values() if is_there(copy)]
+    objects = [copy for copy in there if isinstance(copy, bpy.types.Object)]
+    data = [copy for copy in there if isinstance(copy, bpy.types.Mesh | bpy.types.Armature | bpy.types.Lattice)]
     for obj in objects:
         if obj.type == "MESH":
             remove_all_keys(obj)
     bpy.data.batch_remove(objects)
     bpy.data.batch_remove(data)
+    if is_there(scene):
+        bpy.data.scenes.remove(scene)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import errno
 import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -166,3 +168,56 @@ def test_clearing_leaves_what_is_not_ours(tmp_path: Path) -> None:
     assert entries.clear() == 1
     assert sorted(path.name for path in tmp_path.iterdir()) == ["mine.face", "notes.txt"]
     assert entries.size() == 0
+
+
+#: What each of several Blenders does at once: keeps and reads the same few things, for which there is hardly room.
+BLENDER = """
+import sys
+import numpy as np
+from risorius.face.kept.entries import Entries
+from risorius.progress import run
+number, count = int(sys.argv[2]), 150
+entries = Entries(__import__("pathlib").Path(sys.argv[1]), most=400_000)
+for turn in range(count):
+    key = f"{turn % 3:064x}"
+    assert run(entries.write(key, {"of": key, "numbers": np.full(20_000, turn % 3)})), entries.trouble
+    found = entries.read(f"{(turn + number) % 3:064x}")
+    if found is not None:
+        assert (found["numbers"] == (turn + number) % 3).all() and len(found["numbers"]) == 20_000
+    entries.size()
+"""
+
+
+@pytest.mark.slow
+def test_several_blenders_use_a_folder_at_once(tmp_path: Path) -> None:
+    """Each finds a whole thing or none, whoever writes, reads or makes room meanwhile; no piece is left."""
+    blenders = [
+        subprocess.Popen(
+            [sys.executable, "-c", BLENDER, str(tmp_path / "kept"), str(number)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        for number in range(3)
+    ]
+    for blender in blenders:
+        said, _ = blender.communicate(timeout=120)
+        assert blender.returncode == 0, said
+    assert not list((tmp_path / "kept").glob("*.part"))
+
+
+def test_a_file_that_another_has_deleted_is_left_out_and_the_others_count(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    entries = kept(tmp_path)
+    run(entries.write(OTHER, thing()))
+    gone, left = tmp_path.iterdir()  # the first that is looked at
+    state, size = Path.stat, left.stat().st_size
+
+    def stat(path: Path, **asked: Any) -> os.stat_result:
+        if path == gone:
+            raise FileNotFoundError(errno.ENOENT, "gone", str(path))
+        return state(path, **asked)
+
+    monkeypatch.setattr(Path, "stat", stat)
+    assert entries.size() == size
