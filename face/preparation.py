@@ -15,6 +15,7 @@ STAGES = (
     ("Preparing the skin", "anatomy.muscles"),
     ("Preparing the skin", "anatomy.carry"),
     ("Preparing the skin", "anatomy.skin.normals"),
+    ("Preparing the skin", "anatomy.skin.margins_reached"),
     ("Computing what each muscle does", "anatomy.sheet.factor"),
     ("Computing what each muscle does", "anatomy.sheet.bulge"),
     ("Computing what each muscle does", "anatomy.pulls"),

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from scipy import sparse
@@ -198,10 +198,24 @@ class OuterSkin:
         """The part of vectors (n, 3) along the skin."""
         return np.asarray(vectors - self.normals * (vectors * self.normals).sum(axis=1, keepdims=True))
 
+    @stepwise
+    def margins_reached(self) -> Work[bool]:
+        """Whether distances from lips and lids are worked out: along a dense skin each takes its time."""
+        yield from worked_out(self if self.stands_for is None else self.stands_for.skin, "graph")
+        margins = [("mouth upper", self.mouth.upper), ("mouth lower", self.mouth.lower)]
+        for side, eye in self.eyes.items():
+            margins += [(f"{side}upper", eye.upper), (f"{side}lower", eye.lower)]
+        for number, (name, margin) in enumerate(margins):
+            yield Progress(number / len(margins), "Preparing the skin")
+            self.once(name, partial(self.distance_from, margin))
+        return True
+
     @cached_property
     def lip_distances(self) -> tuple[Floats, Floats]:
         """Distances (n,) along the skin from the upper and from the lower lip's edge, metres."""
-        return self.distance_from(self.mouth.upper), self.distance_from(self.mouth.lower)
+        mouth = self.mouth
+        upper = self.once("mouth upper", lambda: self.distance_from(mouth.upper))
+        return upper, self.once("mouth lower", lambda: self.distance_from(mouth.lower))
 
     def lid_distances(self, side: str) -> tuple[Floats, Floats]:
         """Distances (n,) along the skin from the upper and from the lower lid's edge of eye "l" or "r", metres."""
