@@ -68,6 +68,8 @@ def main(argv: list[str] | None = None) -> int:
     given = with_action(sys.argv[1:] if argv is None else argv)
     try:
         for argument in given:
+            if "\0" in argument:
+                parser.error("an argument must not hold a null character")
             if argument.startswith("--") and argument.endswith("=--"):  # argparse makes an empty list of it
                 parser.error(f"{argument[:-3]} needs a value, not --")
         arguments = parser.parse_args(given)

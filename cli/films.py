@@ -22,6 +22,7 @@ from .options import (
     add_timing,
     add_words,
     onto_options,
+    refuse_ending,
     scene_options,
     timing_options,
     verb,
@@ -73,12 +74,14 @@ def _add_rate(parser: argparse.ArgumentParser) -> None:
 
 def _bake(arguments: argparse.Namespace) -> Result:
     """Bake expressions onto a face and save a .blend file."""
+    refuse_ending(arguments.out, ".blend")
     onto = onto_options(arguments, moves=arguments.dynamic)
     return _made("bake_file", arguments, onto, **timing_options(arguments), dynamic=arguments.dynamic)
 
 
 def _render(arguments: argparse.Namespace) -> Result:
     """Render expressions as a video."""
+    refuse_ending(arguments.out, ".mp4")
     onto = onto_options(arguments)
     labels = labels_of(arguments)
     return _made("render_film", arguments, onto, **timing_options(arguments), engine=arguments.engine, labels=labels)

@@ -20,6 +20,7 @@ from .options import (
     expression_of,
     motion_line,
     onto_options,
+    refuse_ending,
     refuse_idle,
     scene_options,
     verb,
@@ -115,6 +116,7 @@ def _play(arguments: argparse.Namespace) -> Result:
     from .. import api
 
     out = _target(arguments)
+    refuse_ending(out, ".blend", ".mp4")
     stream, recording = _read(arguments)
     frames, said = whole_frames(replace(recording, stream=stream))
     stream = api.FapStream(frames, fps=stream.fps, name=stream.name)

@@ -11,6 +11,9 @@ from ...errors import ParameterError
 from ..blender_types import Scene
 from .action import Curve
 
+#: Frames of an expression, at most: a scene of Blender's has a million.
+LONGEST = 1_000_000
+
 
 @dataclass(frozen=True)
 class ClipTiming:
@@ -28,6 +31,9 @@ class ClipTiming:
                 raise ParameterError(name, "must be zero or more seconds", getattr(self, name))
         if not self.fps > 0.0:
             raise ParameterError("fps", "must be above zero", self.fps)
+        lasts = (self.onset + self.apex + self.offset) * self.fps
+        if not lasts <= LONGEST:
+            raise ParameterError("onset, apex and offset", f"must end within {LONGEST} frames", lasts)
 
     def curve(self, peak: float) -> Curve:
         """Zero, up to `peak`, held, and back to zero."""

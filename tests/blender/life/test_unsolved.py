@@ -15,9 +15,10 @@ import bpy
 import pytest
 from file_state import file_state
 from risorius import cli
-from risorius.errors import SolverError
+from risorius.errors import ParameterError, SolverError
 from risorius.operators.preview import live
 from risorius.operators.session import session
+from risorius.scene.bake import ClipTiming
 from risorius.scene.live import preview
 
 pytestmark = pytest.mark.slow
@@ -115,3 +116,9 @@ def test_the_error_keeps_frame_and_residual() -> None:
     assert (error.frame, error.residual) == (7, 2e-4)
     assert error.in_frame(9).frame == 9
     assert str(error.in_frame(9)).count("the motion could not be solved") == 1
+
+
+@pytest.mark.parametrize("seconds", [1e308, 1e30, 1e6])
+def test_an_expression_longer_than_any_scene_is_refused(seconds: float) -> None:
+    with pytest.raises(ParameterError, match="must end within 1000000 frames"):
+        ClipTiming(onset=0.1, apex=seconds, offset=0.1)
