@@ -8,6 +8,7 @@ long_motion     a long motion between some of its frames that are posed
 pose            a face in balance: request -> plan -> targets -> amounts -> pose
 reduced_motion  how skin and mandible follow postures, in a few fields: the production way
 clip_balance    the balance of a whole clip
+meeting_lips    lips that meet on their way, and the speed that this takes
 motion          the same, node by node: for reference
 jaw_follower    how the mandible follows
 posture         from a plan to amounts, and where they bring the outer skin

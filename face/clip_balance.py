@@ -48,7 +48,9 @@ class ClipBalance:
         """Postures of efforts from one step on; what is held for several steps is worked out once."""
         new = [not number or not efforts[number].reached_as(efforts[number - 1]) for number in range(len(efforts))]
         chosen = np.flatnonzero(new)
-        postures = self.balance.reached_each([efforts[number] for number in chosen], self.pull.at(start + chosen))
+        postures = self.balance.reached_each(
+            [efforts[number] for number in chosen.tolist()], self.pull.at(start + chosen)
+        )
         return postures if all(new) else postures.some(np.cumsum(new) - 1)
 
 

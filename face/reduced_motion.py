@@ -9,23 +9,27 @@ together, as products of matrices.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..arrays import Floats
 from ..errors import ParameterError
 from ..physics.reduced import ReducedSkin, principal_fields
+from ..physics.skin import Skin
 from ..physics.tissue import Tissue
 from ..progress import Progress, Work, part_of
 from .anatomy import Anatomy
 from .assembly import check_finite
+from .bodies.contact import Slack
 from .bodies.surroundings import Surroundings
 from .clip_balance import ClipBalance, clip_balance
 from .drive.plan import Plan
 from .jaw_follower import JawFollower, resting
+from .mechanism import Mechanism
+from .meeting_lips import SHORT, LipsAt, MeetingLips, each_of, lip_pushes
 from .posture import Balance, Effort
-from .response.actuators import Actuators, Amounts
+from .response.actuators import Amounts
 from .response.sampled import farthest, foretelling
 from .response.spring_skin import spring_skin
 
@@ -51,7 +55,8 @@ class Course:
     clip : the balance of its T steps.
     jaws, lids : (T, substeps, 3) where the mandible is and (T, substeps, l) what lids do after each substep.
     reduced : how the skin is left behind; None where nothing moves.
-    passages : (p, 2k, 3k) of it at some steps. shares : (T, p) how that of every step is a sum of these.
+    passages, short : (p, 2k, 3k) of it at some steps, and of short ones (`meeting_lips`). shares : (T, p) how that of
+    every step is a sum of these.
     """
 
     clip: ClipBalance
@@ -59,6 +64,7 @@ class Course:
     lids: Floats
     reduced: ReducedSkin | None
     passages: Floats
+    short: Floats
     shares: Floats
 
 
@@ -102,27 +108,30 @@ class ReducedMotion:
         fields = principal_fields(np.concatenate([postures.displacements, postures.carried]), FIELDS)
         jaws, lids = self._carriers([effort.amounts for effort in efforts])
         if not len(fields):
-            return Course(clip, jaws, lids, None, np.empty((0, 0, 0)), np.empty((len(plans), 0)))
+            none = np.empty((0, 0, 0))
+            return Course(clip, jaws, lids, None, none, none, np.empty((len(plans), 0)))
         yield Progress(SOLVED, LEFT_BEHIND)
         step = self.duration / self.substeps
+        fields = np.concatenate([fields, lip_pushes(self.anatomy.contact)])
         reduced = ReducedSkin(self.skin, self.anatomy.relaxation.factor, fields, step, count=WITH_ANSWERS)
-        passages, telling = list[Floats](), telling[:PASSAGES]
+        passages, telling = list[list[Floats]](), telling[:PASSAGES]
         for displacement in postures.displacements[: len(telling)]:
             yield Progress(SOLVED, LEFT_BEHIND)
-            passages.append(reduced.passage(self.skin.rest + displacement))
-        shares = _parts(foretelling(places, telling))
-        return Course(clip, jaws, lids, reduced, np.array(passages), shares)
+            passages.append(reduced.passages(self.skin.rest + displacement, [1, SHORT]))
+        whole, short = (np.array(each) for each in zip(*passages, strict=True))
+        return Course(clip, jaws, lids, reduced, whole, short, _parts(foretelling(places, telling)))
 
     def along(self, course: Course) -> Iterator[tuple[Floats, Floats]]:
         """Displacements (s, n, 3) of the outer skin in head space, metres, and mandibles (s, 3), some at a time."""
         contact, rest = self.anatomy.contact, self.skin.rest
-        left_behind = LeftBehind(course, self.anatomy.actuators)
+        left_behind = LeftBehind(course, self.anatomy, self.skin)
         for steps, asked in course.clip.along():
             carried = self.anatomy.actuators.carried_each(course.jaws[steps, -1], course.lids[steps, -1])
             added = asked.elastic + asked.pushed
-            shown = rest + carried + added + left_behind.displacements(steps, added)
-            at = Surroundings(course.jaws[steps, -1], asked.surroundings.looks)
             slack = contact.slack(asked.displacements, asked.surroundings)
+            shown = rest + carried + added
+            shown += left_behind.displacements(steps, added, shown, asked.lip_shares, slack)
+            at = Surroundings(course.jaws[steps, -1], asked.surroundings.looks)
             yield contact.held(shown, asked.lip_shares, at, slack) - rest, course.jaws[steps, -1]
 
     def _carriers(self, amounts: Sequence[Amounts]) -> tuple[Floats, Floats]:
@@ -138,15 +147,27 @@ class ReducedMotion:
 class LeftBehind:
     """How far the skin of one clip is left behind, some steps after the others."""
 
-    def __init__(self, course: Course, actuators: Actuators) -> None:
-        self._course, self._actuators = course, actuators
+    def __init__(self, course: Course, anatomy: Anatomy, skin: Skin) -> None:
+        self._course, self._actuators = course, anatomy.actuators
+        self._lips: MeetingLips | None = None
         if course.reduced is not None:
-            self._state, self._jaw = course.reduced.at_rest(), course.reduced.read(actuators.jaw_ways)
+            self._state, self._jaw = course.reduced.at_rest(), course.reduced.read(anatomy.actuators.jaw_ways)
+            if anatomy.contact.lips is not None and anatomy.skin.has(Mechanism.CONTACT):
+                self._lips = MeetingLips(anatomy.contact.lips, course.reduced, skin.mass)
         self._added: Floats | None = None
         self._felt: Floats | None = None
+        self._before: LipsAt | None = None
 
-    def displacements(self, steps: slice[int, int, None], added: Floats) -> Floats:
-        """(s, n, 3) metres at the ends of the next steps; `added` (s, n, 3) is their balance without jaw and lids."""
+    def displacements(
+        self, steps: slice[int, int, None], added: Floats, balanced: Floats, lip_shares: Floats, slack: Slack
+    ) -> Floats:
+        """(s, n, 3) metres at the ends of the next steps.
+
+        Parameters
+        ----------
+        added : (s, n, 3) metres, the balance without jaw and lids. balanced : (s, n, 3) positions with these, metres.
+        lip_shares, slack : as lips meet.
+        """
         reduced = self._course.reduced
         if reduced is None:
             return np.zeros_like(added)
@@ -156,13 +177,37 @@ class LeftBehind:
         )
         states, felts = [], self._carried(reduced, steps) + even[1:]
         before = felts[0, 0] if self._felt is None else self._felt
-        for shares, parts in zip(self._course.shares[steps], felts, strict=True):
-            passage = np.tensordot(shares, self._course.passages, axes=1)
+        lips = self._lips_at(balanced, felts[:, -1], lip_shares, slack)
+        for number, parts in enumerate(felts):
+            shares = self._course.shares[steps.start + number]
+            start, passage = self._state, np.tensordot(shares, self._course.passages, axes=1)
             for felt in parts:
                 self._state, before = reduced.follow(self._state, before, felt, passage), felt
+            if self._lips is not None:
+                self._meet(start, lips[number], parts, shares)
             states.append(self._state)
         self._added, self._felt = ends[-1:], before
         return reduced.displacement(np.array(states))
+
+    def _lips_at(self, balanced: Floats, felts: Floats, lip_shares: Floats, slack: Slack) -> Sequence[LipsAt]:
+        """Lips at the ends of steps; none where they cannot meet."""
+        if self._lips is None:
+            return []
+        return each_of(balanced[:, self._lips.nodes], felts, lip_shares, slack.margins[0])
+
+    def _meet(self, start: Floats, lips: LipsAt, felts: Floats, shares: Floats) -> None:
+        """Go from the state at the start of a step through it again where lips have passed each other.
+
+        `felts` (substeps, 2k) at the ends of substeps.
+        """
+        assert self._lips is not None
+        before, self._before = self._before, lips
+        if before is None or not self._lips.have_passed(lips, self._state):
+            return
+        short, self._state, last = np.tensordot(shares, self._course.short, axes=1), start, before
+        for number, felt in enumerate(felts, start=1):
+            after = replace(before.towards(lips, number / len(felts)), felt=felt)
+            self._state, last = self._lips.through(self._state, last, after, short), after
 
     def _carried(self, reduced: ReducedSkin, steps: slice[int, int, None]) -> Floats:
         """(s, substeps, 2k) what the skin feels of being carried by jaw and lids."""

@@ -15,6 +15,7 @@ Graph. 37(4)).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import prod
 
 import numpy as np
@@ -98,12 +99,16 @@ class ReducedSkin:
 
     def passage(self, positions: Floats) -> Floats:
         """(2k, 3k) from deviation, its rate and a steady load to deviation and rate a step later, at `stiffness`."""
+        return self.passages(positions, [1])[0]
+
+    def passages(self, positions: Floats, parts: Sequence[int]) -> list[Floats]:
+        """As `passage`, over the step, or over one of so many equal parts of it."""
         count = len(self.fields)
         rates = np.zeros((3 * count, 3 * count))
         rates[:count, count : 2 * count] = rates[count : 2 * count, 2 * count :] = np.eye(count)
         rates[count : 2 * count, :count] = -self.stiffness(positions)
         rates[count : 2 * count, count : 2 * count] = -self._damping
-        return np.asarray(expm(self.step * rates)[: 2 * count])
+        return [np.asarray(expm(self.step / part * rates)[: 2 * count]) for part in parts]
 
     def follow(self, state: Floats, before: Floats, after: Floats, passage: Floats) -> Floats:
         """The state (3k,) one step on: deviation, its rate, and the rate of what was felt of the balance by mass.

@@ -65,6 +65,7 @@ OF_ALGORITHMS: dict[str, tuple[float, ...]] = {
     ),  # how coarse a mesh may be; averages over vertices
     "clip_balance.py": (0.2,),  # how far the work has come
     "pose.py": (7.0, 4.0, 5.0),  # which archetypes are explored
+    "meeting_lips.py": (1e-4,),  # when lips feel each other
     "reduced_motion.py": (0.8,),  # how far the work has come
     "response/followers.py": (1e-4, 4.0),  # a tie that keeps a matrix regular; a kernel's norm
     "response/recollection.py": (0.02, 0.8, 2e-3, 5.0, 3.0),  # a kernel; how it learns to be trusted

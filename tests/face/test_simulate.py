@@ -13,6 +13,7 @@ import pytest
 import risorius.api as api
 from risorius.api import Face
 from risorius.errors import ParameterError
+from risorius.face import meeting_lips
 from risorius.face.drive.over_time import stream_plans
 from risorius.face.drive.request import Drive
 from risorius.face.pose import Poser
@@ -174,6 +175,28 @@ def test_a_few_fields_move_the_face_as_every_node_does(face: Face) -> None:
     motion = np.linalg.norm(reference - face.vertices, axis=2).max()
     assert motion > 10e-3
     assert np.linalg.norm(quick - reference, axis=2).max() < 0.01 * motion
+
+
+@pytest.mark.slow
+def test_lips_that_press_on_each_other_lose_their_speed(
+    shared_face: Callable[[str], Face], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Within 1 % where anger's lips go over into surprise's exactly as asked, and not where contact takes no speed."""
+    head = shared_face("makehuman")
+    cues = [
+        api.Cue(api.expression(word), start=0.1 + 0.35 * i, onset=0.3, apex=0.1, offset=0.3)
+        for i, word in enumerate(("joy", "anger", "surprise"))
+    ]
+    reference = np.array(list(head.performance(cues, 25.0, drive="exact", integrator="implicit", substeps=8)))
+    motion = np.linalg.norm(reference - head.vertices, axis=2).max()
+
+    def off() -> float:
+        quick = np.array(list(head.performance(cues, 25.0, drive="exact")))
+        return float(np.linalg.norm(quick - reference, axis=2).max() / motion)
+
+    assert off() < 0.01
+    monkeypatch.setattr(meeting_lips, "PASSED", np.inf)
+    assert off() > 0.02
 
 
 @pytest.mark.slow
