@@ -132,6 +132,7 @@ class Anatomy:
         face_mesh, polygons, sewn = self.mesh, self._skin_polygons, self._sewn
         openings = dict(self._openings)
         outside = outer_faces(polygons, list(openings.values()), face_mesh.points.nearest["9.3"])
+        yield Progress(1.0, "Preparing the skin")
         web = np.zeros(len(polygons), dtype=bool)
         for name in sorted(sewn):
             own, openings[name] = web_of(face_mesh.positions, polygons, outside, openings[name])

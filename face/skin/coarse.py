@@ -125,17 +125,18 @@ class Thinning:
     def _openings(self) -> tuple[Opening, ...]:
         return self.given.mouth, *self.given.eyes.values()
 
-    @cached_property
-    def _places(self) -> Places:
+    @stepwise
+    def _places(self) -> Work[Places]:
         sources = (
             [opening.upper for opening in self._openings],
             [opening.lower for opening in self._openings],
             [arc[[0, -1]] for opening in self._openings for arc in (opening.upper, opening.lower)],
         )
-        fields = [
-            dijkstra(self._graph, directed=False, indices=np.unique(np.concatenate(arcs)), min_only=True)
-            for arcs in sources
-        ]
+        fields = []
+        for number, arcs in enumerate(sources):
+            yield Progress(number / len(sources), "Preparing the skin")
+            indices = np.unique(np.concatenate(arcs))
+            fields.append(dijkstra(self._graph, directed=False, indices=indices, min_only=True))
         return Places(*(np.minimum(field, 1.0) for field in fields))
 
     @cached_property
