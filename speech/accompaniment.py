@@ -136,6 +136,8 @@ def _in_pauses(closure: Floats, utterance: Utterance, fps: float) -> Floats:
 
 def _pauses(utterance: Utterance, end: float) -> list[float]:
     """Where in a pause a blink falls: soon after the sound before it, and not later than its middle."""
+    if not utterance.sounds:  # a silence has no pauses, and blinks are where they are
+        return []
     starts = [sound.start for sound in utterance.sounds[1:]] + [end]
     gaps = [(sound.end, start) for sound, start in zip(utterance.sounds, starts, strict=True)]
     return [min(before + 0.15, 0.5 * (before + after)) for before, after in gaps if after - before >= PAUSE]

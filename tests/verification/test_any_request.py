@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from risorius.errors import RisoriusError
 from risorius.mpeg4 import FAP_LIMIT
 from risorius.mpeg4.variation import Overlay
+from risorius.speech.phonemes import phonemes
 
 bounded = settings(max_examples=60, derandomize=True, deadline=None, database=None)
 
@@ -199,3 +200,47 @@ def test_bitstreams_never_lie_silently(number: float, index: int) -> None:
     if data is not None and index >= 2:
         step = api.FAPS[index + 1].quant_step
         np.testing.assert_allclose(api.decode_fba(data).stream.frames, np.rint(frames), atol=step)
+
+
+#: Shares of lips, jaw and feeling; beyond 0 to 2 they are refused.
+share = mostly(st.floats(0.0, 2.0), number)
+symbol = st.sampled_from(["p", "a", "m", "i", "f", "u", "t", "s", "tʃ", "x", ""])
+
+
+@settings(bounded, max_examples=100)
+@given(
+    spoken=st.lists(st.tuples(symbol, mostly(st.floats(0.01, 0.6), number)), max_size=6),
+    duration=mostly(st.floats(0.0, 3.0), number),
+    shares=st.tuples(share, share, share),
+    felt=st.one_of(st.none(), word),
+    fps=mostly(st.floats(5.0, 120.0), number),
+    drawn=mostly(st.integers(0, 2**40), st.one_of(st.none(), number)),
+)
+def test_speech(
+    spoken: list[tuple[str, float]],
+    duration: float,
+    shares: tuple[float, float, float],
+    felt: str | None,
+    fps: float,
+    drawn: float | None,
+) -> None:
+    """Whatever is said, how, at whichever rate: frames within what a face can be asked for, or an error in words."""
+
+    def said() -> api.FapStream:
+        sounds, at = [], 0.0
+        for name, lasts in spoken:
+            sounds.append(api.Sound(at, at + lasts, phonemes().get(name, phonemes()["a"]), name))
+            at += lasts
+        articulation, jaw, lean = shares
+        emotion = None if felt is None else api.expression(felt)
+        lively = None if drawn is None else api.Liveliness.usual(drawn)
+        options = {"articulation": articulation, "jaw": jaw, "lean": lean, "fps": fps, "seed": drawn}
+        utterance = api.Utterance(tuple(sounds), max(duration, at))
+        return api.say(utterance, emotion=emotion, liveliness=lively, **options).stream
+
+    stream = or_refused(said)
+    event("refused" if stream is None else "said")
+    if stream is not None:
+        assert len(stream.frames) <= 1_000_000
+        finite(np.nan_to_num(stream.frames))
+        assert np.nanmax(np.abs(stream.frames), initial=0.0) <= FAP_LIMIT
