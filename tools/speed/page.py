@@ -105,7 +105,7 @@ the median of a drag of {steps} updates, and what 95 % of them stay below. The g
 0.2 mm by its own estimate: drags with a word, on the wheel, with a FAP and with muscles were 0.21 mm off at the worst
 vertex, 0.03 mm in the median, and the pose at rest is exact. An update in which it has to be solved takes 15 to 40 ms
 more. In one run with the version before, which solved wherever it doubted by 0.05 mm and read the whole mesh each time,
-drags took 17 to 31 % less on the default head and 23 to 25 % less on `ict`. The goals are not reached. What is left is
+drags took 17 to 31 % less on the default head and 23 to 30 % less on `ict`. The goals are not reached. What is left is
 spread: on the default head the plan and the search for the muscles take 2.4 ms, contact 2, the turns of the brows'
 roots 1.5, Blender's own update of the mesh 0.5, and two dozen steps the rest.
 """
