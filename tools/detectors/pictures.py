@@ -15,9 +15,10 @@ from risorius.api import Face, build_default_head
 from risorius.arrays import Bools
 from risorius.scene.pictures.framing import framing_of
 from risorius.scene.pictures.lettering import write_picture
+from risorius.scene.pictures.look import Engine, Lighting, Look
 from strangers import paint
 
-from .stills import LIGHTS, Still, posed
+from .stills import LIGHTS, TRACED, Still, posed
 
 TRUTH = "truth.json"
 
@@ -26,6 +27,11 @@ SIZE = 512
 
 #: Our lights -> Blender's for Workbench: from one side, as a user gets it, and even from the front.
 STUDIO_LIGHTS = dict(zip(LIGHTS, ("Default", "paint.sl"), strict=True))
+
+#: Lights in Cycles: a portrait's, and one that comes from the subject's left with little around it. Pixels of
+#: a side, which are fewer to take seconds, and rays of a pixel.
+LAMPS = dict(zip(TRACED, (Lighting(), Lighting(strength=1.2, yaw=float(np.radians(60.0)), ambient=0.1)), strict=True))
+TRACED_SIZE, SAMPLES = 256, 8
 
 
 def picture_all(asked: Sequence[Still], out: Path) -> None:
@@ -54,13 +60,22 @@ def _picture(head: str, asked: Sequence[Still], out: Path, truth: dict[str, list
     obj = object_alone(head, face)
     if head != "default":
         _make_up(obj, face)
-    for lit in LIGHTS:
-        sitter = Sitter([obj], width=SIZE, height=SIZE, framing=framing_of(obj), relight=_lit_by(lit))
+    for lit in (*LIGHTS, *TRACED):
+        sitter = _sitter(obj, lit)
         for yaw in sorted({still.yaw for still in asked if still.light == lit}):
             wanted = [still for still in asked if (still.light, still.yaw) == (lit, yaw)]
             shots = sitter.shots([poses[s.shows, s.strength] for s in wanted], float(np.radians(yaw)))
             for still, pixels in zip(wanted, shots, strict=True):
                 write_picture(pixels, out / still.file)
+
+
+def _sitter(obj: Any, lit: str) -> Sitter:
+    """A head in a light."""
+    if lit in TRACED:
+        side, lamps = TRACED_SIZE, LAMPS[lit]
+        look = Look(engine=Engine.CYCLES, width=side, height=side, samples=SAMPLES, lighting=lamps)
+        return Sitter([obj], framing=framing_of(obj), look=look)
+    return Sitter([obj], width=SIZE, height=SIZE, framing=framing_of(obj), relight=_lit_by(lit))
 
 
 def _lit_by(lit: str) -> Callable[[Any, object], None]:

@@ -22,8 +22,11 @@ EMOTIONS = ("joy", "surprise", "fear", "anger", "sadness", "disgust")
 REST = "rest"
 
 #: Shares of a unit's full amount (a scanned action at its strongest, or as strong), in per cent; where the camera
-#: stands, degrees to the subject's left; lights.
-STRENGTHS, YAWS, LIGHTS = (33, 67, 100), (0, 20, 40), ("side", "front")
+#: stands, degrees to the subject's left; lights in Workbench, and in Cycles.
+STRENGTHS, YAWS, LIGHTS, TRACED = (33, 67, 100), (0, 20, 40), ("side", "front"), ("portrait", "hard")
+
+#: Heads that are lit in Cycles, too, which takes some seconds a picture.
+TRACED_HEADS = HEADS[:1]
 
 
 @dataclass(frozen=True)
@@ -69,15 +72,23 @@ def actions() -> Mapping[str, Action]:
 
 
 def stills(heads: Sequence[str] = HEADS) -> list[Still]:
-    """All pictures: units at every strength from the front; units, emotions and rest at full from all sides and in both
-    lights (the second from the front alone)."""
+    """All pictures: units at every strength from the front; units, emotions and rest at full from all sides and in all
+    lights (but for the first, from the front alone; in Cycles, some heads)."""
     found = []
     for head in heads:
         found += [Still(head, unit, strength) for unit in actions() for strength in STRENGTHS[:-1]]
         for shows in (REST, *actions(), *EMOTIONS):
             found += [Still(head, shows, yaw=yaw) for yaw in YAWS]
-            found.append(Still(head, shows, light=LIGHTS[1]))
+            lights = (*LIGHTS[1:], *(TRACED if head in TRACED_HEADS else ()))
+            found += [Still(head, shows, light=light) for light in lights]
     return found
+
+
+def few() -> list[Still]:
+    """Some of them, to try it all in minutes: one head, rest, smiles and emotions, from the front."""
+    head, smile = HEADS[0], "AU12"
+    found = [Still(head, smile, strength) for strength in STRENGTHS[:-1]]
+    return found + [Still(head, shows) for shows in (REST, smile, "AU27", *EMOTIONS)]
 
 
 def unit_faps(unit: str, strength: float) -> Floats:

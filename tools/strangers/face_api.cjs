@@ -1,9 +1,9 @@
 // One judge: the expression network of the npm package @vladmandic/face-api, which finds and aligns faces itself.
 //
-//     node tools/strangers/face_api.cjs FOLDER < pictures.json
+//     node tools/strangers/face_api.cjs FOLDER [--points] < pictures.json
 //
 // FOLDER has node_modules. Reads a list of picture files and writes {file: {class: probability} or null}, null where
-// no face was found. Trained on photographs by its authors (SSD MobileNet, 68 landmarks, depthwise CNN); WebAssembly, so
+// no face was found; with --points its 68 landmarks instead, [[x, y], ...] in pixels. Trained on photographs by its authors (SSD MobileNet, 68 landmarks, depthwise CNN); WebAssembly, so
 // that nothing is compiled and nothing fetched.
 'use strict';
 
@@ -43,7 +43,10 @@ async function main() {
     const picture = pixels(file);
     const face = await faceapi.detectSingleFace(picture, options).withFaceLandmarks().withFaceExpressions();
     picture.dispose();
-    said[file] = face ? Object.fromEntries(Object.entries(NAMES).map(([n, ours]) => [ours, face.expressions[n]])) : null;
+    said[file] = face && (process.argv.includes('--points')
+      ? face.landmarks.positions.map((point) => [point.x, point.y])
+      : Object.fromEntries(Object.entries(NAMES).map(([name, ours]) => [ours, face.expressions[name]])));
+    if (said[file] === undefined) said[file] = null;
   }
   process.stdout.write(JSON.stringify(said));
 }

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from environments import ENVIRONMENTS
 from places import ROOT
@@ -59,16 +59,21 @@ def ask(pictures: Sequence[Path], kept: Path) -> dict[str, dict[str, Said]]:
     for judge in JUDGES:
         new = [path for name, path in names.items() if name not in known[judge]]
         if new:
-            heard = _answer(judge, commands()[judge], new)
+            heard = answer(judge, commands()[judge], new)
             known[judge] = known[judge] | {Path(path).name: said for path, said in heard.items()}
             kept.write_text(json.dumps(known, indent=0), encoding="utf-8")
     return {judge: {name: known[judge][name] for name in names} for judge in JUDGES}
 
 
-def _answer(judge: str, command: Sequence[str], files: Sequence[str]) -> dict[str, Said]:
-    """What a judge says about files."""
+def answer(judge: str, command: Sequence[str], files: Sequence[str]) -> dict[str, Any]:
+    """What a judge says about files, as JSON tells it.
+
+    Raises
+    ------
+    NoJudgeError : it fails.
+    """
     done = subprocess.run(command, input=json.dumps(files), capture_output=True, text=True, check=False)
     if done.returncode:
         raise NoJudgeError(f"{judge} failed:\n{done.stderr.strip()}")
-    answers: dict[str, Said] = json.loads(done.stdout[done.stdout.index("{") :])
+    answers: dict[str, Any] = json.loads(done.stdout[done.stdout.index("{") :])
     return answers

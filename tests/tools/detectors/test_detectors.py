@@ -8,7 +8,22 @@ import numpy as np
 import pytest
 from detectors.figures import both_sides, dead, faps_follow, film_follows, follows, named, right, rise_of, risen
 from detectors.page import Findings, page
-from detectors.stills import EMOTIONS, HEADS, LIGHTS, REST, STRENGTHS, YAWS, Action, Still, actions, stills, unit_faps
+from detectors.points68 import EYES, MEASURES, measure_follows
+from detectors.stills import (
+    EMOTIONS,
+    HEADS,
+    LIGHTS,
+    REST,
+    STRENGTHS,
+    TRACED,
+    YAWS,
+    Action,
+    Still,
+    actions,
+    few,
+    stills,
+    unit_faps,
+)
 
 SMILE = Action("AU12", "lip corner puller", "mouthSmile", (12, 13))
 
@@ -20,7 +35,10 @@ def test_a_still_is_known_by_its_file_and_compared_with_rest_seen_alike() -> Non
     every = stills()
     assert len({each.file for each in every}) == len(every)
     assert {each.at_rest for each in every} <= set(every)
-    assert {(each.yaw, each.light) for each in every} == {*((yaw, LIGHTS[0]) for yaw in YAWS), (0, LIGHTS[1])}
+    assert {(each.yaw, each.light) for each in every} == {
+        *((yaw, LIGHTS[0]) for yaw in YAWS),
+        *((0, light) for light in (LIGHTS[1], *TRACED)),
+    }
     assert {each.shows for each in every} == {REST, *EMOTIONS, *actions()}
 
 
@@ -49,12 +67,17 @@ def scores_of(full: float, other: float = 0.0) -> dict[Still, dict[str, float]]:
 def test_a_rise_is_over_rest_and_seen_where_most_heads_show_it() -> None:
     scores = scores_of(0.24)
     assert risen(scores, Still("ict", "AU12"))["mouthSmile"] == pytest.approx(0.24)
-    rise = rise_of(scores, SMILE, strengths=STRENGTHS, yaws=YAWS, light=LIGHTS[1])
+    rise = rise_of(scores, SMILE, strengths=STRENGTHS, yaws=YAWS, lights=(LIGHTS[1], *TRACED))
     assert rise.by_strength[33] == pytest.approx(0.33 * 0.24)
     assert rise.seen_from == 67
     assert rise.heads == rise.first == len(HEADS)
-    assert rise.by_yaw[40] == pytest.approx(rise.front_light)
-    none = rise_of(scores_of(0.01, 0.5), SMILE, strengths=STRENGTHS, yaws=YAWS, light=LIGHTS[1])
+    assert set(rise.by_light) == {LIGHTS[1], *TRACED}
+    assert all(rise.by_yaw[40] == pytest.approx(light) for light in rise.by_light.values())
+    assert rise.turned_by == ()
+    dim = {still: {**each, "mouthSmile": 0.05} if still.light == TRACED[0] else each for still, each in scores.items()}
+    turned = rise_of(dim, SMILE, strengths=STRENGTHS, yaws=YAWS, lights=(LIGHTS[1], *TRACED))
+    assert turned.turned_by == (TRACED[0],)
+    none = rise_of(scores_of(0.01, 0.5), SMILE, strengths=STRENGTHS, yaws=YAWS, lights=LIGHTS[1:])
     assert none.seen_from is None
     assert (none.heads, none.first) == (0, 0)
     assert none.instead == ("jawOpen", pytest.approx(0.5))
@@ -66,7 +89,7 @@ def test_a_face_that_is_not_found_is_left_out() -> None:
         for head in HEADS:
             del scores[Still(head, "AU12", yaw=yaw)]
     assert risen(scores, Still("ict", "AU12", yaw=40)) == {}
-    rise = rise_of(scores, SMILE, strengths=STRENGTHS, yaws=YAWS, light=LIGHTS[1])
+    rise = rise_of(scores, SMILE, strengths=STRENGTHS, yaws=YAWS, lights=LIGHTS[1:])
     assert np.isnan(rise.by_yaw[40])
     assert rise.by_yaw[0] == pytest.approx(0.5)
 
@@ -122,3 +145,42 @@ def test_the_page_says_what_was_seen() -> None:
     assert f"{len(stills())} pictures" in text
     assert "| AU12 mouthSmile | 0.90 |" in text
     assert "nan" not in text
+
+
+def face_of(**moved: tuple[float, float]) -> np.ndarray:
+    """(68, 2) landmarks a hundred pixels between the eyes; `moved`: p30=(dx, dy)."""
+    points = np.zeros((68, 2))
+    points[36:42], points[42:48] = (100.0, 100.0), (200.0, 100.0)
+    for name, by in moved.items():
+        points[int(name[1:])] += by
+    return points
+
+
+def test_measures_follow_the_faps_that_they_tell_of() -> None:
+    """Each grows with its FAPs, and is told from the same head at rest, seen alike."""
+    width = next(measure for measure in MEASURES if measure.across)
+    brows = MEASURES[0]
+    assert brows.below == EYES
+    raised = face_of(p21=(0.0, -5.0), p22=(0.0, -5.0))
+    assert brows.of(raised) - brows.of(face_of()) == pytest.approx(5.0)
+    assert width.of(face_of(p54=(3.0, 4.0))) == pytest.approx(5.0)
+    rest, stills_of = Still("ict", REST), [Still("ict", "AU1", strength) for strength in STRENGTHS]
+    found = {rest: face_of()} | {
+        still: face_of(p21=(0.0, -0.1 * still.strength), p22=(0.0, -0.1 * still.strength)) for still in stills_of
+    }
+    true = {still: np.full(68, 2.0 * still.strength) for still in stills_of} | {rest: np.zeros(68)}
+    followed = measure_follows(brows, found, true, [rest, *stills_of])
+    assert (followed.correlation, followed.count) == (pytest.approx(1.0), 3)
+    assert measure_follows(brows, {**found, rest: None}, true, stills_of).count == 0
+    assert {number for measure in MEASURES for number in measure.faps} <= set(range(3, 69))
+
+
+def test_a_few_pictures_are_some_of_all_and_make_a_page() -> None:
+    assert set(few()) < set(stills())
+    assert {still.at_rest for still in few()} <= set(few())
+    scores = {still: each for still, each in scores_of(0.24).items() if still in few()}
+    true = {still: np.full(68, float(still.strength)) for still in few()}
+    points = {"dlib": {still: face_of(p54=(0.1 * still.strength, 0.0)) for still in few()}}
+    text = page(Findings(scores, {}, true, {}, len(few()), 0, points=points))
+    assert "| width of the mouth | 6, 7 | 1.00 |" in text
+    assert "Films" not in text
