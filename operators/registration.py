@@ -70,9 +70,11 @@ def register() -> None:
             attach(undo)
         command = bpy.utils.register_cli_command("risorius", run_command)
         undo.callback(bpy.utils.unregister_cli_command, command)
-        # A Python that ends with bpy's module would take Blender apart under what is registered, and crash or hang.
-        atexit.register(unregister)
-        undo.callback(atexit.unregister, unregister)
+        if not bpy.app.binary_path:  # Blender as a module
+            # Python, ending, would take Blender apart under what is registered, and crash or hang. The program Blender
+            # has taken its classes back by itself by then.
+            atexit.register(unregister)
+            undo.callback(atexit.unregister, unregister)
         _registered = undo.pop_all()
 
 
