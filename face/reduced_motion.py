@@ -34,7 +34,9 @@ from .response.sampled import farthest, foretelling
 from .response.spring_skin import spring_skin
 
 #: Fields of the balance in which the skin may be left behind, and how many these and the skin's answers to them may be.
+#: Skin of few nodes moves less smoothly and has more, which cost little there.
 FIELDS, WITH_ANSWERS = 12, 36
+COARSE, FIELDS_IF_COARSE = 3000, 20
 
 #: How the skin passes from step to step is taken at so many of the steps that want points, lids and jaw farthest apart.
 PASSAGES = 6
@@ -105,7 +107,8 @@ class ReducedMotion:
         postures = self.balance.reached_each([efforts[step] for step in some], pull.at(some))
         check_finite(postures.displacements, some)
         yield Progress(SOLVED, LEFT_BEHIND)
-        fields = principal_fields(np.concatenate([postures.displacements, postures.carried]), FIELDS)
+        many = FIELDS if len(self.skin.rest) > COARSE else FIELDS_IF_COARSE
+        fields = principal_fields(np.concatenate([postures.displacements, postures.carried]), many)
         jaws, lids = self._carriers([effort.amounts for effort in efforts])
         if not len(fields):
             none = np.empty((0, 0, 0))
