@@ -38,3 +38,16 @@ def test_a_phase_has_its_share_of_the_bandwidth() -> None:
 def test_a_power_law_is_found(power: float) -> None:
     sizes = np.array([1e4, 1e5, 5e5])
     assert growth.exponent(sizes, 3e-6 * sizes**power) == pytest.approx(power)
+
+
+def test_a_drag_has_its_median_and_what_most_stay_below() -> None:
+    drags = {"word": {"median": 7.96, "most": 11.0}, "wheel": {"median": 8.0, "most": 12.25}}
+    said = page.drag_table([{"head": "ict", "vertices": 25959, "steps": 40, "drags": drags}])
+    assert "| head | vertices | word | wheel |" in said
+    assert "| ict | 25,959 | 8.0, 11.0 ms | 8.0, 12.2 ms |" in said
+
+
+def test_a_kept_face_is_shown_before_its_pose_is_worked_out() -> None:
+    row = {"head": "ict.npz", "vertices": 1000, "read": 0.1, "prepare": 2.0, "pose": 0.2}
+    said = page.first_table([{**row, "kept_read": 0.25, "kept_sketch": 0.05, "kept_pose": 0.4}])
+    assert "| ict | 1,000 | 0.10 s | 2.00 s | 0.20 s | 2.30 s | 0.30 s | 0.40 s |" in said
