@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from pathlib import Path
 
-from ..errors import FormatError
+from ..errors import FormatError, ParameterError
 from ..files import read_bytes
+from .json_text import large
 from .keyed_table import KeyedTable
 
 #: Characters that a TOML text must not hold as they are.
@@ -53,5 +55,12 @@ def toml_text(text: str) -> str:
 
 
 def toml_number(value: float) -> str:
-    """A number as TOML has it, without the noise of single precision."""
+    """A number as TOML has it, without the noise of single precision.
+
+    Raises
+    ------
+    ParameterError : one that no reader takes.
+    """
+    if not math.isfinite(large(float(value))):
+        raise ParameterError("a number in a file", "must be finite, within any use", value)
     return repr(round(float(value), 6))

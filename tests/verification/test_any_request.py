@@ -12,6 +12,7 @@ from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from risorius.errors import RisoriusError
 from risorius.mpeg4 import FAP_LIMIT
+from risorius.mpeg4.preset_file import Choice, Clip, Preset, PresetKind, read_preset, write_preset
 from risorius.mpeg4.variation import Overlay
 from risorius.speech.phonemes import phonemes
 
@@ -244,3 +245,46 @@ def test_speech(
         assert len(stream.frames) <= 1_000_000
         finite(np.nan_to_num(stream.frames))
         assert np.nanmax(np.abs(stream.frames), initial=0.0) <= FAP_LIMIT
+
+
+@settings(bounded, max_examples=100)
+@given(
+    shown=st.tuples(
+        st.one_of(word, st.none()),
+        mostly(st.floats(1.0, 7.0), number),
+        st.one_of(st.none(), number),
+        st.text(max_size=9),
+    ),
+    times=st.tuples(*[mostly(st.floats(0.0, 20.0), number)] * 4),
+    peak=mostly(st.floats(0.0, 1.0), number),
+    named=st.text(max_size=20),
+)
+def test_presets_come_back_from_their_file(
+    shown: tuple[str | None, float, float | None, str],
+    times: tuple[float, float, float, float],
+    peak: float,
+    named: str,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    """What can be made can be written, and what is written is read as it was: to a millionth."""
+    name, activation, angle, variant = shown
+    start, onset, apex, offset = times
+
+    def made() -> Preset:
+        choice = Choice(activation, word=name, angle=angle, variant=variant or None)
+        clip = Clip(choice, start, onset, apex, offset, peak=peak, name=named)
+        return Preset(PresetKind.TIMELINE, clips=(clip,))
+
+    preset = or_refused(made)
+    event("refused" if preset is None else "made")
+    if preset is None:
+        return
+    path = tmp_path_factory.mktemp("presets") / "a.toml"
+    if or_refused(lambda: write_preset(path, preset) or True) is None:
+        return
+    back = or_refused(lambda: read_preset(path))
+    assert back is not None, path.read_text(encoding="utf-8")
+    (old,), (new,) = preset.clips, back.clips
+    assert (new.name, new.emotion.word, new.emotion.variant) == (old.name, old.emotion.word, old.emotion.variant)
+    for which in ("start", "onset", "apex", "offset", "peak"):
+        assert getattr(new, which) == pytest.approx(getattr(old, which), abs=1e-6)
