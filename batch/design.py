@@ -302,7 +302,13 @@ def _from_line(line: str) -> Design:
     for name, value in said.items():
         found = RANGE.fullmatch(value)
         if found is None:
-            factors[name] = tuple(_from(Path(), name, level) for level in value.split(","))
+            levels = value.split(",")
+            if any(level != level.strip() or not level for level in levels):
+                rule = (
+                    "must have levels with a comma between and no blanks around: a text with a comma needs a .toml file"
+                )
+                raise ParameterError(name, rule, value)
+            factors[name] = tuple(_from(Path(), name, level) for level in levels)
             continue
         whole = not any("." in part or "e" in part for part in found.group(1, 2))
         factors[name] = _range(_number(found[1]), _number(found[2]), whole, int(found[3]) if found[3] else None)

@@ -115,6 +115,8 @@ def test_the_table_of_a_design_is_read_as_jobs_and_may_grow(tmp_path: Path) -> N
         ("emotion=joy emotion=fear", "with each factor once"),
         ("emotion=joy yaw=30..-30", "least must be below most"),
         ("emotion='joy", "quotes in pairs"),
+        ("text='Hello, world'", "a text with a comma needs a .toml file"),
+        ("emotion=joy,,fear", "no blanks around"),
         ("yaw=1.2.3..4", "numbers in a range"),
         ("emotion=joy seed=0..9 repeats=2000000", "must be 1000000 or fewer"),
         ("no-such.toml", "cannot be read"),
