@@ -306,3 +306,12 @@ def test_places_are_written_through_before_they_get_their_name(
     monkeypatch.setattr(places.os, "rename", lambda a, b: (steps.append("rename"), rename(a, b))[1])
     work(jobs_of(tmp_path, 1), place)
     assert steps == ["fsync", "fsync", "fsync", "rename", "fsync"]  # stream, record, their folder; then the set's
+
+
+def test_the_manifest_of_a_set_keeps_what_another_table_made_there(tmp_path: Path, place: JobSet, work: Run) -> None:
+    jobs = jobs_of(tmp_path, 4)
+    work(jobs, place)
+    path = write_manifest(jobs[2:], place)
+    assert [json.loads(line)["id"] for line in path.read_text().splitlines()] == ["c2", "c3", "c0", "c1"]
+    path = write_manifest(jobs[2:], place, "manifest.2-of-2.jsonl")
+    assert [json.loads(line)["id"] for line in path.read_text().splitlines()] == ["c2", "c3"]
