@@ -98,16 +98,17 @@ def _gltf() -> dict[str, bytes]:
 
 
 def _head(path: Path) -> object:
-    """The meshes of a glTF file; they go again."""
-    before = {obj.name for obj in bpy.data.objects}
+    """The meshes of a glTF file; they go again, and what came with them."""
+    rooms = (bpy.data.objects, bpy.data.collections, bpy.data.meshes, bpy.data.materials, bpy.data.images)
+    before = [{item.name for item in room} for room in rooms]
     try:
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # of the importer
             found = meshes_of(path)
         return [(obj.name, np.array([[*vertex.co] for vertex in obj.data.vertices])) for obj in found]
     finally:
-        for obj in [each for each in bpy.data.objects if each.name not in before]:
-            bpy.data.objects.remove(obj)
-        bpy.data.orphans_purge()
+        for room, known in zip(rooms, before, strict=True):
+            for item in [each for each in room if each.name not in known]:
+                room.remove(item)
 
 
 @cache
