@@ -242,3 +242,13 @@ def test_a_film_that_shows_no_creases_does_not_measure_them(head: Any, engine: s
     with studio([head], framing_of(head), Look(engine=Engine(engine), width=64, height=64)):
         assert modifier.show_render is measured
     assert modifier.show_render
+
+
+def test_they_are_placed_once_for_a_face(head: Any) -> None:
+    """Each bake asks for them, and to place them takes longer than all the rest of it."""
+    first = creases.prepare(faces.read_face(head), True)
+    assert first is not None
+    assert creases.prepare(faces.read_face(head), True) is first
+    head.scale = (2.0, 2.0, 2.0)
+    bpy.context.view_layer.update()
+    assert creases.prepare(faces.read_face(head), True) is not first
