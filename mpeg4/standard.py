@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
-from typing import SupportsIndex
+from typing import SupportsIndex, cast
 
 from ..errors import ParameterError
 from ..resources import STANDARD
@@ -37,7 +37,7 @@ def check_fps(fps: object, name: str = "fps") -> None:
     ------
     ParameterError : it is no number, or so small or large that times are lost in it.
     """
-    if not (isinstance(fps, numbers.Real) and SLOWEST <= fps <= FASTEST):
+    if not (isinstance(fps, numbers.Real) and SLOWEST <= cast("float", fps) <= FASTEST):
         raise ParameterError(name, f"must be from {SLOWEST:g} to {FASTEST:g} frames per second", fps)
 
 

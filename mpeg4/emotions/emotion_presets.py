@@ -25,7 +25,7 @@ EMOTION_PRESETS = PRESETS / "emotions"
 
 KEYS = (
     *("activation", "evaluation", "angle", "category", "neighbours", "variants"),
-    *("shows", "bearing", "neutral", "reason", "source"),
+    *("shows", "bearing", "neutral", "synonyms", "reason", "source"),
 )
 
 
@@ -105,6 +105,7 @@ def _word(name: str, table: TomlTable) -> Word:
             shows=_shows(name, table, activation),
             bearing=read_bearing(table.table("bearing")) if "bearing" in table else None,
             neutral=neutral,
+            synonyms=tuple(table.texts("synonyms")) if "synonyms" in table else (),
             reason=_text(table, "reason"),
             source=_text(table, "source") if known is None or "source" in table else known.source,
         )

@@ -143,7 +143,8 @@ def find_word(word: str, words: Mapping[str, Word] = WORDS) -> Word:
     for candidate in (name, word):
         if candidate in words:
             return words[candidate]
-    near = difflib.get_close_matches(name, words, n=3, cutoff=0.6)
+    meant = [known for known, entry in words.items() if name in entry.synonyms]
+    near = meant or difflib.get_close_matches(name, words, n=3, cutoff=0.6)
     hint = f"did you mean {' or '.join(near)}?" if near else f"use one of {', '.join(sorted(words))}"
     raise ParameterError("emotion word", f"must be a known word ({hint})", word)
 

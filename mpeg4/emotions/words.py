@@ -35,6 +35,7 @@ class Word:
     shows : action units by which the natural drive shows it, where they are not its archetypes'.
     bearing : where it turns eyes and head in a performance.
     neutral : True where the word is no expression at all (the neutral face).
+    synonyms : what others call it, to suggest this word where one of them is asked for.
     reason : why these figures and variants.
     source : where they are from.
     """
@@ -49,6 +50,7 @@ class Word:
     shows: Prototype | None = None
     bearing: Bearing | None = None
     neutral: bool = False
+    synonyms: tuple[str, ...] = ()
     reason: str = ""
     source: str = ""
 

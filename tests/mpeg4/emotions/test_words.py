@@ -158,7 +158,17 @@ def test_an_archetypes_own_angle_is_the_archetype(name: Archetype) -> None:
     assert made.ranges == archetype(name, default_variant(name)).scaled(3.0).ranges
 
 
-@pytest.mark.parametrize(("word", "hint"), [("gilty", "guilty"), ("terified", "terrified"), ("joyfull", "joyful")])
+@pytest.mark.parametrize(
+    ("word", "hint"),
+    [
+        ("gilty", "guilty"),
+        ("terified", "terrified"),
+        ("joyfull", "joyful"),
+        ("Happiness", "joy\\?"),
+        ("scared", "fear\\?"),
+        ("contempt", "contemptuous"),
+    ],
+)
 def test_an_unknown_word_is_refused_with_a_suggestion(word: str, hint: str) -> None:
     with pytest.raises(ParameterError, match=rf"did you mean .*{hint}"):
         expression(word)
