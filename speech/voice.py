@@ -129,7 +129,7 @@ def _library() -> Iterator[tuple[ctypes.CDLL, int]]:
         try:
             import espeakng_loader
 
-            path: str | Path | None = shutil.copy(espeakng_loader.get_library_path(), folder)
+            path: str | None = str(shutil.copy(espeakng_loader.get_library_path(), folder))
             data: bytes | None = espeakng_loader.get_data_path().encode()
         except ImportError:
             path, data = ctypes.util.find_library("espeak-ng"), None
