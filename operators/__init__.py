@@ -5,6 +5,7 @@ saved_by                   which version saved a file, and that a later one did
 props                      the properties that Risorius adds to objects, scenes and the window
 base, sidebar              what all operators and all panels share
 held                       what operators hold that go on between events
+left_over                  what a save or an undo step has kept of work that went on
 active, changes            the face that it is all about, and who is told when it is to show something else
 session                    what is known of the faces of the open file
 requirements               SciPy, which this Blender may lack

@@ -13,7 +13,7 @@ from contextlib import ExitStack
 import bpy
 
 from ..scene.faces import forget_faces
-from . import held, props, saved_by, translations
+from . import held, left_over, props, saved_by, translations
 from .classes import CLASSES
 from .followers import loaded as followers_loaded
 from .kept import folder as kept_folder
@@ -36,6 +36,7 @@ ATTACHED = (
     props.attach,
     translations.attach,
     saved_by.attach,
+    left_over.attach,
     kept_folder.attach,
     followers_loaded.attach,
     points_overlay.attach,

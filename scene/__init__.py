@@ -12,6 +12,7 @@ posed                 a face that a rig has brought into another shape, and the 
 mesh, head            meshes to arrays and back; the default head
 faces, companions     from objects to a face: the head, and what belongs to it
 as_read               whether objects are still as they were read
+passing               what is in the file only while work goes on, and never stays
 fingerprint           which object it is, and which face
 following             which objects belong to a face, and how they follow it
 parts_found           parts of a face's mesh, told and corrected

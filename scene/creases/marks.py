@@ -12,6 +12,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from ..as_read import is_there
 from ..attributes import remove_attribute, write_vectors
 from ..blender_types import Material, Modifier, Node, NodeSocket, NodeTree, Object
 from ..faces import FaceSource, Piece, face_of
@@ -27,6 +28,9 @@ MODIFIER = "Risorius Creases"
 
 #: On an object of a file from before 0.2, whose resting positions are handed to its modifiers because of us.
 RESTING = "risorius_creases"
+
+#: On an object whose creases rest while it is rendered without them.
+UNMEASURED = "risorius_unmeasured"
 
 #: By what the depth of a full crease multiplies the skin's colour: light that has gone through skin comes out red.
 DEPTH = (0.72, 0.54, 0.5)
@@ -136,14 +140,29 @@ def _write_places(head: Piece, creases: Creases) -> None:
 @contextmanager
 def unmeasured(objects: Iterable[Object]) -> Iterator[None]:
     """Renders that would not show creases, without measuring them: the modifiers rest, and are as they were after."""
-    shown = [m for obj in objects for m in obj.modifiers if _is_ours(m) and m.show_render]
-    for modifier in shown:
-        modifier.show_render = False
+    resting = [obj for obj in objects if any(_is_ours(m) and m.show_render for m in obj.modifiers)]
+    for obj in resting:
+        obj[UNMEASURED] = True
+        _set_shown(obj, False)
     try:
         yield
     finally:
-        for modifier in shown:
-            modifier.show_render = True
+        measure_again(obj for obj in resting if is_there(obj))
+
+
+def measure_again(objects: Iterable[Object]) -> None:
+    """Let the modifiers of those act that `unmeasured` has at rest, also where a save or an undo has kept them so."""
+    for obj in objects:
+        if UNMEASURED in obj:
+            del obj[UNMEASURED]
+            _set_shown(obj, True)
+
+
+def _set_shown(obj: Object, shown: bool) -> None:
+    """Whether renders show the creases of an object."""
+    for modifier in obj.modifiers:
+        if _is_ours(modifier):
+            modifier.show_render = shown
 
 
 def _clear(obj: Object) -> None:

@@ -13,8 +13,10 @@ from pathlib import Path
 import bpy
 
 from ...errors import SceneError
+from ..as_read import is_there
 from ..blender_types import LayerCollection, Object, Scene
 from ..creases.marks import unmeasured
+from ..passing import passing, passing_scene
 from .framing import Framing
 from .furniture import Furniture, discard, furnish
 from .look import Camera, Look, apply_look
@@ -29,7 +31,7 @@ def studio(objects: Sequence[Object], framing: Framing, look: Look) -> Iterator[
     SceneError : the engine is not available, or the scene's own camera is wanted and there is none.
     """
     made: Furniture | None = None
-    scene: Scene = bpy.data.scenes.new("Risorius Studio")
+    scene = passing_scene("Risorius Studio")
     try:
         source = bpy.context.scene
         scene.unit_settings.scale_length = source.unit_settings.scale_length
@@ -40,14 +42,23 @@ def studio(objects: Sequence[Object], framing: Framing, look: Look) -> Iterator[
         else:
             for obj in objects:
                 scene.collection.objects.link(obj)
-            made = furnish(scene, framing, look)
+            made = _passing(furnish(scene, framing, look))
         draws_wrinkles = scene.render.engine != "BLENDER_WORKBENCH"
         with nullcontext() if draws_wrinkles else unmeasured(objects):
             yield scene
     finally:
-        bpy.data.scenes.remove(scene)
-        if made is not None:
-            discard(made)
+        if is_there(scene):  # undo takes it away with all that was made for it
+            bpy.data.scenes.remove(scene)
+            if made is not None:
+                discard(made)
+
+
+def _passing(made: Furniture) -> Furniture:
+    """Mark what goes when the picture is done."""
+    for obj in (made.camera, *made.lights):
+        passing(passing(obj).data)
+    passing(made.world)
+    return made
 
 
 def _borrow(scene: Scene, source: Scene, look: Look) -> None:

@@ -21,6 +21,7 @@ from ..blender_types import Datablock, Object, Scene, WithPointers
 from ..faces import FaceSource, Piece
 from ..fcurves import all_curves, changes
 from ..mesh import mesh_vertices, remove_all_keys, world_matrix
+from ..passing import passing, passing_scene
 from ..posed import MOVING, rigid_motion
 from ..shape_mix import resting_values
 from .channels import Channel, Place, refusing_what_is_gone
@@ -100,7 +101,7 @@ def rig_copy(source: FaceSource) -> Iterator[RigCopy]:
     SceneError : others have changed the face since it was read.
     """
     source.refuse_changed()
-    scene = bpy.data.scenes.new(NAME)
+    scene = passing_scene(NAME)
     copies: dict[Datablock, Datablock] = {}
     try:
         for obj in needed_objects(source.objects):
@@ -112,7 +113,7 @@ def rig_copy(source: FaceSource) -> Iterator[RigCopy]:
             _rest(piece, copies[piece.obj])  # type: ignore[arg-type]
         for original in copies:
             if isinstance(original, bpy.types.Object):
-                scene.collection.objects.link(copies[original])
+                scene.collection.objects.link(copies[original])  # type: ignore[arg-type]
         scene.frame_set(bpy.context.scene.frame_current)
         yield RigCopy(source, copies, scene)
     finally:
@@ -173,10 +174,10 @@ def _object_pointers(item: WithPointers) -> list[tuple[str, Object]]:
 
 def _copied(obj: Object) -> dict[Datablock, Datablock]:
     """The copy of an object, and of what it is made of."""
-    copy = obj.copy()
+    copy = passing(obj.copy())
     copies: dict[Datablock, Datablock] = {obj: copy}
     if obj.type in {"MESH", "ARMATURE", "LATTICE"}:
-        copy.data = obj.data.copy()
+        copy.data = passing(obj.data.copy())
         copies |= dict(zip(parts_of(obj), parts_of(copy), strict=True))
     return copies
 
