@@ -15,7 +15,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 from ..errors import RisoriusError
@@ -87,6 +87,7 @@ def work_on(
     place: JobSet,
     tell: Tell,
     *,
+    changed: bool = False,
     tick: Callable[[], None] = lambda: None,
     task: Callable[[Job, str], Told] | None = None,
 ) -> Outcome:
@@ -94,6 +95,7 @@ def work_on(
 
     Parameters
     ----------
+    changed : make those anew whose rows have changed.
     tick : called every second; what it raises ends the work.
     task : what a worker runs; by default `made_by_worker`.
 
@@ -103,7 +105,7 @@ def work_on(
     """
     from distributed import wait
 
-    run, folder = made_by_worker if task is None else task, str(place.folder.resolve())
+    run, folder = partial(made_by_worker, changed=changed) if task is None else task, str(place.folder.resolve())
     outcome, waiting = Outcome(), deque(in_order(jobs, place))
     asleep: list[tuple[float, Job]] = []
     going: dict[Any, Job] = {}
@@ -148,8 +150,8 @@ def _told(future: Any, job: Job, place: JobSet) -> Told:
     return Told(job.id, How.FAILED, why=why)
 
 
-def made_by_worker(job: Job, folder: str) -> Told:
-    """What a worker does: make one job in a folder that all see.
+def made_by_worker(job: Job, folder: str, *, changed: bool = False) -> Told:
+    """What a worker does: make one job in a folder that all see; `changed` : anew where its row has changed.
 
     Raises
     ------
@@ -159,7 +161,7 @@ def made_by_worker(job: Job, folder: str) -> Told:
     if not place.is_there():
         raise RisoriusError(f"{folder} is not there on this computer: choose a folder that all workers see")
     _ready(folder)
-    return do_job(job, place)
+    return do_job(job, place, changed=changed)
 
 
 @lru_cache(maxsize=1)

@@ -21,7 +21,7 @@ from . import making
 from .claims import Claim
 from .jobs import Job
 from .place import JobSet, State
-from .records import Record, files_in, measured, versions
+from .records import Record, changes, damage, files_in, measured, versions
 from .whole import what_is_missing
 
 if TYPE_CHECKING:
@@ -58,8 +58,14 @@ class DiskFullError(RisoriusError):
     """There is no room left: nothing more can be made, and nothing that is done is lost."""
 
 
-def do_job(job: Job, place: JobSet, *, make: Make = making.make, progress: Report | None = None) -> Told:
+def do_job(
+    job: Job, place: JobSet, *, changed: bool = False, make: Make = making.make, progress: Report | None = None
+) -> Told:
     """Make a job unless it is done, or another process is at it.
+
+    Parameters
+    ----------
+    changed : make it anew where its row has changed, in the place of what was made.
 
     Raises
     ------
@@ -70,14 +76,17 @@ def do_job(job: Job, place: JobSet, *, make: Make = making.make, progress: Repor
         with place.claim(job) as claim:
             if claim is Claim.TAKEN:
                 return Told(job.id, How.ELSEWHERE)
-            state, _, why = place.state(job)
+            if claim is Claim.HELD:
+                place.recover(job)
+            state, record, why = place.state(job)
             if state is State.DONE:
                 return Told(job.id, How.KEPT)
-            refused = _refusal(job, place, state)
+            replaced = record if changed and state is State.OTHER else None
+            refused = None if replaced else _refusal(job, place, state)
             if refused:
                 return Told(job.id, How.FAILED, why=refused)
             said = (_aside(job, place, why),) if state is State.DAMAGED else ()
-            remarks = _make_it(job, place, claim, make, progress)
+            remarks = _make_it(job, place, claim, make, progress, replaced)
             return Told(job.id, How.MADE, time.time() - began, remarks=said + remarks)
     except (RisoriusError, OSError) as error:
         if isinstance(error, DiskFullError) or _is_full(error, place):
@@ -96,7 +105,8 @@ def _refusal(job: Job, place: JobSet, state: State) -> str | None:
     """Why what stands in a job's place keeps it from being made."""
     there = place.place_of(job)
     if state is State.OTHER:
-        return f"{there} was made from another row: give this row another id, or move that folder away"
+        remedy = "give this row another id, or make the clip anew with --rerun-changed"
+        return f"{there} was made from another row: {remedy}"
     if state is State.FOREIGN:
         return f"{there} is there already and is no clip of this set: give this row another id, or move it away"
     return None
@@ -107,8 +117,20 @@ def _aside(job: Job, place: JobSet, why: str) -> str:
     return f"{place.place_of(job)} was damaged ({why}): it is in {place.put_aside(job)} now, and made again"
 
 
-def _make_it(job: Job, place: JobSet, claim: Claim, make: Make, progress: Report | None) -> tuple[str, ...]:
-    """Make a job and give it its place; returns remarks."""
+def _replacing(job: Job, place: JobSet, replaced: Record) -> str:
+    """Say which clip gives way; one that somebody has changed is kept aside, since no row makes it again."""
+    there = place.place_of(job)
+    what = f"its row has changed ({changes(replaced, job)})"
+    by_hand = damage(there, replaced) or next(
+        (f"{name} was added" for name in files_in(there).keys() - replaced.files), ""
+    )
+    return f"{what}: what was made before, {by_hand}, is in {place.put_aside(job)} now" if by_hand else what
+
+
+def _make_it(
+    job: Job, place: JobSet, claim: Claim, make: Make, progress: Report | None, replaced: Record | None
+) -> tuple[str, ...]:
+    """Make a job and give it its place, and that of the clip it replaces; returns remarks."""
     began = time.time()
     with place.making(job, claim) as folder, _scratch(job, place, claim) as scratch:
         made = run(make(job, folder, scratch), progress)
@@ -127,10 +149,12 @@ def _make_it(job: Job, place: JobSet, claim: Claim, make: Make, progress: Report
             began=began,
             frames=made.frames,
             remarks=made.remarks,
+            before=replaced.as_past() if replaced else (),
         )
-        if not place.publish(job, folder, record):
+        said = (_replacing(job, place, replaced),) if replaced else ()
+        if not place.publish(job, folder, record, replaced=replaced):
             return ("another process made it at the same time, and was first",)
-    return made.remarks
+    return said + tuple(made.remarks)
 
 
 def _refuse_incomplete(path: Path) -> None:

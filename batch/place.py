@@ -5,6 +5,7 @@
     set/.risorius/claims/       locks of the jobs that are in work
     set/.risorius/unfinished/   what is in work; what a killed process leaves is removed by the next one
     set/.risorius/failed/       why a job could not be made
+    set/.risorius/replaced/     clips whose row has changed, until the new ones have their places
     set/.risorius/heads/        prepared heads, for those who come next; safe to delete
     set/.risorius/aside/        folders that were not as their record says, kept for you
 
@@ -52,6 +53,7 @@ class JobSet:
         own = self.folder / OWN
         self._claims, self._unfinished = own / "claims", own / "unfinished"
         self._failed, self._aside, self.heads = own / "failed", own / "aside", own / "heads"
+        self._replaced = own / "replaced"
 
     def prepare(self) -> None:
         """Make the folder.
@@ -111,8 +113,11 @@ class JobSet:
         finally:
             _clear(folder)
 
-    def publish(self, job: Job, folder: Path, record: Record) -> bool:
+    def publish(self, job: Job, folder: Path, record: Record, *, replaced: Record | None = None) -> bool:
         """Give a job that is made in `folder` its place; False where another process was first.
+
+        The clip of the record `replaced`, where it stands there, gives way last of all, and is removed when the new one
+        has its place.
 
         Raises
         ------
@@ -121,16 +126,38 @@ class JobSet:
         (folder / RECORD).write_bytes(record_bytes(record))
         _write_through(folder)
         place = self.place_of(job)
+        if replaced is not None:
+            self._give_way(job, replaced)
         try:
             os.rename(folder, place)
         except OSError:
             if place.exists():
                 return False
+            self.recover(job)
             raise
         _write_through_folder(self.folder)
+        self.recover(job)
         with contextlib.suppress(OSError):
             self.failure_of(job).unlink()
         return True
+
+    def _give_way(self, job: Job, replaced: Record) -> None:
+        """Move a clip that is to be replaced out of its place; one that another process has replaced stays."""
+        there = read_record(self.place_of(job))
+        if there is not None and there.fingerprint == replaced.fingerprint:
+            self._replaced.mkdir(exist_ok=True)
+            os.rename(self.place_of(job), self._replaced / f"{job.id}~{secrets.token_hex(6)}")
+
+    def recover(self, job: Job) -> None:
+        """End what a process began that replaced a clip: the old one goes back to its place, or where the new one is
+        there, away. Whoever calls this holds the job.
+        """
+        place = self.place_of(job)
+        for old in sorted(self._replaced.glob(f"{job.id}~*")):
+            if place.exists():
+                _clear(old)
+            else:
+                os.rename(old, place)
 
     def put_aside(self, job: Job) -> Path:
         """Move what stands in a job's place away, and say where it is now."""

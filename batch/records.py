@@ -17,6 +17,7 @@ from typing import Any
 from ..errors import LONGEST_PART, FormatError, short
 from ..resources import version
 from ..tables import KeyedTable, read_json
+from .columns import ASIDE, COLUMNS
 from .jobs import Job, digest_of
 
 #: Name of a record in a job's folder.
@@ -48,6 +49,7 @@ class Record:
     seconds : how long it took. began : when, in seconds since 1970.
     frames : of the motion.
     remarks : what was said.
+    before : what stood in this place before, oldest first: of each clip that this one replaced, its own record.
     """
 
     id: str
@@ -61,9 +63,11 @@ class Record:
     began: float = 0.0
     frames: int = 0
     remarks: Sequence[str] = ()
+    before: Sequence[Mapping[str, Any]] = ()
 
     def document(self) -> dict[str, Any]:
         """As JSON has it."""
+        before = {"before": list(self.before)} if self.before else {}
         files = {name: {"bytes": each.bytes, "sha256": each.sha256} for name, each in sorted(self.files.items())}
         return {
             "format": FORMAT,
@@ -80,7 +84,14 @@ class Record:
             "began": round(self.began, 3),
             "versions": dict(self.versions),
             "remarks": list(self.remarks),
+            **before,
         }
+
+    def as_past(self) -> list[dict[str, Any]]:
+        """What the record of a clip says that replaces this one: all that stood in its place."""
+        own = self.document()
+        own.pop("before", None)
+        return [*(dict(each) for each in self.before), own]
 
 
 def files_in(folder: Path) -> dict[str, Path]:
@@ -137,6 +148,7 @@ def _record(table: KeyedTable) -> Record:
         began=table.number("began", least=0.0),
         frames=table.integer("frames", least=0),
         remarks=table.texts("remarks"),
+        before=[dict(past.cells) for past in (table.listed("before") if "before" in table else ())],
     )
 
 
@@ -171,6 +183,15 @@ def versions(blender: str) -> dict[str, str]:
         "platform": f"{platform.system()} {platform.machine()}",
         "cores": str(os.cpu_count()),
     }
+
+
+def changes(record: Record, job: Job) -> str:
+    """In which columns a job's row says other than a record, or names a file that has changed, for people."""
+    now, files = job.said(), job.digests()
+    differ = {name for name in {*now, *record.row} if name not in ASIDE and now.get(name) != record.row.get(name)}
+    differ -= {*files, *record.inputs}  # by what they hold, wherever they are
+    differ |= {name for name in {*files, *record.inputs} if files.get(name) != record.inputs.get(name)}
+    return ", ".join(column.name for column in COLUMNS if column.name in differ)
 
 
 def same_row(record: Record, job: Job) -> bool:

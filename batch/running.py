@@ -61,11 +61,16 @@ def work_off(
     place: JobSet,
     tell: Tell,
     *,
+    changed: bool = False,
     make: Make = making.make,
     progress: Report | None = None,
     sleep: Callable[[float], None] = time.sleep,
 ) -> Outcome:
     """Make all jobs that are not done, and wait for those that other processes make.
+
+    Parameters
+    ----------
+    changed : make those anew whose rows have changed.
 
     Raises
     ------
@@ -75,7 +80,7 @@ def work_off(
     while waiting:
         elsewhere: list[Job] = []
         for number, job in enumerate(waiting):
-            told = do_job(job, place, make=make, progress=progress)
+            told = do_job(job, place, changed=changed, make=make, progress=progress)
             if told.how is How.ELSEWHERE:
                 elsewhere.append(job)
                 continue

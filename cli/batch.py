@@ -51,6 +51,8 @@ def add_batch_verb(verbs: Verbs) -> None:
     batch.add_argument("--memory", type=float, default=3.0, metavar="GB", help=about)
     about = "instead: the workers of a Dask scheduler, as tcp://10.0.0.1:8786; all must see the folder of the set"
     batch.add_argument("--dask", metavar="ADDRESS", help=about)
+    about = "make the clips anew whose rows have changed; without it, such a row fails and its clip stays"
+    batch.add_argument("--rerun-changed", action="store_true", help=about)
     batch.add_argument("--dry-run", action="store_true", help="say what would be done, and how long it would take")
 
 
@@ -71,13 +73,15 @@ def _batch(arguments: argparse.Namespace) -> Result:
     for problem in table.problems:
         print(f"skipped: {problem}", file=sys.stderr)
     if arguments.dry_run:
-        return _foretold(table, jobs, place)
+        return _foretold(table, jobs, place, arguments.rerun_changed)
     if not _on_cluster(arguments):
         with needing_blender():
             from ..batch.making import ready_blender
 
             ready_blender(place.heads)
     place.prepare()
+    if arguments.rerun_changed:
+        print(_count_changed(jobs, place), file=sys.stderr)
     return _worked_off(arguments, table, jobs, place)
 
 
@@ -99,7 +103,7 @@ def _table_of(arguments: argparse.Namespace) -> Iterator[Path]:
         yield folder / "jobs.csv"
 
 
-def _foretold(table: JobTable, jobs: Sequence[Job], place: JobSet) -> Result:
+def _foretold(table: JobTable, jobs: Sequence[Job], place: JobSet, changed: bool) -> Result:
     """What would be done."""
     from ..batch.measures import HEAD, START, Pace, for_people
     from ..batch.place import State
@@ -110,7 +114,9 @@ def _foretold(table: JobTable, jobs: Sequence[Job], place: JobSet) -> Result:
         found[state].append(job.id)
         if state is State.DONE and record is not None:
             pace.note(job, record.seconds)
-    to_make = [job for job in jobs if job.id in {*found[State.MISSING], *found[State.DAMAGED]}]
+    makes = {State.MISSING, State.DAMAGED, *([State.OTHER] if changed else [])}
+    fails = {State.OTHER, State.FOREIGN} - makes
+    to_make = [job for job in jobs if job.id in {name for state in makes for name in found[state]}]
     heads = {job.text("head") for job in to_make}
     seconds = pace.left(to_make) + (START + HEAD * len(heads) if to_make else 0.0)
     by = f"as the {len(found[State.DONE])} jobs took that are done" if pace.guessed else "by the manual's figures"
@@ -126,10 +132,19 @@ def _foretold(table: JobTable, jobs: Sequence[Job], place: JobSet) -> Result:
         f"{len(found[State.DONE])} are done, {len(to_make)} would be made",
         f"it would take {for_people(seconds)} in one process ({by})",
     ]
-    for state in (State.OTHER, State.FOREIGN):
-        lines += [f"would fail: {name}: {state.value}" for name in found[state]]
-    bad = bool(table.problems or found[State.OTHER] or found[State.FOREIGN])
-    return Result(data, lines, code=int(bad))
+    if changed:
+        lines += [f"would be made anew: {name}: {State.OTHER.value}" for name in found[State.OTHER]]
+    failing = [f"would fail: {name}: {state.value}" for state in State if state in fails for name in found[state]]
+    return Result(data, lines + failing, code=int(bool(table.problems or failing)))
+
+
+def _count_changed(jobs: Sequence[Job], place: JobSet) -> str:
+    """How many clips were made from other rows, for people."""
+    from ..batch.place import State
+
+    count = sum(place.state(job, check=False)[0] is State.OTHER for job in jobs)
+    said = f"{count} of {len(jobs)} rows have changed since their clips were made"
+    return f"{said}: these are made anew" if count else said
 
 
 def _worked_off(arguments: argparse.Namespace, table: JobTable, jobs: Sequence[Job], place: JobSet) -> Result:
@@ -162,7 +177,7 @@ def _make(arguments: argparse.Namespace, jobs: Sequence[Job], place: JobSet, sho
     from ..batch.running import work_off
 
     if not _on_cluster(arguments):
-        work_off(jobs, place, shown.tell, progress=shown.step)
+        work_off(jobs, place, shown.tell, changed=arguments.rerun_changed, progress=shown.step)
         return
     try:
         from ..batch.cluster import Cluster, connected, work_on
@@ -173,7 +188,7 @@ def _make(arguments: argparse.Namespace, jobs: Sequence[Job], place: JobSet, sho
     cluster = Cluster(arguments.dask, arguments.processes, int(arguments.memory * 2**30))
     with connected(cluster) as client:
         shown.pace.processes = arguments.processes if arguments.dask is None else max(len(client.nthreads()), 1)
-        work_on(client, jobs, place, shown.tell, tick=shown.tick)
+        work_on(client, jobs, place, shown.tell, changed=arguments.rerun_changed, tick=shown.tick)
 
 
 def _told(table: JobTable, jobs: Sequence[Job], place: JobSet, outcome: Outcome, stopped: str) -> Result:

@@ -18,6 +18,7 @@ import pytest
 from risorius.batch.doing import DiskFullError, Told
 from risorius.batch.jobs import Job
 from risorius.batch.place import JobSet, State
+from risorius.batch.records import damage, read_record
 from risorius.batch.running import work_off
 from risorius.progress import Progress, Work
 
@@ -38,7 +39,7 @@ def make_slowly(job: Job, folder: Path, scratch: Path) -> Work[MadePlainly]:
     return MadePlainly({"fap": "clip.fap"})
 
 
-def work(jobs: list[Job], place: JobSet, log: Path, deadly: int) -> None:
+def work(jobs: list[Job], place: JobSet, log: Path, deadly: int, changed: bool) -> None:
     """Work off jobs; the call number `deadly` of the system that changes a file kills the process."""
     calls = [0]
 
@@ -58,13 +59,14 @@ def work(jobs: list[Job], place: JobSet, log: Path, deadly: int) -> None:
     place.prepare()
     for name in ("rename", "fsync", "mkdir", "unlink", "rmdir", "open"):
         setattr(os, name, counted(getattr(os, name)))
-    work_off(jobs, place, tell, make=make_slowly, sleep=lambda seconds: time.sleep(0.05))  # type: ignore[arg-type]
+    pause = lambda seconds: time.sleep(0.05)  # noqa: E731
+    work_off(jobs, place, tell, changed=changed, make=make_slowly, sleep=pause)  # type: ignore[arg-type]
 
 
-def start(jobs: list[Job], place: JobSet, log: Path, deadly: int = 0) -> BaseProcess:
+def start(jobs: list[Job], place: JobSet, log: Path, deadly: int = 0, *, changed: bool = False) -> BaseProcess:
     """A process that works off jobs."""
     assert FORK is not None
-    process = FORK.Process(target=work, args=(jobs, place, log, deadly))
+    process = FORK.Process(target=work, args=(jobs, place, log, deadly, changed))
     process.start()
     return process
 
@@ -74,6 +76,13 @@ def ended(process: BaseProcess) -> int:
     process.join(60)
     assert process.exitcode is not None
     return process.exitcode
+
+
+def damage_of(folder: Path) -> str | None:
+    """What is not as a folder's record says."""
+    record = read_record(folder)
+    assert record is not None
+    return damage(folder, record)
 
 
 def refuse_halves(place: JobSet, count: int) -> None:
@@ -97,6 +106,23 @@ def test_killed_at_every_call_that_changes_a_file_it_goes_on(tmp_path: Path) -> 
     assert deadly > 8
     assert all(place.state(job)[0] is State.DONE for job in jobs)
     assert place.left() == set()
+
+
+def test_killed_while_it_replaces_a_clip_there_is_the_old_one_or_the_new_one(tmp_path: Path) -> None:
+    place, log, deadly = JobSet(tmp_path / "set"), tmp_path / "log", 1
+    (old,), (new,) = jobs_of(tmp_path, 1), jobs_of(tmp_path, 1, extra=",5")
+    assert ended(start([old], place, log)) == 0
+    while ended(start([new], place, log, deadly, changed=True)) != 0:
+        places = [place.folder / "c0", *(place.folder / ".risorius" / "replaced").glob("c0~*")]
+        assert any((folder / "job.json").is_file() and damage_of(folder) is None for folder in places)
+        if place.state(new)[0] is State.DONE:
+            shutil.rmtree(place.folder)
+            assert ended(start([old], place, log)) == 0
+        deadly += 1
+    assert deadly > 8
+    assert place.state(new)[0] is State.DONE
+    assert place.left() == set()
+    assert not list((place.folder / ".risorius" / "replaced").iterdir())
 
 
 def test_killed_at_any_time_it_goes_on_and_makes_nothing_twice(tmp_path: Path) -> None:
