@@ -36,6 +36,7 @@ class Previews:
     ----------
     faces : held ready. due : to be shown next. to_play : to be shown as laid out, once their faces are ready.
     shown : what each shows.
+    laid_out : those that show what is laid out at the scene's frame, not what is chosen.
     hidden : those that showed a preview before the file was saved or changed by undo.
     trouble : why the last one could not be shown.
     object_count : how many objects the file had when it was last looked at.
@@ -45,6 +46,7 @@ class Previews:
     due: DueLooks = field(default_factory=DueLooks)
     to_play: set[int] = field(default_factory=set)
     shown: dict[int, Shown] = field(default_factory=dict)
+    laid_out: set[int] = field(default_factory=set)
     hidden: frozenset[int] = frozenset()
     trouble: str = ""
     object_count: int = 0

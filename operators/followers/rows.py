@@ -118,6 +118,15 @@ def list_once(obj: Object, scene: Scene) -> None:
         list_again(obj, scene)
 
 
+def forget_list(obj: Object) -> None:
+    """The list as before it was filled by itself; what the user has said stays."""
+    face = obj.risorius.face
+    for index in reversed(range(len(face.followers))):
+        if not face.followers[index].by_hand:
+            face.followers.remove(index)
+    face.followers_listed = False
+
+
 def following(obj: Object) -> str:
     """What follows the face, to go on with after its points; empty where nothing does."""
     names = [row.obj.name for row in rows_of(obj) if row.follows is not Follows.NONE]

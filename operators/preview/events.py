@@ -60,17 +60,17 @@ def _after_save(*_: object) -> None:
     """Show again who did before, whether the file could be saved or not."""
     for obj in all_objects():
         if uid_of(obj) in session().previews.hidden:
-            live.ask(obj)
+            live.ask_again(obj)
 
 
 def _after_undo(*_: object) -> None:
-    """The file is another one now: those who showed a preview show what is chosen now, the others themselves."""
+    """The file is another one now: those who showed a preview show it as it is now, the others themselves."""
     if not live.is_on():
         preview.remove_all()
         return
     for obj in all_objects():
         if uid_of(obj) in session().previews.hidden:
-            live.ask(obj)
+            live.ask_again(obj)
         elif obj.type == "MESH" and preview.is_shown(obj):
             preview.rest([obj])
 

@@ -150,6 +150,14 @@ def ask_to_play(obj: Object) -> None:
             bpy.app.timers.register(_answer, first_interval=0.0)
 
 
+def ask_again(obj: Object) -> None:
+    """Show `obj` again as it was shown last, soon: as it is laid out, or as it is chosen."""
+    if uid_of(obj) in session().previews.laid_out and may_play(obj):
+        ask_to_play(obj)
+    else:
+        ask(obj)
+
+
 def _prepare(previews: Previews) -> float:
     """A share of getting a face ready, with its progress; returns the seconds until the next one."""
     until = time.monotonic() + SHARE
@@ -181,6 +189,7 @@ def show(obj: Object, face: LiveFace, *, exact: bool) -> None:
     wanted, previews = wanted_of(obj), session().previews
     pose = face.pose(wanted.faps, **_asked_of(wanted), exact=exact, passing=not exact)
     face.show(target_of(obj), pose.displacement)
+    previews.laid_out.discard(face.uid)
     context: Context = bpy.context
     with_paths = exact and context.window_manager.risorius.show.paths
     paths = face.paths_to(wanted.faps, **_asked_of(wanted)) if with_paths else None
@@ -217,6 +226,7 @@ def play(obj: Object, face: LiveFace, scene: Scene) -> None:
             known = _sketched(obj, face, performance, played.motion, scene.frame_current_final)
     if known is not None and known.any():
         face.show(target_of(obj), known)
+        session().previews.laid_out.add(face.uid)
     else:
         rest(obj)
 

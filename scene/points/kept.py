@@ -183,9 +183,14 @@ def refuse_foreign_mesh(obj: Object) -> None:
 
 def forget_points(obj: Object) -> None:
     """Remove them."""
+    forget_points_of(obj.data)
+
+
+def forget_points_of(mesh: Mesh) -> None:
+    """Remove those of a mesh."""
     for key in (POINTS, AS_GIVEN):
-        if key in obj.data:
-            del obj.data[key]
+        if key in mesh:
+            del mesh[key]
 
 
 def _encoded(kept: KeptPoints) -> str:

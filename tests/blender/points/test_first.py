@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from risorius import api
-from risorius.errors import ModelError
+from risorius.errors import ModelError, SceneError
 from risorius.operators.points import first, look, overlay, question
 from risorius.progress import Progress, run
 from risorius.scene import bake, mesh
@@ -116,6 +116,39 @@ def test_a_bake_that_is_closed_early_leaves_no_points_behind(head: Any, monkeypa
     assert points_kept.has_points(head)
     work.close()
     assert not points_kept.has_points(head)
+
+
+def test_a_bake_that_is_refused_leaves_neither_points_nor_a_list_behind(
+    head: Any, cube: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A refused button makes no undo step: what it left could not be taken back. The user's own rows stay."""
+    kept = points_kept.read_kept(head)
+    points_kept.forget_points(head)
+    head.risorius.face.followers.clear()
+    head.risorius.face.followers_listed = False
+    own = head.risorius.face.followers.add()
+    own.object, own.by_hand = cube, True
+
+    def found(*_: Any, **__: Any) -> Any:
+        points_kept.write_kept(head, kept)
+        yield Progress(0.5, "Looking")
+        return Finding(kept, 0.0, None)
+
+    def listed(obj: Any, scene: Any) -> None:
+        obj.risorius.face.followers.add().by_hand = False
+        obj.risorius.face.followers_listed = True
+
+    def bake() -> Any:
+        yield Progress(0.5, "Baking")
+        raise SceneError("Head", "cannot be baked")
+
+    monkeypatch.setattr(first, "find_points", found)
+    monkeypatch.setattr(first, "list_once", listed)
+    with pytest.raises(SceneError, match="cannot be baked"):
+        run(first.with_points(head, bake, scene=bpy.context.scene))
+    assert not points_kept.has_points(head)
+    assert [row.object for row in head.risorius.face.followers] == [cube]
+    assert not head.risorius.face.followers_listed
 
 
 def test_the_question_stays_until_it_is_answered(head: Any) -> None:
