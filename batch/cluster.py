@@ -14,12 +14,12 @@ import secrets
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from typing import Any
 
 from ..errors import RisoriusError
-from .doing import DiskFullError, How, Told, do_job
+from .doing import How, StoppedError, Told, do_job
 from .jobs import Job
 from .making import ready_blender
 from .place import JobSet
@@ -32,6 +32,12 @@ MEMORY = 3 * 2**30
 AHEAD = 2
 #: Seconds until a job is tried again that is in work elsewhere, and between two looks at all.
 PAUSE, LOOK = 2.0, 0.5
+#: Seconds in which a scheduler must answer, at first and when it was lost.
+PATIENCE = 20
+
+
+class SchedulerLostError(StoppedError):
+    """The scheduler has ended, or cannot be reached any more; what its workers have made is there."""
 
 
 @dataclass(frozen=True)
@@ -64,11 +70,12 @@ def connected(cluster: Cluster) -> Iterator[Any]:
         raise RisoriusError(f"--dask and --processes {MISSING}") from None
     if cluster.address is not None:
         try:
-            with Client(cluster.address, timeout="20s") as client:
-                yield client
+            found = Client(cluster.address, timeout=f"{PATIENCE}s")
         except (OSError, ValueError) as error:
             problem = f"no Dask scheduler answers at {cluster.address}: check the address"
             raise RisoriusError(f"{problem} ({error})") from error
+        with found as client:
+            yield client
         return
     local = LocalCluster(
         n_workers=cluster.processes,
@@ -89,6 +96,7 @@ def work_on(
     *,
     changed: bool = False,
     tick: Callable[[], None] = lambda: None,
+    say: Callable[[str], None] = lambda text: None,
     task: Callable[[Job, str], Told] | None = None,
 ) -> Outcome:
     """Make all jobs that are not done on the workers of a client.
@@ -97,44 +105,116 @@ def work_on(
     ----------
     changed : make those anew whose rows have changed.
     tick : called every second; what it raises ends the work.
+    say : called with what people should know meanwhile.
     task : what a worker runs; by default `made_by_worker`.
 
     Raises
     ------
-    DiskFullError : there is no room; what is done stays done.
+    StoppedError : there is no room, or no scheduler any more; what is done stays done.
     """
-    from distributed import wait
-
     run, folder = partial(made_by_worker, changed=changed) if task is None else task, str(place.folder.resolve())
-    outcome, waiting = Outcome(), deque(in_order(jobs, place))
-    asleep: list[tuple[float, Job]] = []
-    going: dict[Any, Job] = {}
+    outcome, tasks = Outcome(), _Tasks(client, lambda job: (run, job, folder), deque(in_order(jobs, place)))
     try:
-        while waiting or going or asleep:
+        while tasks.left():
             tick()
-            now = time.monotonic()
-            waiting.extend(job for wakes, job in asleep if wakes <= now)
-            asleep = [(wakes, job) for wakes, job in asleep if wakes > now]
-            room = AHEAD * max(sum(client.nthreads().values()), 1)
-            while waiting and len(going) < room:
-                job = waiting.popleft()
-                going[client.submit(run, job, folder, pure=False, key=f"{job.id}-{secrets.token_hex(4)}")] = job
-            if not going:
-                time.sleep(LOOK)
+            try:
+                ended = tasks.ended()
+            except Exception as error:
+                if client.status == "running" and not isinstance(error, _cancelled()):
+                    raise
+                tasks.take_back()
+                _wait_for_scheduler(client, tick, say)
                 continue
-            with contextlib.suppress(TimeoutError):
-                wait(list(going), timeout=LOOK, return_when="FIRST_COMPLETED")
-            for future in [each for each in going if each.done()]:
-                job = going.pop(future)
+            for future in ended:
+                job = tasks.going.pop(future)
                 told = _told(future, job, place)
                 if told.how is How.ELSEWHERE:
-                    asleep.append((time.monotonic() + PAUSE, job))
+                    tasks.try_later(job)
                     continue
                 outcome.note(told)
-                tell(job, told, [*waiting, *going.values(), *(job for _, job in asleep)])
+                tell(job, told, tasks.left())
     finally:
-        client.cancel(list(going))
+        if client.status == "running":
+            client.cancel(list(tasks.going))
     return outcome
+
+
+@dataclass
+class _Tasks:
+    """The jobs that are left: not given to the scheduler, given, and those in work elsewhere with when to try again."""
+
+    client: Any
+    call: Callable[[Job], tuple[Any, ...]]
+    waiting: deque[Job]
+    going: dict[Any, Job] = field(default_factory=dict)
+    asleep: list[tuple[float, Job]] = field(default_factory=list)
+
+    def left(self) -> list[Job]:
+        """All of them."""
+        return [*self.waiting, *self.going.values(), *(job for _, job in self.asleep)]
+
+    def try_later(self, job: Job) -> None:
+        """Another process is at a job."""
+        self.asleep.append((time.monotonic() + PAUSE, job))
+
+    def take_back(self) -> None:
+        """The scheduler has forgotten what it was given."""
+        self.waiting.extendleft(reversed(self.going.values()))
+        self.going.clear()
+
+    def ended(self) -> list[Any]:
+        """Give the scheduler as many jobs as its workers can take, wait a moment, and say which have ended.
+
+        Raises
+        ------
+        Exception : of many kinds, where the scheduler is lost.
+        """
+        from distributed import wait
+
+        now = time.monotonic()
+        self.waiting.extend(job for wakes, job in self.asleep if wakes <= now)
+        self.asleep = [(wakes, job) for wakes, job in self.asleep if wakes > now]
+        room = AHEAD * max(sum(self.client.nthreads().values()), 1)
+        while self.waiting and len(self.going) < room:
+            job = self.waiting[0]
+            key = f"{job.id}-{secrets.token_hex(4)}"
+            self.going[self.client.submit(*self.call(job), pure=False, key=key)] = job
+            self.waiting.popleft()
+        if not self.going:
+            time.sleep(LOOK)
+            return []
+        with contextlib.suppress(TimeoutError):
+            wait(list(self.going), timeout=LOOK, return_when="FIRST_COMPLETED")
+        if any(future.cancelled() for future in self.going):
+            raise _cancelled()("the scheduler has forgotten a job")
+        return [future for future in self.going if future.done()]
+
+
+def _cancelled() -> type[Exception]:
+    """What Dask raises of tasks that the scheduler has forgotten."""
+    from distributed import CancelledError
+
+    found: type[Exception] = CancelledError
+    return found
+
+
+def _wait_for_scheduler(client: Any, tick: Callable[[], None], say: Callable[[str], None]) -> None:
+    """Wait while the client tries to find its scheduler again.
+
+    Raises
+    ------
+    SchedulerLostError : it is gone.
+    """
+    if client.status == "connecting":
+        say(f"the Dask scheduler does not answer: waiting for it, {PATIENCE} s at most")
+    while client.status == "connecting":
+        tick()
+        time.sleep(LOOK)
+    if client.status != "running":
+        raise SchedulerLostError(
+            "the Dask scheduler has gone: what is made is kept; start the scheduler and this again"
+        )
+    say("the Dask scheduler has lost its tasks: they are given to it again")
 
 
 def _told(future: Any, job: Job, place: JobSet) -> Told:
@@ -143,7 +223,7 @@ def _told(future: Any, job: Job, place: JobSet) -> Told:
     if error is None:
         result: Told = future.result()
         return result
-    if isinstance(error, DiskFullError):
+    if isinstance(error, StoppedError):
         raise error
     why = f"no worker could make it ({type(error).__name__}: {error}): see the workers' logs"
     place.write_failure(job, why)

@@ -54,7 +54,11 @@ class Told:
     remarks: tuple[str, ...] = ()
 
 
-class DiskFullError(RisoriusError):
+class StoppedError(RisoriusError):
+    """Nothing more can be made now; what is done stays done, and the same command goes on."""
+
+
+class DiskFullError(StoppedError):
     """There is no room left: nothing more can be made, and nothing that is done is lost."""
 
 

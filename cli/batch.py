@@ -149,7 +149,7 @@ def _count_changed(jobs: Sequence[Job], place: JobSet) -> str:
 
 def _worked_off(arguments: argparse.Namespace, table: JobTable, jobs: Sequence[Job], place: JobSet) -> Result:
     """Make the jobs, and say what became of them."""
-    from ..batch.doing import DiskFullError
+    from ..batch.doing import StoppedError
     from ..batch.manifest import NAME, write_manifest
 
     shown = Shown(len(jobs))
@@ -158,7 +158,7 @@ def _worked_off(arguments: argparse.Namespace, table: JobTable, jobs: Sequence[J
     try:
         with silent_blender(), stopped_in_order(shown):
             _make(arguments, jobs, place, shown)
-    except DiskFullError as error:
+    except StoppedError as error:
         stopped = str(error)
     except KeyboardInterrupt:
         stopped = "stopped: start again to go on"
@@ -188,7 +188,7 @@ def _make(arguments: argparse.Namespace, jobs: Sequence[Job], place: JobSet, sho
     cluster = Cluster(arguments.dask, arguments.processes, int(arguments.memory * 2**30))
     with connected(cluster) as client:
         shown.pace.processes = arguments.processes if arguments.dask is None else max(len(client.nthreads()), 1)
-        work_on(client, jobs, place, shown.tell, changed=arguments.rerun_changed, tick=shown.tick)
+        work_on(client, jobs, place, shown.tell, changed=arguments.rerun_changed, tick=shown.tick, say=shown.say)
 
 
 def _told(table: JobTable, jobs: Sequence[Job], place: JobSet, outcome: Outcome, stopped: str) -> Result:
@@ -236,25 +236,25 @@ class Shown:
             line += f" in {for_people(told.seconds)}"
         line += f" ({done} of {self._count}"
         line += f", about {for_people(self.pace.left(left))} left)" if left else ")"
-        self._say(line)
+        self.say(line)
         if told.why:
-            self._say(f"       {told.why}")
+            self.say(f"       {told.why}")
         for remark in told.remarks:
-            self._say(f"       note: {remark}")
+            self.say(f"       note: {remark}")
         self.tick()
 
     def step(self, step: Progress) -> None:
         """A job is on its way."""
         self.tick()
         if time.monotonic() - self._said_at >= PATIENCE:
-            self._say(f"       {step.text}")
+            self.say(f"       {step.text}")
 
     def tick(self) -> None:
         """End where the user has asked for it."""
         if self.stop:
             raise KeyboardInterrupt
 
-    def _say(self, line: str) -> None:
+    def say(self, line: str) -> None:
         """Print a line."""
         self._said_at = time.monotonic()
         print(line, file=sys.stderr, flush=True)

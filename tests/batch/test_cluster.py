@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
+import subprocess
+import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +21,7 @@ from risorius.errors import RisoriusError
 from .plain import jobs_of
 
 pytest.importorskip("distributed")
-from risorius.batch.cluster import Cluster, connected, work_on
+from risorius.batch.cluster import Cluster, SchedulerLostError, connected, work_on
 
 pytestmark = pytest.mark.slow
 
@@ -70,7 +73,7 @@ def test_workers_that_are_killed_lose_nothing(tmp_path: Path, place: JobSet, cli
 
     def kill_one(job: Job, told: Told, rest: object) -> None:
         if len(killed) < 3:
-            pids = list(client.run(os.getpid).values())
+            pids = list(client.run(os.getpid, on_error="ignore").values())  # of those that live
             os.kill(pids[0], signal.SIGKILL)
             killed.append(pids[0])
 
@@ -125,6 +128,64 @@ def test_it_can_be_stopped(tmp_path: Path, place: JobSet, client: Any) -> None:
         work_on(client, jobs, place, lambda job, told, rest: None, task=slow_task(), tick=tick)
     states = {place.state(job)[0] for job in jobs}
     assert states == {State.DONE, State.MISSING}
+
+
+@pytest.fixture
+def scheduler() -> Iterator[Callable[[], subprocess.Popen[bytes]]]:
+    """Starts a scheduler at one address, and a worker beside it, as people do by hand."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = str(free.getsockname()[1])
+    started: list[subprocess.Popen[bytes]] = []
+
+    def start() -> subprocess.Popen[bytes]:
+        for command in (
+            ("dask_scheduler", "--host", "127.0.0.1", "--port", port, "--no-dashboard"),
+            ("dask_worker", f"tcp://127.0.0.1:{port}", "--nthreads", "1", "--no-nanny", "--no-dashboard"),
+        ):
+            words = [sys.executable, "-m", f"distributed.cli.{command[0]}", *command[1:]]
+            started.append(subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        return started[-2]
+
+    start.address = f"tcp://127.0.0.1:{port}"  # type: ignore[attr-defined]
+    try:
+        yield start
+    finally:
+        for process in started:
+            process.kill()
+            process.wait()
+
+
+@pytest.mark.parametrize("comes_back", [False, True])
+def test_a_scheduler_that_is_lost_ends_the_work_unless_it_comes_back(
+    tmp_path: Path, place: JobSet, scheduler: Any, monkeypatch: pytest.MonkeyPatch, comes_back: bool
+) -> None:
+    monkeypatch.setattr("risorius.batch.cluster.PATIENCE", 20 if comes_back else 2)
+    jobs, heard, first = jobs_of(tmp_path, 6), list[str](), list[str]()
+    process = scheduler()
+
+    def end_it(job: Job, told: Told, left: object) -> None:
+        if not first:
+            process.kill()
+            process.wait()
+            if comes_back:
+                scheduler()
+        first.append(told.id)
+
+    with connected(Cluster(scheduler.address)) as client:
+        if comes_back:
+            work_on(client, jobs, place, end_it, task=slow_task(), say=heard.append)
+        else:
+            with pytest.raises(SchedulerLostError, match="the Dask scheduler has gone: what is made is kept; start"):
+                work_on(client, jobs, place, end_it, task=slow_task(), say=heard.append)
+    if comes_back:
+        assert heard[-1] == "the Dask scheduler has lost its tasks: they are given to it again"
+    else:
+        assert heard == ["the Dask scheduler does not answer: waiting for it, 2 s at most"]
+        scheduler()
+        with connected(Cluster(scheduler.address)) as client:
+            work_on(client, jobs, place, lambda job, told, left: None, task=slow_task())
+    assert {place.state(job)[0] for job in jobs} == {State.DONE}
 
 
 def test_no_scheduler_is_told(tmp_path: Path) -> None:
