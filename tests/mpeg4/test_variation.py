@@ -144,9 +144,16 @@ def test_one_seed_is_one_motion_at_any_rate_and_length() -> None:
     assert not np.allclose(np.nan_to_num(slow.added), np.nan_to_num(other.added))
 
 
-@pytest.mark.parametrize(("amount", "seed", "name"), [(-1.0, 0, "amount"), (math.nan, 0, "amount"), (1.0, -1, "seed")])
-def test_bad_amounts_are_refused(amount: float, seed: int, name: str) -> None:
-    with pytest.raises(ParameterError, match=f"^{name} must be 0 or more"):
+@pytest.mark.parametrize(
+    ("amount", "seed", "refused"),
+    [
+        (-1.0, 0, "amount must be 0 or more"),
+        (math.nan, 0, "amount must be 0 or more"),
+        (1.0, -1, "seed must be a whole number, 0 or more"),
+    ],
+)
+def test_bad_amounts_are_refused(amount: float, seed: int, refused: str) -> None:
+    with pytest.raises(ParameterError, match=f"^{refused}"):
         Drawn(amount, seed)
 
 

@@ -33,7 +33,7 @@ W = (Mechanism.SLIDING, Mechanism.BULGE)
 class LowStrain(Relaxation):
     """Muscles as their linear fields, for a fair comparison: two layers have no biphasic equilibrium yet."""
 
-    def pulled(self, amounts: Amounts, *, known: Recollection | None = None) -> Floats:
+    def pulled(self, amounts: Amounts, *, teaching: Recollection | None = None) -> Floats:
         """(n, 3) displacement of the outer skin by muscles, metres."""
         return self.actuators.low_strain(amounts)
 
