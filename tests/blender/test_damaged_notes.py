@@ -17,8 +17,9 @@ def test_damaged_notes_are_read_or_refused(name: str, tmp_path: Path) -> None:
     for kept in (blend._cube, blend._action):
         kept.cache_clear()  # every test has a file of its own
     reader = next(reader for reader in blend_readers() if reader.name == name)
-    path = tmp_path / "note.json"
     for number in range(200):
-        path.write_bytes(reader.file(number, 0)[1])
+        file, content = reader.file(number, 0)
+        path = tmp_path / file
+        path.write_bytes(content)
         came, wrong = outcome(reader, path, is_sound=number == 0)
         assert (came != "bad", wrong) == (True, ""), path.read_bytes()[:500]
