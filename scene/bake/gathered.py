@@ -36,16 +36,18 @@ class Gathered:
         self.within, self.off = within, 0.0
         self._fields: list[Singles] = [np.zeros((0, 3 * vertex_count), dtype=np.float32)]
         self._taken: list[Floats] = []
-        self._waiting: list[Singles] = []
-        self._batch = int(np.clip(BLOCK // max(3 * vertex_count, 1), FEWEST, MOST))
+        batch = int(np.clip(BLOCK // max(3 * vertex_count, 1), FEWEST, MOST))
+        # Frames that wait are written into one array again and again: fresh memory costs more than the work itself.
+        self._room, self._waiting = np.empty((batch, 3 * vertex_count), dtype=np.float32), 0
 
     def __len__(self) -> int:
-        return len(self._taken) + len(self._waiting)
+        return len(self._taken) + self._waiting
 
     def add(self, displacement: Floats) -> None:
         """Take in one frame (V, 3), metres."""
-        self._waiting.append(displacement.reshape(-1).astype(np.float32))
-        if len(self._waiting) == self._batch:
+        self._room[self._waiting] = displacement.reshape(-1)
+        self._waiting += 1
+        if self._waiting == len(self._room):
             self._take_in()
 
     def add_all(self, displacements: Floats) -> Work[None]:
@@ -86,7 +88,7 @@ class Gathered:
         """Show the waiting frames by the fields so far, and by new ones as far as it takes."""
         if not self._waiting:
             return
-        frames, shown = np.array(self._waiting), list[Singles]()
+        frames, shown = self._room[: self._waiting], list[Singles]()
         for fields in self._fields:
             shown.append(frames @ fields.T)
             _take_away(frames, shown[-1], fields)
@@ -102,7 +104,7 @@ class Gathered:
         self._fields += [np.concatenate(new)] if new else []
         self.off = max(self.off, left)
         self._taken += list(np.concatenate(shown, axis=1).astype(np.float64))
-        self._waiting = []
+        self._waiting = 0
 
 
 def _principal(frames: Singles, within: float) -> tuple[Singles, Singles]:

@@ -160,7 +160,6 @@ def scheduler() -> Iterator[Callable[[], subprocess.Popen[bytes]]]:
 def test_a_scheduler_that_is_lost_ends_the_work_unless_it_comes_back(
     tmp_path: Path, place: JobSet, scheduler: Any, monkeypatch: pytest.MonkeyPatch, comes_back: bool
 ) -> None:
-    monkeypatch.setattr("risorius.batch.cluster.PATIENCE", 20 if comes_back else 2)
     jobs, heard, first = jobs_of(tmp_path, 6), list[str](), list[str]()
     process = scheduler()
 
@@ -172,10 +171,11 @@ def test_a_scheduler_that_is_lost_ends_the_work_unless_it_comes_back(
                 scheduler()
         first.append(told.id)
 
-    with connected(Cluster(scheduler.address)) as client:
+    with connected(Cluster(scheduler.address)) as client, monkeypatch.context() as hurried:
         if comes_back:
             work_on(client, jobs, place, end_it, task=slow_task(), say=heard.append)
         else:
+            hurried.setattr("risorius.batch.cluster.PATIENCE", 2)
             with pytest.raises(SchedulerLostError, match="the Dask scheduler has gone: what is made is kept; start"):
                 work_on(client, jobs, place, end_it, task=slow_task(), say=heard.append)
     if comes_back:
