@@ -25,7 +25,7 @@ from .making import ready_blender
 from .place import JobSet
 from .running import Outcome, Tell, in_order
 
-MISSING = "needs Dask: pip install risorius[batch]"
+MISSING = "Dask is missing: pip install risorius[batch]"
 #: Bytes that one worker needs for Blender, a head and a film.
 MEMORY = 3 * 2**30
 #: Tasks that a worker knows of: enough that none waits, few enough that a lost worker loses little.

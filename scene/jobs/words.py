@@ -21,7 +21,7 @@ from .inputs import Input
 from .labelling import Labels, refuse_unwritable_labels
 from .sheet import write_apexes
 from .subjects import Subject, subject
-from .writing import film_baked, filming, save_baked
+from .writing import filming, save_baked, saved_or_filmed
 
 if TYPE_CHECKING:
     from ...api import Cue, Timing
@@ -187,7 +187,7 @@ def _render_film(
     face = yield from _begin([out], load)
     motion = in_time(cues)
     baked = yield from part_of(destination.motion(face, motion, "performance", creases), 0.05, 0.4)
-    return (yield from part_of(film_baked(out, face, baked, look, motion=motion, labels=labels), 0.4, 1.0))
+    return (yield from part_of(saved_or_filmed(out, face, baked, look, motion=motion, labels=labels), 0.4, 1.0))
 
 
 def _demo(out: Path, load: Load, cues: Sequence[Cue], look: Look, creases: bool | None = None) -> Work[Made]:

@@ -49,33 +49,19 @@ def saved_or_filmed(
     labels: Labels | None = None,
     meant: Saying | FapStream | None = None,
 ) -> Work[Made]:
-    """What was baked as one motion, as the .blend or the film that `out` names; other parameters as in `film_baked`.
+    """What was baked as one motion, as the .blend or the film that `out` names, and what is there.
 
-    The sound goes into the film, or to the sequencer of the .blend.
+    Parameters
+    ----------
+    motion : what was baked; `meant` : the speech or the stream that it is.
+    sound : goes into the film, or to the sequencer of the .blend.
+    labels : to write beside a film.
     """
-    if out.suffix.lower() != BLEND:
-        return (yield from film_baked(out, face, baked, look, motion=motion, sound=sound, labels=labels, meant=meant))
-    if sound is not None:
-        (moved,) = baked.results
-        add_sound(bpy.context.scene, sound, frame=int(moved.frame_range[0]))
-    return save_baked(out, face, baked, look)
-
-
-def film_baked(
-    out: Path,
-    face: Subject,
-    baked: Baked,
-    look: Look,
-    *,
-    motion: CueMotion | FapMotion,
-    sound: str | Path | None = None,
-    labels: Labels | None = None,
-    meant: Saying | FapStream | None = None,
-) -> Work[Made]:
-    """Film what was baked as one motion, write labels where they are wanted, and tell what is there.
-
-    `motion` : what was baked; `meant` : the speech or the stream that it is.
-    """
+    if out.suffix.lower() == BLEND:
+        if sound is not None:
+            (moved,) = baked.results
+            add_sound(bpy.context.scene, sound, frame=int(moved.frame_range[0]))
+        return save_baked(out, face, baked, look)
     if labels is None:
         rendered = yield from filming(face, baked, out, look, sound)
     else:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import errno
+import os
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import pytest
 from risorius.batch.jobs import Job
+from risorius.batch.place import JobSet
 from risorius.batch.table import read_jobs
 from risorius.progress import Progress, Work
 
@@ -36,3 +41,26 @@ def jobs_of(folder: Path, count: int = 5, extra: str = "") -> list[Job]:
     rows = "".join(f"c{number},joy,{number % 6 + 1},fap{extra}\n" for number in range(count))
     path.write_text(f"id,emotion,activation,outputs{',yaw' if extra else ''}\n{rows}")
     return list(read_jobs(path).jobs)
+
+
+def fill_disk(
+    patch: pytest.MonkeyPatch, place: JobSet, calls: int, code: int = errno.ENOSPC, *, lasts: bool = True
+) -> Callable[[], bool]:
+    """After so many calls that change a file of the set, all others fail, or the next one; returns whether any has."""
+    left = calls
+
+    def limited(function: Callable[..., object]) -> Callable[..., object]:
+        def run(*arguments: object, **options: object) -> object:
+            nonlocal left
+            inside = str(place.folder) in str(arguments[0]) or isinstance(arguments[0], int)
+            left -= int(inside)
+            if inside and (left < 0 if lasts else left == -1):
+                raise OSError(code, os.strerror(code))
+            return function(*arguments, **options)
+
+        return run
+
+    writes = ((Path, "write_bytes"), (Path, "write_text"), (Path, "mkdir"), (os, "rename"), (os, "fsync"))
+    for owner, name in writes:
+        patch.setattr(owner, name, limited(getattr(owner, name)))
+    return lambda: left < 0

@@ -24,7 +24,7 @@ from risorius.batch.running import Outcome, in_order, shard
 from risorius.errors import ModelError, ParameterError
 from risorius.progress import Work
 
-from .plain import MadePlainly, jobs_of, make_plainly
+from .plain import MadePlainly, fill_disk, jobs_of, make_plainly
 
 Run = Callable[..., Outcome]
 
@@ -161,22 +161,8 @@ def test_a_full_disk_at_any_write_ends_the_batch_and_loses_nothing(
     jobs = jobs_of(tmp_path, 3)
     work(jobs[:1], place)
     before = (place.place_of(jobs[0]) / "clip.fap").read_bytes()
-    left = [call]
-
-    def limited(function: Callable[..., object]) -> Callable[..., object]:
-        def run(*arguments: object, **options: object) -> object:
-            inside = str(place.folder) in str(arguments[0]) or isinstance(arguments[0], int)
-            if inside and left[0] == 0:
-                raise OSError(code, os.strerror(code))
-            left[0] -= int(inside)
-            return function(*arguments, **options)
-
-        return run
-
     with monkeypatch.context() as patch:
-        writes = ((Path, "write_bytes"), (Path, "write_text"), (Path, "mkdir"), (os, "rename"), (os, "fsync"))
-        for owner, name in writes:
-            patch.setattr(owner, name, limited(getattr(owner, name)))
+        fill_disk(patch, place, call, code)
         with pytest.raises(DiskFullError, match="the disk is full: free some room"):
             work(jobs, place)
     states = [place.state(job)[0] for job in jobs]

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import errno
 import json
-import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,7 +16,7 @@ from risorius.cli import main
 from risorius.errors import ModelError
 from risorius.progress import Work
 
-from .plain import MadePlainly, jobs_of, make_plainly
+from .plain import MadePlainly, fill_disk, jobs_of, make_plainly
 
 Run = Callable[..., Outcome]
 
@@ -101,26 +99,12 @@ def test_a_full_disk_at_any_write_leaves_the_old_clip_or_the_new_one(
 ) -> None:
     old, new = jobs_of(tmp_path, 1), jobs_of(tmp_path, 1, extra=",5")
     work(old, place)
-    left = [call]
-
-    def limited(function: Callable[..., object]) -> Callable[..., object]:
-        def run(*arguments: object, **options: object) -> object:
-            inside = str(place.folder) in str(arguments[0]) or isinstance(arguments[0], int)
-            left[0] -= int(inside)
-            if inside and left[0] == -1:
-                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-            return function(*arguments, **options)
-
-        return run
-
     with monkeypatch.context() as patch:
-        writes = ((Path, "write_bytes"), (Path, "write_text"), (Path, "mkdir"), (os, "rename"), (os, "fsync"))
-        for owner, name in writes:
-            patch.setattr(owner, name, limited(getattr(owner, name)))
+        is_full = fill_disk(patch, place, call, lasts=False)  # room enough to put back what was moved
         try:
             work(new, place, changed=True)
         except DiskFullError:
-            assert left[0] < 0
+            assert is_full()
     assert State.DONE in (place.state(old[0])[0], place.state(new[0])[0])
     outcome = work(new, place, changed=True)
     assert outcome.made or outcome.kept
